@@ -8,8 +8,12 @@ pub struct History(pub Vec<(String, Vec<f64>)>);
 impl History {
     pub fn read(path: &Path) -> History {
         let mut reader = csv::Reader::from_path(path).expect("the history is there");
-        let mut columns: Vec<(String, Vec<f64>)> =
-            reader.headers().expect("a header").iter().map(|name| (name.to_owned(), Vec::new())).collect();
+        let mut columns: Vec<(String, Vec<f64>)> = reader
+            .headers()
+            .expect("a header")
+            .iter()
+            .map(|name| (name.to_owned(), Vec::new()))
+            .collect();
         for row in reader.records() {
             for (column, value) in columns.iter_mut().zip(row.expect("a row").iter()) {
                 column.1.push(value.parse().expect("a number"));

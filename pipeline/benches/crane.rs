@@ -29,7 +29,10 @@ fn main() -> Outcome<()> {
     let document = Document::open(&wanted.scene).map_err(|_| "the scene cannot be read")?;
     let mut known = Vec::new();
     for (_, _, spec) in distinct_specs(&document) {
-        known.push(SolvedStructure { spec: spec.clone(), solution: solve(spec)?.into() });
+        known.push(SolvedStructure {
+            spec: spec.clone(),
+            solution: solve(spec)?.into(),
+        });
     }
     print!(
         "{:12} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9}",
@@ -44,7 +47,14 @@ fn main() -> Outcome<()> {
         "us/stage",
         "residual"
     );
-    println!("{}", if wanted.against.is_some() { " displaced  vertical   lateral" } else { "" });
+    println!(
+        "{}",
+        if wanted.against.is_some() {
+            " displaced  vertical   lateral"
+        } else {
+            ""
+        }
+    );
     for case in &document.cases {
         time(case, &known, &wanted)?;
     }
@@ -53,7 +63,12 @@ fn main() -> Outcome<()> {
 
 fn wanted() -> Outcome<Wanted> {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bridge_crane/scene.json");
-    let mut wanted = Wanted { scene, accuracy: None, against: None, runs: 5 };
+    let mut wanted = Wanted {
+        scene,
+        accuracy: None,
+        against: None,
+        runs: 5,
+    };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
@@ -72,12 +87,19 @@ fn wanted() -> Outcome<Wanted> {
 #[expect(clippy::print_stdout, reason = "a benchmark prints")]
 fn time(case: &Case, known: &[SolvedStructure], wanted: &Wanted) -> Outcome<()> {
     let given = &case.scene;
-    let mut scene = simulation_input(given).map_err(|_| "the scene cannot be set up")?.scene;
+    let mut scene = simulation_input(given)
+        .map_err(|_| "the scene cannot be set up")?
+        .scene;
     scene.accuracy = wanted.accuracy.unwrap_or(scene.accuracy);
     let mut foundations = Vec::new();
     for structure in &given.structures {
         let solved = solution_of(known, &structure.origin);
-        let laid = build(&mut ModeCache::default(), structure, solved, given.has_flanges());
+        let laid = build(
+            &mut ModeCache::default(),
+            structure,
+            solved,
+            given.has_flanges(),
+        );
         foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
     }
     let mut times = Vec::new();
@@ -93,9 +115,14 @@ fn time(case: &Case, known: &[SolvedStructure], wanted: &Wanted) -> Outcome<()> 
     let (least, median) = (times[0], times[times.len() / 2]);
     let errors = match wanted.against {
         Some(accuracy) => {
-            let finer = sim::Scene { accuracy, ..scene.clone() };
+            let finer = sim::Scene {
+                accuracy,
+                ..scene.clone()
+            };
             let exact = sim::run(&finer, &foundations, &mut |_| ControlFlow::Continue(()))?;
-            errors(&run, &exact, scene.bodies.len()).map(|error| format!(" {error:9.1e}")).concat()
+            errors(&run, &exact, scene.bodies.len())
+                .map(|error| format!(" {error:9.1e}"))
+                .concat()
         }
         None => String::new(),
     };
@@ -117,11 +144,21 @@ fn time(case: &Case, known: &[SolvedStructure], wanted: &Wanted) -> Outcome<()> 
 
 /// Largest differences beside the largest values: displacements y of the bodies, vertical and lateral forces of the wheels.
 fn errors(run: &Run, exact: &Run, bodies: usize) -> [f64; 3] {
-    let wheels = exact.history.channels().iter().filter(|c| matches!(c, Channel::Vertical(_))).count();
+    let wheels = exact
+        .history
+        .channels()
+        .iter()
+        .filter(|c| matches!(c, Channel::Vertical(_)))
+        .count();
     let apart = |channels: &mut dyn Iterator<Item = Channel>| {
         let (mut most, mut largest) = (0.0_f64, 0.0_f64);
         for channel in channels {
-            for (a, b) in run.history.column(channel).iter().zip(exact.history.column(channel)) {
+            for (a, b) in run
+                .history
+                .column(channel)
+                .iter()
+                .zip(exact.history.column(channel))
+            {
                 (most, largest) = (most.max((a - b).abs()), largest.max(b.abs()));
             }
         }

@@ -13,7 +13,13 @@ use study::table_quality::TableReadingMethod;
 
 /// From a beam spec to influence tables, simulation, plots and report.
 #[derive(Debug, Parser)]
-#[command(name = "girderway", version, about, max_term_width = 100, arg_required_else_help = true)]
+#[command(
+    name = "girderway",
+    version,
+    about,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
 pub struct Cli {
     /// What every command takes.
     #[command(flatten)]
@@ -149,7 +155,9 @@ pub struct SweepArgs {
 
 /// Reads `K/N`.
 fn shard(text: &str) -> Result<(usize, usize), String> {
-    let parts = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    let parts = text
+        .split_once('/')
+        .and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
     match parts {
         Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
         _ => Err("must be K/N with K from 1 to N, such as 3/8".to_owned()),
@@ -271,7 +279,12 @@ pub struct SplinesArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Only the tables of these directions [default: all]
-    #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', conflicts_with = "check")]
+    #[arg(
+        long,
+        value_name = "DIRECTIONS",
+        value_delimiter = ',',
+        conflicts_with = "check"
+    )]
     pub only: Vec<DirectionArg>,
     /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
     #[arg(long, conflicts_with = "check")]
@@ -391,7 +404,11 @@ impl From<DirectionArg> for GridBlock {
 /// Parses a positive number below 1e60.
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
+    if value > 0.0 && value < 1e60 {
+        Ok(value)
+    } else {
+        Err("must be positive, below 1e60".to_owned())
+    }
 }
 
 /// Arguments of `deck`.
@@ -570,7 +587,11 @@ pub struct FeaArgs {
 /// Parses a number between 0 and 1, both excluded.
 fn fraction(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }
+    if value > 0.0 && value < 1.0 {
+        Ok(value)
+    } else {
+        Err("must lie between 0 and 1".to_owned())
+    }
 }
 
 /// Words of the beam theories.

@@ -171,7 +171,9 @@ impl From<outputs::Error> for Failure {
     fn from(error: outputs::Error) -> Self {
         match error {
             outputs::Error::Files(diagnostics) => Failure::Input(diagnostics),
-            outputs::Error::NotShown(why) | outputs::Error::NoResults(why) => Failure::Untrusted(why),
+            outputs::Error::NotShown(why) | outputs::Error::NoResults(why) => {
+                Failure::Untrusted(why)
+            }
         }
     }
 }
@@ -208,12 +210,18 @@ mod tests {
     #[test]
     fn a_terminal_shows_the_line_with_a_mark_below_the_place() {
         let text = "{\"format\": \"girderway-beam/1\",\n \"units\": {\"length\": \"cm\", \"force\": \"kN\", \"time\": \"s\"}}";
-        let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+        let source = Source {
+            name: "spec.json".to_owned(),
+            text: text.to_owned(),
+        };
         let faults = formats::spec::Spec::read(&source, None).expect_err("no such unit");
-        let text = anstream::adapter::strip_str(&Failure::from(faults).report_with_excerpts()).to_string();
+        let text =
+            anstream::adapter::strip_str(&Failure::from(faults).report_with_excerpts()).to_string();
         let lines: Vec<&str> = text.lines().collect();
-        let line =
-            lines.iter().position(|line| line.starts_with("spec.json:2:22: units.length")).expect("the unit");
+        let line = lines
+            .iter()
+            .position(|line| line.starts_with("spec.json:2:22: units.length"))
+            .expect("the unit");
         assert_eq!(
             lines[line + 1],
             "     2 |  \"units\": {\"length\": \"cm\", \"force\": \"kN\", \"time\": \"s\"}}"

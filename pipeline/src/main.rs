@@ -66,7 +66,12 @@ fn usage(error: &clap::Error) -> Exit {
         let text = error.to_string();
         let line = text.lines().next().unwrap_or_default();
         let message = line.strip_prefix("error: ").unwrap_or(line);
-        return tell(&Diagnostic::of_file("command line", message).hint("see --help").into(), true);
+        return tell(
+            &Diagnostic::of_file("command line", message)
+                .hint("see --help")
+                .into(),
+            true,
+        );
     }
     let _ = error.print();
     Exit::Input
@@ -74,7 +79,11 @@ fn usage(error: &clap::Error) -> Exit {
 
 fn tell(failure: &Failure, json: bool) -> Exit {
     let mut out = std::io::stderr();
-    let text = if out.is_terminal() && !json { failure.report_with_excerpts() } else { failure.report(json) };
+    let text = if out.is_terminal() && !json {
+        failure.report_with_excerpts()
+    } else {
+        failure.report(json)
+    };
     // colours are left out where the terminal or the environment (NO_COLOR) does not want them; an error of writing is
     // ignored: standard error may be closed
     let _ = anstream::AutoStream::auto(&mut out).write_all(text.as_bytes());

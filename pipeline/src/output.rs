@@ -18,7 +18,10 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Creates the diagnostic of standard output that cannot be written.
 pub fn cannot_print(error: &io::Error) -> Diagnostic {
-    Diagnostic::of_file("standard output", format!("cannot be written: {}", reason(error)))
+    Diagnostic::of_file(
+        "standard output",
+        format!("cannot be written: {}", reason(error)),
+    )
 }
 
 fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
@@ -41,8 +44,14 @@ pub fn deliver(path: Option<&Path>, text: &str, progress: &Progress) -> Result<(
 ///
 /// # Errors
 /// An operation of the file system fails; the error contains the name of the file.
-pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> Result<(), Failure> {
-    let Some(path) = path else { return print_bytes(bytes) };
+pub fn deliver_bytes(
+    path: Option<&Path>,
+    bytes: &[u8],
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let Some(path) = path else {
+        return print_bytes(bytes);
+    };
     write(path, bytes)?;
     progress.say(&format!("wrote {}", path.display()));
     Ok(())

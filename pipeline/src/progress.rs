@@ -26,7 +26,10 @@ impl Progress {
     #[must_use]
     pub fn new(global: Global) -> Progress {
         let speaks = !global.quiet && !global.json;
-        Progress { speaks, draws: speaks && std::io::stderr().is_terminal() }
+        Progress {
+            speaks,
+            draws: speaks && std::io::stderr().is_terminal(),
+        }
     }
 
     /// Whether lines are written.
@@ -75,7 +78,10 @@ impl Progress {
             // the times go on between two steps
             bar.enable_steady_tick(TICK);
         }
-        Bar { bar, has_end: AtomicBool::new(true) }
+        Bar {
+            bar,
+            has_end: AtomicBool::new(true),
+        }
     }
 }
 
@@ -100,14 +106,20 @@ impl Bar {
     /// Shows a bar with the fraction that is done.
     fn set_style_with_end(&self) {
         let Some(bar) = &self.bar else { return };
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}")
+        {
             bar.set_style(style.progress_chars("=> ").with_key("left", left));
         }
     }
 
     /// Shows that the work goes on, without a fraction, until the bar is moved again; `what` follows the message.
     pub fn without_end(&self, what: &str) {
-        let Some(bar) = self.bar.as_ref().filter(|_| self.has_end.swap(false, Ordering::Relaxed)) else {
+        let Some(bar) = self
+            .bar
+            .as_ref()
+            .filter(|_| self.has_end.swap(false, Ordering::Relaxed))
+        else {
             return;
         };
         let template = format!("{{spinner}} {{msg}}{what}, {{elapsed}} gone");

@@ -1,6 +1,9 @@
 //! The documents speak of what is there: paths, names and commands on pages exist, and pages that can be run are run.
 
-#![allow(clippy::print_stdout, reason = "a test that needs Python says where there is none")]
+#![allow(
+    clippy::print_stdout,
+    reason = "a test that needs Python says where there is none"
+)]
 
 mod names;
 mod page;
@@ -13,7 +16,8 @@ fn root() -> PathBuf {
 
 #[test]
 fn every_path_in_the_architecture_exists() {
-    let text = std::fs::read_to_string(root().join("docs/architecture.md")).expect("docs/architecture.md");
+    let text =
+        std::fs::read_to_string(root().join("docs/architecture.md")).expect("docs/architecture.md");
     let mut checked = 0;
     for quoted in text.split('`').skip(1).step_by(2) {
         let looks_like_a_path = quoted.contains('/') && !quoted.contains([' ', '<', '*', '{', ':']);
@@ -31,8 +35,11 @@ fn every_path_in_the_architecture_exists() {
 #[test]
 fn documents_are_ascii() {
     let mut folders = vec![root().join("docs"), root().join("examples")];
-    let mut pages =
-        vec![root().join("README.md"), root().join("CONTRIBUTING.md"), root().join("CHANGELOG.md")];
+    let mut pages = vec![
+        root().join("README.md"),
+        root().join("CONTRIBUTING.md"),
+        root().join("CHANGELOG.md"),
+    ];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
@@ -58,15 +65,24 @@ fn tables_beside_other_codes_follow_their_data() {
         .current_dir(root())
         .output();
     let Ok(run) = run else {
-        println!("no python3: the tables of docs/performance.md are not compared with docs/peers.json");
+        println!(
+            "no python3: the tables of docs/performance.md are not compared with docs/peers.json"
+        );
         return;
     };
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
     let page = std::fs::read_to_string(root().join("docs/performance.md")).expect("the page");
     let text = String::from_utf8(run.stdout).expect("UTF-8");
     let rows: Vec<&str> = text.lines().filter(|line| line.starts_with('|')).collect();
     assert!(rows.len() > 20, "{} rows", rows.len());
     for row in rows {
-        assert!(page.lines().any(|line| line == row), "docs/performance.md lacks {row}");
+        assert!(
+            page.lines().any(|line| line == row),
+            "docs/performance.md lacks {row}"
+        );
     }
 }

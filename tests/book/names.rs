@@ -9,7 +9,10 @@ use super::root;
 /// Cells of a row of a table, without those before the first and after the last bar.
 fn cells(line: &str) -> Vec<&str> {
     let row = line.trim();
-    let inner = row.strip_prefix('|').and_then(|row| row.strip_suffix('|')).unwrap_or_default();
+    let inner = row
+        .strip_prefix('|')
+        .and_then(|row| row.strip_suffix('|'))
+        .unwrap_or_default();
     inner.split('|').map(str::trim).collect()
 }
 
@@ -21,15 +24,19 @@ fn spans(text: &str) -> Vec<&str> {
 /// Whether `text` has `word` with no letter, digit or underscore beside it.
 fn has_word(text: &str, word: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    text.match_indices(word)
-        .any(|(at, _)| !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part))
+    text.match_indices(word).any(|(at, _)| {
+        !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
+    })
 }
 
 #[test]
 fn every_test_that_verification_names_exists() {
     let page = fs::read_to_string(root().join("docs/verification.md")).expect("the page");
     let mut checked = 0;
-    for line in page.lines().filter(|line| line.starts_with('|') && line.contains(".rs`")) {
+    for line in page
+        .lines()
+        .filter(|line| line.starts_with('|') && line.contains(".rs`"))
+    {
         let last = *cells(line).last().expect("a row has cells");
         let mut file: Option<(&str, String)> = None;
         let mut functions = 0;
@@ -41,8 +48,13 @@ fn every_test_that_verification_names_exists() {
                     text.unwrap_or_else(|_| panic!("the page names {span}, which does not exist")),
                 ));
             } else {
-                let (path, text) = file.as_ref().unwrap_or_else(|| panic!("a file stands before {span}"));
-                assert!(text.contains(&format!("fn {span}()")), "{path} has no test {span}");
+                let (path, text) = file
+                    .as_ref()
+                    .unwrap_or_else(|| panic!("a file stands before {span}"));
+                assert!(
+                    text.contains(&format!("fn {span}()")),
+                    "{path} has no test {span}"
+                );
                 functions += 1;
             }
         }
@@ -57,7 +69,11 @@ fn sources() -> BTreeMap<String, Vec<(PathBuf, String)>> {
     let mut crates = vec![("girderway".to_owned(), root().join("pipeline/src"))];
     for entry in fs::read_dir(root().join("crates")).expect("the folder of crates") {
         let path = entry.expect("an entry").path();
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
         crates.push((name, path.join("src")));
     }
     let mut out = BTreeMap::new();
@@ -70,15 +86,19 @@ fn sources() -> BTreeMap<String, Vec<(PathBuf, String)>> {
 }
 
 fn read(folder: &Path, out: &mut Vec<(PathBuf, String)>) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
     for entry in entries {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             read(&path, out);
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             let text = fs::read_to_string(&path).expect("text");
-            let code: Vec<&str> =
-                text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+            let code: Vec<&str> = text
+                .lines()
+                .map(|line| line.split("//").next().unwrap_or_default())
+                .collect();
             out.push((path, code.join("\n")));
         }
     }
@@ -87,14 +107,18 @@ fn read(folder: &Path, out: &mut Vec<(PathBuf, String)>) {
 /// The identifier at the end of `text`.
 fn last_word(text: &str) -> &str {
     let text = text.trim_end();
-    let start = text.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |at| at + 1);
+    let start = text
+        .rfind(|c: char| !c.is_alphanumeric() && c != '_')
+        .map_or(0, |at| at + 1);
     &text[start..]
 }
 
 /// The identifier at the beginning of `text`.
 fn first_word(text: &str) -> &str {
     let text = text.trim_start();
-    &text[..text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len())]
+    &text[..text
+        .find(|c: char| !c.is_alphanumeric() && c != '_')
+        .unwrap_or(text.len())]
 }
 
 /// Length of the block that begins with the brace at the start of `text`.
@@ -114,7 +138,9 @@ fn block(text: &str) -> usize {
 }
 
 /// Fields, variants, methods and constants of every struct, enum, union of `impl` blocks and trait, by its name.
-fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<String, BTreeSet<String>> {
+fn members(
+    sources: &BTreeMap<String, Vec<(PathBuf, String)>>,
+) -> BTreeMap<String, BTreeSet<String>> {
     let mut out: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (_, text) in sources.values().flatten() {
         for keyword in ["struct ", "enum ", "trait ", "impl"] {
@@ -125,14 +151,19 @@ fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<Strin
                     || before.trim_start().starts_with("pub")
                     || before.trim().is_empty();
                 let rest = &text[at + keyword.len()..];
-                let Some(head) = rest.find(['{', ';']).filter(|_| is_item) else { continue };
+                let Some(head) = rest.find(['{', ';']).filter(|_| is_item) else {
+                    continue;
+                };
                 let name = if keyword == "impl" {
                     let head = rest[..head].split(" where").next().unwrap_or_default();
                     let of = head.rsplit(" for ").next().unwrap_or(head);
                     // what stands in angle brackets after the name is no part of it
                     let of = of.trim();
-                    let of =
-                        if of.starts_with('<') { of.split_once('>').map_or(of, |(_, own)| own) } else { of };
+                    let of = if of.starts_with('<') {
+                        of.split_once('>').map_or(of, |(_, own)| own)
+                    } else {
+                        of
+                    };
                     last_word(of.trim().split('<').next().unwrap_or_default()).to_owned()
                 } else {
                     first_word(rest).to_owned()
@@ -149,7 +180,10 @@ fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<Strin
                     );
                 }
                 if keyword != "impl" {
-                    known.extend(body.match_indices(':').map(|(at, _)| last_word(&body[..at]).to_owned()));
+                    known.extend(
+                        body.match_indices(':')
+                            .map(|(at, _)| last_word(&body[..at]).to_owned()),
+                    );
                     known.extend(body.lines().map(|line| first_word(line).to_owned()));
                 }
             }
@@ -173,11 +207,20 @@ fn every_name_in_the_notation_exists() {
         for k in (1..parts.len()).step_by(2) {
             let (before, span) = (parts[k - 1], parts[k]);
             // `value[(i, j)]`, `1/Strength::damage`
-            let name = span.split('[').next().unwrap_or_default().rsplit('/').next().unwrap_or_default();
+            let name = span
+                .split('[')
+                .next()
+                .unwrap_or_default()
+                .rsplit('/')
+                .next()
+                .unwrap_or_default();
             let path: Vec<&str> = name.split("::").collect();
             let is_type = path[0].starts_with(|c: char| c.is_ascii_uppercase());
             let files = || sources.values().flatten();
-            let in_file = parts.get(k + 1).is_some_and(|after| after.trim() == "in").then(|| parts[k + 2]);
+            let in_file = parts
+                .get(k + 1)
+                .is_some_and(|after| after.trim() == "in")
+                .then(|| parts[k + 2]);
             let exists = if let Some(file) = in_file {
                 files().any(|(path, text)| path.ends_with(file) && has_word(text, name))
             } else if name.ends_with(".rs") {
@@ -193,12 +236,14 @@ fn every_name_in_the_notation_exists() {
                 let own = sources.get(krate).map(Vec::as_slice).unwrap_or_default();
                 let kinds = ["fn", "struct", "enum", "trait", "const", "type", "mod"];
                 let modules = &path[1..path.len() - 1];
-                modules
-                    .iter()
-                    .all(|module| own.iter().any(|(_, text)| has_word(text, &format!("mod {module}"))))
-                    && own
+                modules.iter().all(|module| {
+                    own.iter()
+                        .any(|(_, text)| has_word(text, &format!("mod {module}")))
+                }) && own.iter().any(|(_, text)| {
+                    kinds
                         .iter()
-                        .any(|(_, text)| kinds.iter().any(|kind| has_word(text, &format!("{kind} {item}"))))
+                        .any(|kind| has_word(text, &format!("{kind} {item}")))
+                })
             } else {
                 members.get(owner).is_some_and(|known| known.contains(name))
             };
@@ -208,6 +253,11 @@ fn every_name_in_the_notation_exists() {
             }
         }
     }
-    assert!(missing.is_empty(), "{} names do not exist:\n{}", missing.len(), missing.join("\n"));
+    assert!(
+        missing.is_empty(),
+        "{} names do not exist:\n{}",
+        missing.len(),
+        missing.join("\n")
+    );
     assert!(checked > 120, "{checked} names");
 }

@@ -22,19 +22,27 @@ struct Block<'t> {
 
 fn blocks(page: &str) -> Vec<Block<'_>> {
     let fenced = page.split("```").skip(1).step_by(2);
-    fenced.filter_map(|fence| fence.split_once('\n')).map(|(mark, text)| Block { mark, text }).collect()
+    fenced
+        .filter_map(|fence| fence.split_once('\n'))
+        .map(|(mark, text)| Block { mark, text })
+        .collect()
 }
 
 /// Puts the members of all blocks of a file together and writes the files.
 fn write(page: &str, folder: &Path) -> usize {
     let mut files: BTreeMap<&str, Map<String, Value>> = BTreeMap::new();
     for block in blocks(page) {
-        let Some(name) = block.mark.strip_prefix("json ") else { continue };
+        let Some(name) = block.mark.strip_prefix("json ") else {
+            continue;
+        };
         let part: Map<String, Value> = serde_json::from_str(block.text)
             .unwrap_or_else(|error| panic!("a block of {name} is no object: {error}"));
         let file = files.entry(name).or_default();
         for (key, value) in part {
-            assert!(file.insert(key.clone(), value).is_none(), "{name} has `{key}` in two blocks");
+            assert!(
+                file.insert(key.clone(), value).is_none(),
+                "{name} has `{key}` in two blocks"
+            );
         }
     }
     for (name, members) in &files {
@@ -57,7 +65,10 @@ fn girderway(folder: &Path, arguments: &[&str]) -> String {
 
 /// Words of each command of a block, without comments.
 fn commands<'t>(block: &Block<'t>) -> Vec<Vec<&'t str>> {
-    let lines = block.text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    let lines = block
+        .text
+        .lines()
+        .map(|line| line.split('#').next().unwrap_or_default());
     let commands = lines.map(|line| line.split_whitespace().collect::<Vec<_>>());
     commands.filter(|words| !words.is_empty()).collect()
 }
@@ -93,7 +104,10 @@ fn run(page: &str, folder: &Path) -> usize {
 /// The code spans of a cell that has nothing else.
 fn path(cell: &str) -> Option<Vec<&str>> {
     let parts: Vec<&str> = cell.trim().split('`').collect();
-    let plain = parts.iter().step_by(2).all(|between| between.trim().is_empty());
+    let plain = parts
+        .iter()
+        .step_by(2)
+        .all(|between| between.trim().is_empty());
     (parts.len() > 2 && plain).then(|| parts.into_iter().skip(1).step_by(2).collect())
 }
 
@@ -105,15 +119,21 @@ fn compare(page: &str, summary: &Value) -> usize {
     let mut count = 0;
     for row in page.lines().filter(|line| line.starts_with("| `")) {
         let cells: Vec<&str> = row.split('|').collect();
-        let (Some(path), Ok(printed)) = (path(cells[1]), cells[2].trim().parse::<f64>()) else { continue };
+        let (Some(path), Ok(printed)) = (path(cells[1]), cells[2].trim().parse::<f64>()) else {
+            continue;
+        };
         if path.len() < 2 {
             continue;
         }
-        let found = path.iter().try_fold(summary, |at, step| match step.parse::<usize>() {
-            Ok(index) => at.get(index),
-            Err(_) => at.get(step),
-        });
-        let found = found.and_then(Value::as_f64).unwrap_or_else(|| panic!("the summary has no {path:?}"));
+        let found = path
+            .iter()
+            .try_fold(summary, |at, step| match step.parse::<usize>() {
+                Ok(index) => at.get(index),
+                Err(_) => at.get(step),
+            });
+        let found = found
+            .and_then(Value::as_f64)
+            .unwrap_or_else(|| panic!("the summary has no {path:?}"));
         let near = (found - printed).abs() <= CHANCE * printed.abs();
         assert!(near, "{path:?}: the page has {printed}, got {found}");
         count += 1;
@@ -127,11 +147,17 @@ fn the_ten_steps_run_as_they_stand_on_the_page() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     assert_eq!(write(&page, folder.path()), 3);
     assert_eq!(run(&page, folder.path()), 2);
-    let picture =
-        fs::read_to_string(folder.path().join("crane/plots/reactions-vertical.svg")).expect("a picture");
-    assert!(picture.contains("aisle.N2.uy") && !picture.contains("girders."), "girders stand on the bridge");
+    let picture = fs::read_to_string(folder.path().join("crane/plots/reactions-vertical.svg"))
+        .expect("a picture");
+    assert!(
+        picture.contains("aisle.N2.uy") && !picture.contains("girders."),
+        "girders stand on the bridge"
+    );
     let summary = fs::read_to_string(folder.path().join("crane/summary.json")).expect("a summary");
-    assert_eq!(compare(&page, &serde_json::from_str(&summary).expect("JSON")), 9);
+    assert_eq!(
+        compare(&page, &serde_json::from_str(&summary).expect("JSON")),
+        9
+    );
 }
 
 #[test]
@@ -141,20 +167,40 @@ fn the_files_of_the_tutorial_run() {
     girderway(folder.path(), &["init", "bogie", "mine"]);
     assert_eq!(write(&page, folder.path()), 4);
     // `cargo run` is not run here: the starter files are those of the example
-    let said = girderway(folder.path(), &["run", "mine/scene.json", "-o", "out/bogie"]);
-    let printed = blocks(&page).into_iter().filter(|block| block.mark == "text");
+    let said = girderway(
+        folder.path(),
+        &["run", "mine/scene.json", "-o", "out/bogie"],
+    );
+    let printed = blocks(&page)
+        .into_iter()
+        .filter(|block| block.mark == "text");
     let lines: Vec<&str> = printed.flat_map(|block| block.text.lines()).collect();
     assert_eq!(lines.len(), 2);
     for line in lines {
-        assert!(said.lines().any(|own| own == line), "the page has {line:?}, got\n{said}");
+        assert!(
+            said.lines().any(|own| own == line),
+            "the page has {line:?}, got\n{said}"
+        );
     }
     for scene in ["fast", "compared", "carriage"] {
         let output = format!("out/{scene}");
-        girderway(folder.path(), &["run", &format!("mine/{scene}.json"), "-o", &output]);
+        girderway(
+            folder.path(),
+            &["run", &format!("mine/{scene}.json"), "-o", &output],
+        );
     }
-    girderway(folder.path(), &["sim", "mine/compared.json", "-o", "out/compared"]);
-    girderway(folder.path(), &["fea", "mine/runway.json", "-o", "mine/grid.json"]);
-    girderway(folder.path(), &["splines", "mine/grid.json", "-o", "mine/runway.adm"]);
+    girderway(
+        folder.path(),
+        &["sim", "mine/compared.json", "-o", "out/compared"],
+    );
+    girderway(
+        folder.path(),
+        &["fea", "mine/runway.json", "-o", "mine/grid.json"],
+    );
+    girderway(
+        folder.path(),
+        &["splines", "mine/grid.json", "-o", "mine/runway.adm"],
+    );
     assert!(page.contains("girderway splines mine/grid.json -o mine/runway.adm"));
 }
 
@@ -169,16 +215,23 @@ const SLOW: [&str; 5] = [
 
 /// A command of cargo without what does not change its meaning to a reader, up to the first variable of the shell.
 fn plain(words: &[&str]) -> String {
-    let words = words.iter().take_while(|word| !word.starts_with(['"', '|', '>', ')']));
-    let kept: Vec<&str> =
-        words.copied().filter(|word| !["--quiet", "--locked", "--root"].contains(word)).collect();
+    let words = words
+        .iter()
+        .take_while(|word| !word.starts_with(['"', '|', '>', ')']));
+    let kept: Vec<&str> = words
+        .copied()
+        .filter(|word| !["--quiet", "--locked", "--root"].contains(word))
+        .collect();
     kept.join(" ")
 }
 
 /// Commands of cargo in `.ci/run`, and whether an argument of the shell follows.
 fn checked() -> Vec<(String, bool)> {
     let script = fs::read_to_string(super::root().join(".ci/run")).expect("the script");
-    let lines = script.lines().map(str::trim).filter(|line| !line.starts_with('#'));
+    let lines = script
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.starts_with('#'));
     let commands = lines.filter_map(|line| line.find("cargo ").map(|at| &line[at..]));
     commands
         .map(|line| {
@@ -191,38 +244,57 @@ fn checked() -> Vec<(String, bool)> {
 /// Whether a command of cargo is one that `.ci/run` runs, its last arguments aside where the script has a variable.
 fn is_checked(words: &[&str]) -> bool {
     let own = plain(words);
-    let same =
-        |(known, is_open): &(String, bool)| own == *known || (*is_open && own.starts_with(known.as_str()));
+    let same = |(known, is_open): &(String, bool)| {
+        own == *known || (*is_open && own.starts_with(known.as_str()))
+    };
     SLOW.contains(&own.as_str()) || checked().iter().any(same)
 }
 
 #[test]
 fn commands_of_readme_and_contributing_are_those_that_are_checked() {
     let known = checked();
-    assert!(known.iter().any(|(own, _)| own == "cargo test"), "{known:?}");
+    assert!(
+        known.iter().any(|(own, _)| own == "cargo test"),
+        "{known:?}"
+    );
     for name in ["README.md", "CONTRIBUTING.md"] {
         let page = fs::read_to_string(super::root().join(name)).expect("the page");
         let folder = tempfile::tempdir().expect("a temporary folder");
         write(&page, folder.path());
         let mut count = 0;
-        for words in blocks(&page).iter().filter(|block| block.mark == "sh").flat_map(commands) {
+        for words in blocks(&page)
+            .iter()
+            .filter(|block| block.mark == "sh")
+            .flat_map(commands)
+        {
             match words[0] {
                 "cargo" => assert!(is_checked(&words), "{name}: .ci/run does not run {words:?}"),
                 "girderway" => {
                     girderway(folder.path(), &words[1..]);
                 }
-                "pip" => assert!(super::root().join(words[words.len() - 1]).exists(), "{name}: {words:?}"),
-                script => assert!(super::root().join(script).exists(), "{name}: {script} does not exist"),
+                "pip" => assert!(
+                    super::root().join(words[words.len() - 1]).exists(),
+                    "{name}: {words:?}"
+                ),
+                script => assert!(
+                    super::root().join(script).exists(),
+                    "{name}: {script} does not exist"
+                ),
             }
             count += 1;
         }
         assert!(count > 2, "{name} has commands");
         // commands within sentences and tables
-        let prose = page.split("```").step_by(2).flat_map(|text| text.split('`').skip(1).step_by(2));
+        let prose = page
+            .split("```")
+            .step_by(2)
+            .flat_map(|text| text.split('`').skip(1).step_by(2));
         for span in prose {
             let words: Vec<&str> = span.split_whitespace().collect();
             match words[..] {
-                ["cargo", _, ..] => assert!(is_checked(&words), "{name}: .ci/run does not run {span}"),
+                ["cargo", _, ..] => {
+                    assert!(is_checked(&words), "{name}: .ci/run does not run {span}")
+                }
                 ["girderway", command, ..] if command.chars().all(|c| c.is_ascii_lowercase()) => {
                     girderway(folder.path(), &[command, "--help"]);
                 }
@@ -252,15 +324,31 @@ fn numbers_of_the_readme_are_those_of_its_design() {
         let size = |found: &&Value| found["value"].as_f64().expect("a number").abs();
         let found = extremes
             .iter()
-            .filter(|one| [&one["quantity"], &one["kind"], &one["plane"]] == [quantity, kind, "vertical"])
+            .filter(|one| {
+                [&one["quantity"], &one["kind"], &one["plane"]] == [quantity, kind, "vertical"]
+            })
             .max_by(|a, b| size(a).total_cmp(&size(b)))
             .expect("an extreme");
-        let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect("a row");
-        let cells: Vec<f64> = line.split('|').skip(2).take(3).map(|cell| number_of(cell.trim())).collect();
-        let exact =
-            [factor * found["value"].as_f64().expect("a number"), x_of(found, "x"), x_of(found, "position")];
+        let line = page
+            .lines()
+            .find(|line| line.starts_with(&format!("| {name} |")))
+            .expect("a row");
+        let cells: Vec<f64> = line
+            .split('|')
+            .skip(2)
+            .take(3)
+            .map(|cell| number_of(cell.trim()))
+            .collect();
+        let exact = [
+            factor * found["value"].as_f64().expect("a number"),
+            x_of(found, "x"),
+            x_of(found, "position"),
+        ];
         for (cell, exact) in cells.iter().zip(exact) {
-            assert!((cell - exact).abs() <= 5.1e-4 * exact.abs(), "{line}: {exact}");
+            assert!(
+                (cell - exact).abs() <= 5.1e-4 * exact.abs(),
+                "{line}: {exact}"
+            );
         }
     }
 }
@@ -271,5 +359,9 @@ fn x_of(found: &Value, key: &str) -> f64 {
 
 /// The number with which a cell begins.
 fn number_of(cell: &str) -> f64 {
-    cell.split(' ').next().unwrap_or_default().parse().unwrap_or_else(|_| panic!("no number: {cell}"))
+    cell.split(' ')
+        .next()
+        .unwrap_or_default()
+        .parse()
+        .unwrap_or_else(|_| panic!("no number: {cell}"))
 }

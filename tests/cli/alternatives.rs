@@ -32,7 +32,8 @@ fn run(folder: &Path, accuracy: f64) -> (Document, Vec<CaseResult>) {
     fs::write(&path, scene(accuracy)).expect("written");
     let document = Document::open(&path).expect("a scene without faults");
     let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
-    let cases = results::cases::simulate(&document, &solved, Some(1), &|_| ()).expect("a scene that starts");
+    let cases = results::cases::simulate(&document, &solved, Some(1), &|_| ())
+        .expect("a scene that starts");
     (document, cases)
 }
 
@@ -44,10 +45,22 @@ fn a_dropped_bogie_reaches_the_end_at_every_accuracy_by_one_method() {
     for k in 0..41 {
         let accuracy = 3e-3 * 1e-3_f64.powf(f64::from(k) / 40.0);
         let (_, cases) = run(folder.path(), accuracy);
-        assert!(cases[0].run.status.is_complete(), "{accuracy:e}: {:?}", cases[0].run.status);
+        assert!(
+            cases[0].run.status.is_complete(),
+            "{accuracy:e}: {:?}",
+            cases[0].run.status
+        );
         assert_eq!(cases[0].run.abandoned, None, "{accuracy:e}");
-        let last = cases[0].columns.part("A", "deflection").last().copied().expect("samples");
-        assert!((last - 2.14129e-3).abs() < 4.0 * accuracy * 0.0153 + 1e-7, "{accuracy:e}: {last}");
+        let last = cases[0]
+            .columns
+            .part("A", "deflection")
+            .last()
+            .copied()
+            .expect("samples");
+        assert!(
+            (last - 2.14129e-3).abs() < 4.0 * accuracy * 0.0153 + 1e-7,
+            "{accuracy:e}: {last}"
+        );
     }
 }
 
@@ -58,7 +71,9 @@ fn a_run_that_another_method_has_completed_is_warned_of() {
         let (document, mut cases) = run(folder.path(), 1e-3);
         cases[0].run.abandoned = abandoned;
         let warnings = results::warning::case_warnings(document.scene(), &cases[0]);
-        let is_named = warnings.iter().any(|warning| warning.contains("could not continue"));
+        let is_named = warnings
+            .iter()
+            .any(|warning| warning.contains("could not continue"));
         assert_eq!(is_named, abandoned.is_some(), "{warnings:?}");
     }
 }

@@ -32,19 +32,34 @@ const METRES: &str = r#"{"length": "m", "force": "N", "time": "s"}"#;
 /// Columns x, drive and brake of a run.
 fn run(scene: &str) -> Vec<[f64; 3]> {
     let folder = folder();
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     fs::write(folder.path().join("scene.json"), scene).expect("written");
     let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
-    assert!(summary["energy"]["put_in"].as_f64().is_some_and(|work| work > 0.0));
+    assert!(
+        summary["energy"]["put_in"]
+            .as_f64()
+            .is_some_and(|work| work > 0.0)
+    );
     let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
     let mut lines = history.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let columns = ["bogie.x", "bogie.drive", "bogie.brake"]
-        .map(|name| header.iter().position(|column| *column == name).expect("a column"));
+    let columns = ["bogie.x", "bogie.drive", "bogie.brake"].map(|name| {
+        header
+            .iter()
+            .position(|column| *column == name)
+            .expect("a column")
+    });
     let row = |line: &str| {
-        let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+        let values: Vec<f64> = line
+            .split(',')
+            .map(|value| value.parse().expect("a number"))
+            .collect();
         columns.map(|column| values[column])
     };
     lines.map(row).collect()
@@ -55,7 +70,11 @@ fn driven_bogie_starts_at_its_traction_and_its_brake_stops_it() {
     let rows = run(&scene(FEET, 1.0, 1.0, ""));
     // Analytic: mu W until gain (v_ref - v) falls below it, v = mu g t.
     assert!((rows[1][1] / 9.6e5 - 1.0).abs() < 1e-6, "{:?}", rows[1]);
-    assert!((rows[1][0] - 0.5 * 0.2 * 32.174 * 0.25).abs() < 1e-6, "{:?}", rows[1]);
+    assert!(
+        (rows[1][0] - 0.5 * 0.2 * 32.174 * 0.25).abs() < 1e-6,
+        "{:?}",
+        rows[1]
+    );
     // v0^2 / 2 mu g from 5 ft/s, and what tanh adds.
     let stop = rows[12][0] - rows[8][0];
     assert!((stop - 25.0 / (2.0 * 0.2 * 32.174)).abs() < 2e-4, "{stop}");
@@ -65,11 +84,19 @@ fn driven_bogie_starts_at_its_traction_and_its_brake_stops_it() {
 
 #[test]
 fn units_of_a_scene_change_nothing_of_its_drive_and_brake() {
-    let (feet, metres) =
-        (run(&scene(FEET, 1.0, 1.0, "")), run(&scene(METRES, 0.3048, 4.448_221_615_260_5, "")));
+    let (feet, metres) = (
+        run(&scene(FEET, 1.0, 1.0, "")),
+        run(&scene(METRES, 0.3048, 4.448_221_615_260_5, "")),
+    );
     for (feet, metres) in feet.iter().zip(&metres) {
-        assert!((feet[0] * 0.3048 - metres[0]).abs() < 1e-6, "{feet:?} {metres:?}");
-        assert!((feet[2] * 4.448_221_615_260_5 - metres[2]).abs() < 50.0, "{feet:?} {metres:?}");
+        assert!(
+            (feet[0] * 0.3048 - metres[0]).abs() < 1e-6,
+            "{feet:?} {metres:?}"
+        );
+        assert!(
+            (feet[2] * 4.448_221_615_260_5 - metres[2]).abs() < 50.0,
+            "{feet:?} {metres:?}"
+        );
     }
 }
 
@@ -89,11 +116,23 @@ fn decks_refuse_drives_brakes_and_loads_by_name() {
     let load = r#""loads": [{"body": "bogie", "dof": "y", "value": [[0, 1]]}], "end""#;
     for (given, what) in [
         (given.clone(), "drive"),
-        (given.replace(drive, r#""kind": "free", "brake": 4"#), "brake"),
-        (given.replace(drive, r#""kind": "free""#).replace("\"end\"", load), "load"),
+        (
+            given.replace(drive, r#""kind": "free", "brake": 4"#),
+            "brake",
+        ),
+        (
+            given
+                .replace(drive, r#""kind": "free""#)
+                .replace("\"end\"", load),
+            "load",
+        ),
     ] {
         let folder = folder();
-        fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+        fs::copy(
+            example("bogie").join("spec.json"),
+            folder.path().join("spec.json"),
+        )
+        .expect("a copy");
         fs::write(folder.path().join("scene.json"), given).expect("written");
         let run = girderway(&folder, &["deck", "scene.json"]);
         assert_eq!(run.status.code(), Some(2));

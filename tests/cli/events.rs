@@ -27,7 +27,11 @@ const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "events", "units"
 /// Summary of a run of `scene`.
 fn run(scene: &str) -> Value {
     let folder = folder();
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     fs::write(folder.path().join("scene.json"), scene).expect("written");
     let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
@@ -41,25 +45,50 @@ fn events_brake_hoist_drop_and_end_as_the_scene_says() {
     let summary = run(SCENE);
     assert_eq!(summary["status"], "ended by event");
     let events = summary["events"].as_array().expect("a list");
-    let names: Vec<&str> = events.iter().filter_map(|event| event["name"].as_str()).collect();
-    assert_eq!(names, ["event2", "aloft", "loss", "emergency", "halt"], "{summary}");
+    let names: Vec<&str> = events
+        .iter()
+        .filter_map(|event| event["name"].as_str())
+        .collect();
+    assert_eq!(
+        names,
+        ["event2", "aloft", "loss", "emergency", "halt"],
+        "{summary}"
+    );
     let time = |name: &str| {
-        let event = events.iter().find(|event| event["name"] == name).expect("an event");
+        let event = events
+            .iter()
+            .find(|event| event["name"] == name)
+            .expect("an event");
         event["time"].as_f64().expect("a time")
     };
-    assert!((time("emergency") - 3.0).abs() < 1e-8, "{}", time("emergency"));
+    assert!(
+        (time("emergency") - 3.0).abs() < 1e-8,
+        "{}",
+        time("emergency")
+    );
     assert_eq!(events[3]["what"], "brake bogie");
     assert_eq!(events[3]["when"], "bogie.x >= 25");
-    let peak = |column: &str| summary["peaks"][column]["max"]["value"].as_f64().expect("a peak");
+    let peak = |column: &str| {
+        summary["peaks"][column]["max"]["value"]
+            .as_f64()
+            .expect("a peak")
+    };
     let stop = peak("bogie.x") - 25.0;
     // s^2 pi^2/(12 mu g) is what tanh adds, s = 0.02 ft/s
     let wanted = (12.5 + 0.02_f64.powi(2) * 0.822_467) / (0.2 * 32.174);
     assert!((stop / wanted - 1.0).abs() < 1e-5, "{stop} {wanted}");
     let (k, mass) = (1e6_f64, 1e5 / 32.174);
     let lift = 1e5 + (k * mass).sqrt();
-    assert!((peak("fall.tension") / lift - 1.0).abs() < 2e-3, "{} {lift}", peak("fall.tension"));
+    assert!(
+        (peak("fall.tension") / lift - 1.0).abs() < 2e-3,
+        "{} {lift}",
+        peak("fall.tension")
+    );
     let energy = &summary["energy"];
-    assert!(energy["residual"].as_f64().is_some_and(|left| left < 1e-6), "{energy}");
+    assert!(
+        energy["residual"].as_f64().is_some_and(|left| left < 1e-6),
+        "{energy}"
+    );
     // before the drop: the height of 1 ft, its speed and the stretch
     let hoists = energy["work"]["hoists"].as_f64().expect("a work");
     assert!((1e5..1.3e5).contains(&hoists), "{hoists}");

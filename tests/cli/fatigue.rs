@@ -47,7 +47,11 @@ fn run(history: &str) -> (Value, [String; 2], String) {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).expect(name);
     let summary = serde_json::from_str(&read("summary.json")).expect("JSON");
-    (summary, ["cycles.csv", "cycles-rigid.csv"].map(read), read("report.html"))
+    (
+        summary,
+        ["cycles.csv", "cycles-rigid.csv"].map(read),
+        read("report.html"),
+    )
 }
 
 /// Range, count and damage of each cycle of a point.
@@ -55,8 +59,11 @@ fn cycles(file: &str, point: &str) -> Vec<[f64; 3]> {
     let rows = file.lines().filter(|line| line.starts_with(point));
     let mut all: Vec<[f64; 3]> = rows
         .map(|line| {
-            let cells: Vec<f64> =
-                line.split(',').skip(1).map(|cell| cell.parse().expect("a number")).collect();
+            let cells: Vec<f64> = line
+                .split(',')
+                .skip(1)
+                .map(|cell| cell.parse().expect("a number"))
+                .collect();
             [cells[0], cells[2], cells[5]]
         })
         .collect();
@@ -76,28 +83,42 @@ fn a_wheel_that_comes_back_does_the_damage_of_its_cycles() {
     let aisc = (ksi.powi(3) + (0.5 * ksi).powi(3)) / 2.2e9;
     for history in ["once", "repeated"] {
         let (summary, files, report) = run(history);
-        for (run, file) in [(&summary, &files[0]), (&summary["compare"]["rigid"], &files[1])] {
+        for (run, file) in [
+            (&summary, &files[0]),
+            (&summary["compare"]["rigid"], &files[1]),
+        ] {
             for (point, damage) in [("girder.mid.bottom", euro), ("girder.mid.weld", aisc)] {
                 let found = cycles(file, point);
                 assert_eq!(found.len(), 3, "{found:?}");
                 for ([range, count, _], [share, wanted]) in
                     found.iter().zip([[0.5, 1.0], [1.0, 0.5], [1.0, 0.5]])
                 {
-                    assert!((range / (share * FULL) - 1.0).abs() < 1e-9 && *count == wanted, "{found:?}");
+                    assert!(
+                        (range / (share * FULL) - 1.0).abs() < 1e-9 && *count == wanted,
+                        "{found:?}"
+                    );
                 }
                 let own = &run["fatigue"][point];
                 let of = |key: &str| own[key].as_f64().expect(key);
                 let sum: f64 = found.iter().map(|cycle| cycle[2]).sum();
-                assert!((sum / damage - 1.0).abs() < 1e-8, "{point} {history}: {sum:e} {damage:e}");
+                assert!(
+                    (sum / damage - 1.0).abs() < 1e-8,
+                    "{point} {history}: {sum:e} {damage:e}"
+                );
                 assert!((of("damage") / damage - 1.0).abs() < 1e-8);
                 assert!((of("crossings_to_failure") * damage - 1.0).abs() < 1e-8);
                 assert!((of("life_damage") / (1e4 * damage) - 1.0).abs() < 1e-8);
                 assert!((of("largest_range") / FULL - 1.0).abs() < 1e-9);
                 assert_eq!((of("cycles"), &own["within_limit"]), (2.0, &json!(false)));
             }
-            assert!(run["fatigue"]["girder.mid.top"].is_null(), "no category, no damage");
+            assert!(
+                run["fatigue"]["girder.mid.top"].is_null(),
+                "no category, no damage"
+            );
         }
-        let top = summary["envelopes"]["girder.mid.top"]["min"]["value"].as_f64().expect("a stress");
+        let top = summary["envelopes"]["girder.mid.top"]["min"]["value"]
+            .as_f64()
+            .expect("a stress");
         assert!((top / FULL + 1.0).abs() < 1e-9, "{top}");
         assert_eq!(summary["units"]["girder.mid.top"], "N/m^2");
         assert!(report.contains("<h2>Fatigue</h2>"));

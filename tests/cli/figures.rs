@@ -26,7 +26,12 @@ fn a_figure_that_cannot_be_drawn_is_omitted_and_the_results_are_written() {
         told.contains("warning: the figure girder-runway is omitted because it cannot be drawn"),
         "{told}"
     );
-    for name in ["history.csv", "summary.json", "report.html", "plots/wheel-forces.svg"] {
+    for name in [
+        "history.csv",
+        "summary.json",
+        "report.html",
+        "plots/wheel-forces.svg",
+    ] {
         assert!(folder.path().join("out").join(name).is_file(), "{name}");
     }
     assert!(!folder.path().join("out/plots/girder-runway.svg").exists());
@@ -38,14 +43,26 @@ fn a_figure_that_cannot_be_drawn_is_omitted_and_the_results_are_written() {
 fn reports_show_no_rounding_of_zero() {
     let folder = folder();
     for scene in ["runway/scene.json", "bogie/fast.json"] {
-        let run = girderway(&folder, &["run", path(&example(scene)), "-o", "out", "--quiet", "--force"]);
+        let run = girderway(
+            &folder,
+            &[
+                "run",
+                path(&example(scene)),
+                "-o",
+                "out",
+                "--quiet",
+                "--force",
+            ],
+        );
         assert!(run.status.success(), "{}", text(&run.stderr));
         let report = fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
         // exponents from -20 on in superscript digits
         let tiny = ["10\u{207b}\u{b2}", "10\u{207b}\u{b3}", "10\u{207b}\u{2074}"];
         let is_tiny = |rest: &str| {
             let next = rest.chars().nth(4);
-            next.is_some_and(|c| ('\u{2070}'..='\u{2079}').contains(&c) || "\u{b9}\u{b2}\u{b3}".contains(c))
+            next.is_some_and(|c| {
+                ('\u{2070}'..='\u{2079}').contains(&c) || "\u{b9}\u{b2}\u{b3}".contains(c)
+            })
         };
         for start in tiny {
             for (at, _) in report.match_indices(start) {

@@ -17,7 +17,10 @@ const JOURNAL: &str = ".girderway-journal";
 /// A folder with the bogie's scene, without its comparisons, and its spec.
 fn bogie() -> TempDir {
     let folder = folder();
-    let copied = fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json"));
+    let copied = fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    );
     copied.expect("a copy");
     let mut scene = json(&fs::read(example("bogie").join("scene.json")).expect("the example"));
     scene.as_object_mut().expect("an object").remove("compare");
@@ -35,14 +38,19 @@ fn read(folder: &TempDir, name: &str) -> String {
 
 /// Runs the scene into `out`; its status and messages.
 fn run(folder: &TempDir, more: &[&str]) -> (Option<i32>, String) {
-    let run = girderway(folder, &[&["run", "scene.json", "-o", "out", "--quiet"], more].concat());
+    let run = girderway(
+        folder,
+        &[&["run", "scene.json", "-o", "out", "--quiet"], more].concat(),
+    );
     (run.status.code(), text(&run.stderr).to_owned())
 }
 
 /// Names and hashes of all files of the folder `out`, except those that change from run to run.
 fn hashes(folder: &TempDir) -> Vec<(String, String)> {
     let out = folder.path().join("out");
-    let names = files(&out, "").into_iter().filter(|name| name != "timing.json");
+    let names = files(&out, "")
+        .into_iter()
+        .filter(|name| name != "timing.json");
     names
         .map(|name| (sha256(&fs::read(out.join(&name)).expect("readable")), name))
         .map(|(a, b)| (b, a))
@@ -59,7 +67,9 @@ fn a_name_too_long_for_files_is_refused_at_its_place_and_leaves_the_older_result
     write(
         &folder,
         "scene.json",
-        &scene.replace("\"girder\"", &format!("\"{name}\"")).replace("girder.rail", &format!("{name}.rail")),
+        &scene
+            .replace("\"girder\"", &format!("\"{name}\""))
+            .replace("girder.rail", &format!("{name}.rail")),
     );
     let (status, told) = run(&folder, &[]);
     assert_eq!(status, Some(2));
@@ -67,7 +77,10 @@ fn a_name_too_long_for_files_is_refused_at_its_place_and_leaves_the_older_result
         told.starts_with("scene.json:1:") && told.contains(&format!("structures.{name}: makes")),
         "{told}"
     );
-    assert!(told.contains("too long for the file system") && told.contains("hint: shorten"), "{told}");
+    assert!(
+        told.contains("too long for the file system") && told.contains("hint: shorten"),
+        "{told}"
+    );
     assert_eq!(hashes(&folder), before);
     assert!(!folder.path().join("out").join(JOURNAL).exists());
 }
@@ -81,21 +94,34 @@ fn files_of_others_stop_a_run_before_any_work_unless_it_is_forced() {
     }
     let (status, told) = run(&folder, &[]);
     assert_eq!(status, Some(2));
-    assert!(told.starts_with("out/history.csv: ") && told.contains("--force"), "{told}");
+    assert!(
+        told.starts_with("out/history.csv: ") && told.contains("--force"),
+        "{told}"
+    );
     assert_eq!(told.lines().count(), 1, "{told}");
-    assert_eq!(files(&folder.path().join("out"), ""), ["history.csv", "notes.txt"]);
+    assert_eq!(
+        files(&folder.path().join("out"), ""),
+        ["history.csv", "notes.txt"]
+    );
     assert_eq!(read(&folder, "out/history.csv"), "mine");
 
     assert_eq!(run(&folder, &["--force"]), (Some(0), String::new()));
     assert!(read(&folder, "out/history.csv").starts_with("time,"));
     assert_eq!(read(&folder, "out/notes.txt"), "mine");
-    assert_eq!(run(&folder, &[]).0, Some(0), "its own result is replaced without --force");
+    assert_eq!(
+        run(&folder, &[]).0,
+        Some(0),
+        "its own result is replaced without --force"
+    );
 
     write(&folder, "out/report.html", "edited");
     write(&folder, "out/plots/wheel-forces.svg", "edited");
     let (status, told) = run(&folder, &[]);
     assert_eq!((status, told.lines().count()), (Some(2), 2), "{told}");
-    assert!(told.contains("out/report.html: ") && told.contains("out/plots/wheel-forces.svg: "), "{told}");
+    assert!(
+        told.contains("out/report.html: ") && told.contains("out/plots/wheel-forces.svg: "),
+        "{told}"
+    );
     assert_eq!(read(&folder, "out/report.html"), "edited");
 }
 
@@ -109,14 +135,23 @@ fn a_run_is_refused_while_another_one_writes_into_its_folder() {
     fs::create_dir(&staging).expect("writable");
     let (status, told) = run(&folder, &["--force"]);
     assert_eq!(status, Some(2));
-    assert!(told.starts_with("out: another run is writing into this folder  hint: "), "{told}");
+    assert!(
+        told.starts_with("out: another run is writing into this folder  hint: "),
+        "{told}"
+    );
     assert!(staging.exists());
     drop(journal);
     // a process that another test is starting may hold a copy of the lock for a moment
-    let ends = (0..100).map(|_| run(&folder, &[])).find(|(status, _)| *status != Some(2));
+    let ends = (0..100)
+        .map(|_| run(&folder, &[]))
+        .find(|(status, _)| *status != Some(2));
     assert_eq!(ends, Some((Some(0), String::new())));
     assert!(!staging.exists());
-    assert!(files(&folder.path().join("out"), "").iter().all(|name| !name.starts_with('.')));
+    assert!(
+        files(&folder.path().join("out"), "")
+            .iter()
+            .all(|name| !name.starts_with('.'))
+    );
 }
 
 #[test]
@@ -142,7 +177,11 @@ fn a_run_clears_what_killed_runs_have_left() {
     }
     assert!(killed > 0, "no run was killed");
     assert_eq!(run(&folder, &[]), (Some(0), String::new()));
-    assert!(files(&out, "").iter().all(|name| !name.starts_with('.')), "{:?}", files(&out, ""));
+    assert!(
+        files(&out, "").iter().all(|name| !name.starts_with('.')),
+        "{:?}",
+        files(&out, "")
+    );
     assert_eq!(manifest_faults(&out), Vec::<String>::new());
 }
 
@@ -155,7 +194,10 @@ fn manifest_faults(out: &Path) -> Vec<String> {
         let entry = listed.iter().find(|entry| entry["name"] == name.as_str());
         entry.is_some_and(|entry| entry["sha256"].is_null() || entry["sha256"] == hash())
     };
-    files(out, "").into_iter().filter(|name| name != "manifest.json" && !is_right(name)).collect()
+    files(out, "")
+        .into_iter()
+        .filter(|name| name != "manifest.json" && !is_right(name))
+        .collect()
 }
 
 #[test]
@@ -166,14 +208,20 @@ fn sim_refuses_a_grid_that_is_not_the_one_of_the_manifest() {
     assert_eq!(girderway(&folder, &sim).status.code(), Some(0));
     let stiff = read(&folder, "spec.json").replace("9.528", "95.28");
     write(&folder, "stiff.json", &stiff);
-    let fea = girderway(&folder, &["fea", "stiff.json", "-o", "out/grid-girder.json"]);
+    let fea = girderway(
+        &folder,
+        &["fea", "stiff.json", "-o", "out/grid-girder.json"],
+    );
     assert_eq!(fea.status.code(), Some(0));
     let history = read(&folder, "out/history.csv");
     for more in [&[] as &[&str], &["--force"]] {
         let run = girderway(&folder, &[&sim[..], more].concat());
         let told = text(&run.stderr);
         assert_eq!(run.status.code(), Some(2));
-        assert!(told.starts_with("out/grid-girder.json: is not the grid that manifest.json lists"), "{told}");
+        assert!(
+            told.starts_with("out/grid-girder.json: is not the grid that manifest.json lists"),
+            "{told}"
+        );
         assert!(told.contains("girderway run"), "{told}");
     }
     assert_eq!(read(&folder, "out/history.csv"), history);
@@ -193,15 +241,33 @@ fn links_are_followed_and_what_is_no_regular_file_is_written_through() {
     symlink("old.json", place("link.json")).expect("a link");
     let run = girderway(&folder, &["fea", path(&spec), "-o", "link.json"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    assert!(place("link.json").symlink_metadata().expect("there").is_symlink());
+    assert!(
+        place("link.json")
+            .symlink_metadata()
+            .expect("there")
+            .is_symlink()
+    );
     assert_eq!(fs::read(place("old.json")).expect("readable"), grid);
 
-    let made = Command::new("mkfifo").arg(place("pipe")).status().expect("mkfifo");
+    let made = Command::new("mkfifo")
+        .arg(place("pipe"))
+        .status()
+        .expect("mkfifo");
     assert!(made.success());
-    let reader = Command::new("cat").arg(place("pipe")).stdout(Stdio::piped()).spawn().expect("cat starts");
+    let reader = Command::new("cat")
+        .arg(place("pipe"))
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("cat starts");
     let run = girderway(&folder, &["fea", path(&spec), "-o", "pipe"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    assert!(place("pipe").symlink_metadata().expect("there").file_type().is_fifo());
+    assert!(
+        place("pipe")
+            .symlink_metadata()
+            .expect("there")
+            .file_type()
+            .is_fifo()
+    );
     assert_eq!(reader.wait_with_output().expect("cat ends").stdout, grid);
     let mut names = files(folder.path(), "");
     names.retain(|name| name.starts_with('.'));

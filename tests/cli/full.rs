@@ -41,13 +41,24 @@ fn contents(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
 
 /// Runs the program by a shell after other commands of the shell.
 fn after(folder: &TempDir, before: &str, arguments: &str) -> Output {
-    let line = format!("{before}; exec {} {arguments}", env!("CARGO_BIN_EXE_girderway"));
-    Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().expect("a shell")
+    let line = format!(
+        "{before}; exec {} {arguments}",
+        env!("CARGO_BIN_EXE_girderway")
+    );
+    Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(folder.path())
+        .output()
+        .expect("a shell")
 }
 
 /// A limit of the size of files, in blocks of 512 bytes. It meets a run where a full disk does.
 fn limited(folder: &TempDir, blocks: u32, arguments: &str) -> Output {
-    after(folder, &format!("trap '' XFSZ; ulimit -f {blocks}"), arguments)
+    after(
+        folder,
+        &format!("trap '' XFSZ; ulimit -f {blocks}"),
+        arguments,
+    )
 }
 
 /// Runs the program with standard output on a device that is full, or into a pipe that is closed.
@@ -58,7 +69,9 @@ fn printing(folder: &TempDir, arguments: &[&str], to: Stdio) -> Output {
         .stdout(to)
         .stderr(Stdio::piped())
         .spawn();
-    program.and_then(|child| child.wait_with_output()).expect("the program starts")
+    program
+        .and_then(|child| child.wait_with_output())
+        .expect("the program starts")
 }
 
 const PRINTING: [&[&str]; 5] = [
@@ -73,13 +86,24 @@ const PRINTING: [&[&str]; 5] = [
 fn a_reader_that_has_gone_is_no_error() {
     let folder = bogie();
     for arguments in PRINTING {
-        let mut reader =
-            Command::new("true").stdin(Stdio::piped()).spawn().expect("a program that reads nothing");
+        let mut reader = Command::new("true")
+            .stdin(Stdio::piped())
+            .spawn()
+            .expect("a program that reads nothing");
         let pipe = reader.stdin.take().expect("its standard input");
         reader.wait().expect("it ends at once");
         let run = printing(&folder, arguments, Stdio::from(pipe));
-        assert_eq!(run.status.code(), Some(0), "{arguments:?}: {}", text(&run.stderr));
-        assert!(!text(&run.stderr).contains("ipe"), "{arguments:?}: {}", text(&run.stderr));
+        assert_eq!(
+            run.status.code(),
+            Some(0),
+            "{arguments:?}: {}",
+            text(&run.stderr)
+        );
+        assert!(
+            !text(&run.stderr).contains("ipe"),
+            "{arguments:?}: {}",
+            text(&run.stderr)
+        );
     }
 }
 
@@ -87,16 +111,21 @@ fn a_reader_that_has_gone_is_no_error() {
 fn standard_output_on_a_full_device_is_an_error() {
     let folder = bogie();
     if !fs::exists("/dev/full").is_ok_and(|there| there) {
-        writeln!(std::io::stderr(), "skipped: this system has no /dev/full").expect("standard error");
+        writeln!(std::io::stderr(), "skipped: this system has no /dev/full")
+            .expect("standard error");
         return;
     }
     for arguments in PRINTING {
-        let full = File::options().write(true).open("/dev/full").expect("a device");
+        let full = File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("a device");
         let run = printing(&folder, arguments, Stdio::from(full));
         let told = text(&run.stderr);
         assert_eq!(run.status.code(), Some(2), "{arguments:?}: {told}");
         assert!(
-            told.contains("standard output") && told.contains("cannot be written: the disk is full"),
+            told.contains("standard output")
+                && told.contains("cannot be written: the disk is full"),
             "{arguments:?}: {told}"
         );
     }
@@ -115,20 +144,45 @@ fn a_run_that_finds_no_room_leaves_the_older_result_and_nothing_else() {
     let before = contents(&folder);
     let told = limited(&folder, 8, "run scene.json -o out --quiet");
     assert_eq!(told.status.code(), Some(2), "{}", text(&told.stderr));
-    assert!(text(&told.stderr).contains("cannot be written: the file is larger"), "{}", text(&told.stderr));
+    assert!(
+        text(&told.stderr).contains("cannot be written: the file is larger"),
+        "{}",
+        text(&told.stderr)
+    );
     assert_eq!(contents(&folder), before);
     assert!(!folder.path().join("out").exists());
     // an older result stands there
-    assert_eq!(girderway(&folder, &["run", "scene.json", "-o", "out", "--quiet"]).status.code(), Some(0));
-    change(&folder, |scene| scene["bodies"]["bogie"]["weight"] = 4.7e6.into());
+    assert_eq!(
+        girderway(&folder, &["run", "scene.json", "-o", "out", "--quiet"])
+            .status
+            .code(),
+        Some(0)
+    );
+    change(&folder, |scene| {
+        scene["bodies"]["bogie"]["weight"] = 4.7e6.into()
+    });
     let older = contents(&folder);
     for blocks in [1, 2, 4, 16, 64, 128] {
         let told = limited(&folder, blocks, "run scene.json -o out --quiet");
-        assert_eq!(told.status.code(), Some(2), "{blocks}: {}", text(&told.stderr));
-        assert!(text(&told.stderr).starts_with("out/"), "{blocks}: {}", text(&told.stderr));
+        assert_eq!(
+            told.status.code(),
+            Some(2),
+            "{blocks}: {}",
+            text(&told.stderr)
+        );
+        assert!(
+            text(&told.stderr).starts_with("out/"),
+            "{blocks}: {}",
+            text(&told.stderr)
+        );
         assert_eq!(contents(&folder), older, "{blocks} blocks");
     }
-    assert_eq!(girderway(&folder, &["run", "scene.json", "-o", "out", "--quiet"]).status.code(), Some(0));
+    assert_eq!(
+        girderway(&folder, &["run", "scene.json", "-o", "out", "--quiet"])
+            .status
+            .code(),
+        Some(0)
+    );
     assert_ne!(contents(&folder), older);
 }
 
@@ -148,7 +202,12 @@ fn a_single_file_and_a_deck_with_its_commands_are_whole_or_as_before() {
             }
             let before = contents(&folder);
             let run = limited(&folder, blocks, arguments);
-            assert_eq!(run.status.code(), Some(2), "{arguments}: {}", text(&run.stderr));
+            assert_eq!(
+                run.status.code(),
+                Some(2),
+                "{arguments}: {}",
+                text(&run.stderr)
+            );
             assert_eq!(contents(&folder), before, "{arguments} in {blocks} blocks");
         }
         for name in ["grid.json", "bogie.adm", "bogie.acf"] {
@@ -175,7 +234,9 @@ fn on_a_full_file_system_the_older_result_remains() {
          rm disk/filler; {program} run scene.json -o disk/out --quiet || exit 13
          exit $status"
     );
-    change(&folder, |scene| scene["bodies"]["bogie"]["weight"] = 4_800_000.into());
+    change(&folder, |scene| {
+        scene["bodies"]["bogie"]["weight"] = 4_800_000.into()
+    });
     let run = Command::new("unshare")
         .args(["--user", "--map-root-user", "--mount", "sh", "-c", &script])
         .current_dir(folder.path())
@@ -183,13 +244,26 @@ fn on_a_full_file_system_the_older_result_remains() {
     let told = match run {
         Ok(run) if matches!(run.status.code(), Some(2 | 10..=13)) => run,
         other => {
-            writeln!(std::io::stderr(), "skipped: no file system can be mounted: {other:?}")
-                .expect("standard error");
+            writeln!(
+                std::io::stderr(),
+                "skipped: no file system can be mounted: {other:?}"
+            )
+            .expect("standard error");
             return;
         }
     };
-    assert_eq!(told.status.code(), Some(2), "{}{}", text(&told.stdout), text(&told.stderr));
-    assert!(text(&told.stderr).contains("cannot be written: the disk is full"), "{}", text(&told.stderr));
+    assert_eq!(
+        told.status.code(),
+        Some(2),
+        "{}{}",
+        text(&told.stdout),
+        text(&told.stderr)
+    );
+    assert!(
+        text(&told.stderr).contains("cannot be written: the disk is full"),
+        "{}",
+        text(&told.stderr)
+    );
 }
 
 #[test]
@@ -198,24 +272,46 @@ fn a_command_file_of_somebody_else_is_not_replaced() {
     let own = folder.path().join("bogie.acf");
     fs::write(&own, "file/model=other\nsimulate/static\n! mine\nstop\n").expect("writable");
     let before = contents(&folder);
-    let run = girderway(&folder, &["deck", "scene.json", "-o", "bogie.adm", "--quiet"]);
+    let run = girderway(
+        &folder,
+        &["deck", "scene.json", "-o", "bogie.adm", "--quiet"],
+    );
     assert_eq!(run.status.code(), Some(2));
     let wanted = "bogie.acf: would be replaced, but is not as girderway wrote it";
-    assert!(text(&run.stderr).starts_with(wanted) && text(&run.stderr).contains("--force"), "{run:?}");
+    assert!(
+        text(&run.stderr).starts_with(wanted) && text(&run.stderr).contains("--force"),
+        "{run:?}"
+    );
     assert_eq!(contents(&folder), before);
     for more in [&["--force"][..], &[]] {
-        let run = girderway(&folder, &[&["deck", "scene.json", "-o", "bogie.adm", "--quiet"], more].concat());
+        let run = girderway(
+            &folder,
+            &[&["deck", "scene.json", "-o", "bogie.adm", "--quiet"], more].concat(),
+        );
         assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     }
-    assert!(fs::read_to_string(own).expect("readable").starts_with("file/model=bogie\n"));
+    assert!(
+        fs::read_to_string(own)
+            .expect("readable")
+            .starts_with("file/model=bogie\n")
+    );
 }
 
 #[test]
 fn a_pipe_is_an_input_like_a_file() {
     let folder = bogie();
-    let grid = |arguments: &str| after(&folder, "mkfifo pipe && (cat spec.json > pipe &)", arguments);
+    let grid = |arguments: &str| {
+        after(
+            &folder,
+            "mkfifo pipe && (cat spec.json > pipe &)",
+            arguments,
+        )
+    };
     let run = grid("fea pipe");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let file = girderway(&folder, &["fea", path(&folder.path().join("spec.json"))]);
-    assert_eq!(json(&run.stdout)["influence"], json(&file.stdout)["influence"]);
+    assert_eq!(
+        json(&run.stdout)["influence"],
+        json(&file.stdout)["influence"]
+    );
 }

@@ -7,7 +7,10 @@ use tempfile::TempDir;
 
 use super::{base, folder, girderway, json as parsed, path, text};
 
-const MILL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/fea/tests/data/mill_girderway.json");
+const MILL: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../crates/fea/tests/data/mill_girderway.json"
+);
 
 /// Length in metres and force in newtons of a unit word.
 fn unit(word: &str) -> f64 {
@@ -60,7 +63,11 @@ fn close(found: &[f64], exact: &[f64], factor: f64, tolerance: f64, what: &str) 
     let largest = exact.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     for (found, exact) in found.iter().zip(exact) {
         let error = (found * factor - exact).abs();
-        assert!(error <= tolerance * largest.max(1e-30), "{what}: {} {exact}", found * factor);
+        assert!(
+            error <= tolerance * largest.max(1e-30),
+            "{what}: {} {exact}",
+            found * factor
+        );
     }
 }
 
@@ -69,9 +76,15 @@ fn close(found: &[f64], exact: &[f64], factor: f64, tolerance: f64, what: &str) 
 fn one_girder_in_six_systems_of_units_has_one_grid() {
     let folder = folder();
     let own = solve(&folder, &girder(["m", "N"]));
-    for units in
-        [["ft", "lbf"], ["in", "lbf"], ["mm", "N"], ["ft", "kip"], ["in", "kip"], ["m", "kN"], ["mm", "kN"]]
-    {
+    for units in [
+        ["ft", "lbf"],
+        ["in", "lbf"],
+        ["mm", "N"],
+        ["ft", "kip"],
+        ["in", "kip"],
+        ["m", "kN"],
+        ["mm", "kN"],
+    ] {
         let other = solve(&folder, &girder(units));
         assert_eq!(other["units"]["length"], units[0]);
         let (l, f) = (unit(units[0]), unit(units[1]));
@@ -79,14 +92,24 @@ fn one_girder_in_six_systems_of_units_has_one_grid() {
             let found = numbers(&other["influence"][name]);
             // A coupling that is not there is rounding, on the scale of the direct grids.
             if numbers(block).iter().any(|x| x.abs() > 1e-15) {
-                close(&found, &numbers(block), l / f, 1e-11, &format!("{units:?} {name}"));
+                close(
+                    &found,
+                    &numbers(block),
+                    l / f,
+                    1e-11,
+                    &format!("{units:?} {name}"),
+                );
             }
         }
-        let line =
-            |grid: &Value, component: &str| numbers(&grid["effects"]["sections"][0][component]["vertical"]);
+        let line = |grid: &Value, component: &str| {
+            numbers(&grid["effects"]["sections"][0][component]["vertical"])
+        };
         close(&line(&other, "Mz"), &line(&own, "Mz"), l, 1e-10, "Mz");
         close(&line(&other, "Vy"), &line(&own, "Vy"), 1.0, 1e-10, "Vy");
-        assert_eq!(other["effects"]["units"]["moment"], format!("{f} {l}/{f}", l = units[0], f = units[1]));
+        assert_eq!(
+            other["effects"]["units"]["moment"],
+            format!("{f} {l}/{f}", l = units[0], f = units[1])
+        );
     }
 }
 
@@ -95,8 +118,7 @@ fn one_girder_in_six_systems_of_units_has_one_grid() {
 fn fea_reports_reactions_and_forces_per_unit_load() {
     let folder = folder();
     let mut spec = parsed(&fs::read(base("spec.json")).expect("the base spec"));
-    spec["effects"] =
-        json!([{"name": "mid", "x": 30}, {"name": "first support", "x": 0}, {"name": "end", "x": 75}]);
+    spec["effects"] = json!([{"name": "mid", "x": 30}, {"name": "first support", "x": 0}, {"name": "end", "x": 75}]);
     let grid = solve(&folder, &spec);
     let sections = &grid["effects"]["sections"];
     let x = [-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0];
@@ -104,16 +126,43 @@ fn fea_reports_reactions_and_forces_per_unit_load() {
         let exact: Vec<f64> = x.iter().map(|x| exact(*x)).collect();
         close(&numbers(value), &exact, 1.0, 1e-12, what);
     };
-    check(&sections[0]["Mz"]["vertical"], &|z| -f64::min(z, 60.0 - z) / 2.0, "Mz at midspan");
-    check(&sections[1]["Mz"]["vertical"], &|z| f64::max(-z, 0.0), "Mz over the support");
+    check(
+        &sections[0]["Mz"]["vertical"],
+        &|z| -f64::min(z, 60.0 - z) / 2.0,
+        "Mz at midspan",
+    );
+    check(
+        &sections[1]["Mz"]["vertical"],
+        &|z| f64::max(-z, 0.0),
+        "Mz over the support",
+    );
     let holds = grid["effects"]["reactions"].as_array().expect("a list");
     let hold = |x: f64, dof: &str| {
-        holds.iter().find(|hold| hold["x"] == x && hold["dof"] == dof).expect("a reaction there")
+        holds
+            .iter()
+            .find(|hold| hold["x"] == x && hold["dof"] == dof)
+            .expect("a reaction there")
     };
-    check(&hold(0.0, "uy")["vertical"], &|z| z / 60.0 - 1.0, "first support");
-    check(&hold(60.0, "uy")["vertical"], &|z| -z / 60.0, "second support");
-    check(&hold(0.0, "ux")["longitudinal"], &|_| -1.0, "the held length");
-    check(&hold(0.0, "rx")["lateral"], &|z| -3.6615 * (1.0 - z.clamp(0.0, 60.0) / 60.0), "twist");
+    check(
+        &hold(0.0, "uy")["vertical"],
+        &|z| z / 60.0 - 1.0,
+        "first support",
+    );
+    check(
+        &hold(60.0, "uy")["vertical"],
+        &|z| -z / 60.0,
+        "second support",
+    );
+    check(
+        &hold(0.0, "ux")["longitudinal"],
+        &|_| -1.0,
+        "the held length",
+    );
+    check(
+        &hold(0.0, "rx")["lateral"],
+        &|z| -3.6615 * (1.0 - z.clamp(0.0, 60.0) / 60.0),
+        "twist",
+    );
 
     fs::write(folder.path().join("grid.json"), grid.to_string()).expect("writable");
     let run = girderway(&folder, &["splines", "grid.json", "-o", "tables.adm"]);
@@ -124,10 +173,14 @@ fn fea_reports_reactions_and_forces_per_unit_load() {
 #[test]
 fn coupling_of_the_mill_girderway_is_told() {
     let folder = folder();
-    for (theory, share, median, percent) in
-        [("timoshenko", 0.5684, 0.3955, "39.5 %"), ("euler-bernoulli", 0.6032, 0.3998, "40.0 %")]
-    {
-        let run = girderway(&folder, &["fea", MILL, "--theory", theory, "-o", "grid.json"]);
+    for (theory, share, median, percent) in [
+        ("timoshenko", 0.5684, 0.3955, "39.5 %"),
+        ("euler-bernoulli", 0.6032, 0.3998, "40.0 %"),
+    ] {
+        let run = girderway(
+            &folder,
+            &["fea", MILL, "--theory", theory, "-o", "grid.json"],
+        );
         let told = text(&run.stderr);
         assert!(
             told.contains(&format!(
@@ -135,7 +188,10 @@ fn coupling_of_the_mill_girderway_is_told() {
             )),
             "{told}"
         );
-        assert!(told.contains(&format!("lateral deflection by {percent} (median")), "{told}");
+        assert!(
+            told.contains(&format!("lateral deflection by {percent} (median")),
+            "{told}"
+        );
         let grid = parsed(&fs::read(folder.path().join("grid.json")).expect("written"));
         let number = |value: &Value| value.as_f64().expect("a number");
         let coupling = &grid["coupling"];
@@ -146,7 +202,10 @@ fn coupling_of_the_mill_girderway_is_told() {
         assert!(number(&lateral["largest"]) > number(&lateral["median"]));
     }
     // Without an offset to speak of there is nothing to tell.
-    let run = girderway(&folder, &["fea", path(&base("spec.json")), "-o", "grid.json"]);
+    let run = girderway(
+        &folder,
+        &["fea", path(&base("spec.json")), "-o", "grid.json"],
+    );
     assert_eq!(text(&run.stderr), "wrote grid.json\n");
 }
 
@@ -157,12 +216,21 @@ fn reactions_of_the_mill_girderway_balance_every_load() {
     let run = girderway(&folder, &["fea", MILL, "--quiet"]);
     let grid = parsed(&run.stdout);
     let holds = grid["effects"]["reactions"].as_array().expect("a list");
-    for (axis, dof) in [("longitudinal", "ux"), ("vertical", "uy"), ("lateral", "uz")] {
+    for (axis, dof) in [
+        ("longitudinal", "ux"),
+        ("vertical", "uy"),
+        ("lateral", "uz"),
+    ] {
         let mut sum = vec![0.0; numbers(&grid["rails"][0]["stations"]).len()];
         for hold in holds.iter().filter(|hold| hold["dof"] == dof) {
-            sum.iter_mut().zip(numbers(&hold[axis])).for_each(|(sum, value)| *sum += value);
+            sum.iter_mut()
+                .zip(numbers(&hold[axis]))
+                .for_each(|(sum, value)| *sum += value);
         }
-        assert!(sum.iter().all(|sum| (sum + 1.0).abs() < 1e-9), "{axis}: {sum:?}");
+        assert!(
+            sum.iter().all(|sum| (sum + 1.0).abs() < 1e-9),
+            "{axis}: {sum:?}"
+        );
     }
 }
 
@@ -191,12 +259,27 @@ fn tapered_cells_are_solved_in_the_parts_that_are_stated() {
     let error = |parts: Value| {
         let grid = solve(&folder, &tapered(parts));
         let sections = &grid["effects"]["sections"];
-        close(&numbers(&sections[0]["Mz"]["vertical"]), &[0.0, 0.5, 4.0], 1.0, 1e-9, "a third along");
-        close(&numbers(&sections[1]["Mz"]["vertical"]), &[0.0, 2.5, 6.0], 1.0, 1e-9, "at the root");
+        close(
+            &numbers(&sections[0]["Mz"]["vertical"]),
+            &[0.0, 0.5, 4.0],
+            1.0,
+            1e-9,
+            "a third along",
+        );
+        close(
+            &numbers(&sections[1]["Mz"]["vertical"]),
+            &[0.0, 2.5, 6.0],
+            1.0,
+            1e-9,
+            "at the root",
+        );
         (numbers(&grid["influence"]["vertical"])[8] / exact - 1.0).abs()
     };
     let errors = [8, 16, 32].map(|parts| error(json!(parts)));
-    assert!((errors[1] / errors[2]).log2() > 1.95 && errors[2] < 3e-4, "{errors:?}");
+    assert!(
+        (errors[1] / errors[2]).log2() > 1.95 && errors[2] < 3e-4,
+        "{errors:?}"
+    );
     // The count for all cells where a cell has none of its own.
     assert!((error(Value::Null) / errors[2] - 0.25).abs() < 0.01);
 }
@@ -262,9 +345,10 @@ fn a_scene_in_feet_takes_a_spec_in_metres() {
             _ => l.powi(4),
         };
         *value = match &*value {
-            Value::Array(items) => {
-                items.iter().map(|x| json!(x.as_f64().expect("a number") * factor)).collect()
-            }
+            Value::Array(items) => items
+                .iter()
+                .map(|x| json!(x.as_f64().expect("a number") * factor))
+                .collect(),
             one => json!(one.as_f64().expect("a number") * factor),
         };
     }
@@ -281,7 +365,11 @@ fn a_scene_in_feet_takes_a_spec_in_metres() {
     let mixed = peaks(&scene);
     scene["structures"]["bridge"]["spec"] = json!("spec.json");
     let own = peaks(&scene);
-    assert!(own.as_object().is_some_and(|peaks| peaks.contains_key("bogie.deflection")), "{own}");
+    assert!(
+        own.as_object()
+            .is_some_and(|peaks| peaks.contains_key("bogie.deflection")),
+        "{own}"
+    );
     near(&mixed, &own);
 }
 
@@ -291,7 +379,10 @@ fn near(a: &Value, b: &Value) {
         (Value::Object(a), Value::Object(b)) => {
             assert!(a.keys().eq(b.keys()));
             // When a peak comes says nothing where a column is level.
-            let pairs = a.iter().zip(b.values()).filter(|((key, _), _)| !key.ends_with("time"));
+            let pairs = a
+                .iter()
+                .zip(b.values())
+                .filter(|((key, _), _)| !key.ends_with("time"));
             pairs.for_each(|((_, a), b)| near(a, b));
         }
         (Value::Number(a), Value::Number(b)) => {
@@ -328,12 +419,21 @@ fn a_surface_too_large_for_a_file_is_left_out_by_every_command_and_solved_again_
     fs::write(folder.path().join("scene.json"), scene.to_string()).expect("writable");
     let grid = solve(&folder, &spec);
     assert!(grid.get("surface").is_none());
-    assert!(grid["notes"][0].as_str().is_some_and(|note| note.contains("3006 degrees of freedom")), "{grid}");
+    assert!(
+        grid["notes"][0]
+            .as_str()
+            .is_some_and(|note| note.contains("3006 degrees of freedom")),
+        "{grid}"
+    );
 
     let read = |name: &str| fs::read(folder.path().join("out").join(name)).expect("written");
     let run = |command: &str| {
         let run = girderway(&folder, &[command, "scene.json", "-o", "out", "--quiet"]);
-        assert_eq!((run.status.code(), text(&run.stderr)), (Some(0), ""), "{command}");
+        assert_eq!(
+            (run.status.code(), text(&run.stderr)),
+            (Some(0), ""),
+            "{command}"
+        );
         [read("grid-girder.json"), read("history.csv")]
     };
     let first = run("run");

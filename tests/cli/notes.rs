@@ -7,7 +7,11 @@ use super::{example, folder, girderway, json, text};
 /// Notes of a run of a scene on the rigid rail of the bogie example. `parts` are the further members of the scene.
 fn notes(parts: &str) -> Vec<String> {
     let folder = folder();
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     let scene = format!(
         r#"{{"format": "girderway-scene/1", "units": {{"length": "ft", "force": "lbf", "time": "s"}}, "gravity": 32.174,
         "structures": {{"girder": {{"spec": "spec.json", "foundation": "rigid"}}}}, "accuracy": 1e-4, {parts}}}"#
@@ -17,19 +21,33 @@ fn notes(parts: &str) -> Vec<String> {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
     let list = summary["notes"].as_array().cloned().unwrap_or_default();
-    let all: Vec<String> = list.iter().filter_map(|note| note.as_str().map(str::to_owned)).collect();
+    let all: Vec<String> = list
+        .iter()
+        .filter_map(|note| note.as_str().map(str::to_owned))
+        .collect();
     let report = fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
     for note in &all {
         let is_own = |line: &str| line.starts_with("note: ") && line.ends_with(note);
-        assert!(text(&run.stderr).lines().any(is_own), "{}", text(&run.stderr));
+        assert!(
+            text(&run.stderr).lines().any(is_own),
+            "{}",
+            text(&run.stderr)
+        );
         // keys stand between backticks in a note, in letters of their own on a page
         let parts = note.split('`').enumerate();
         let shown: String = parts
-            .map(|(i, part)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() })
+            .map(|(i, part)| {
+                if i % 2 == 1 {
+                    format!("<code>{part}</code>")
+                } else {
+                    part.to_owned()
+                }
+            })
             .collect();
         // a report writes powers of ten as its tables do
-        let is_power =
-            |word: &str| word.contains("e-") && word.trim_end_matches([' ', ',']).parse::<f64>().is_ok();
+        let is_power = |word: &str| {
+            word.contains("e-") && word.trim_end_matches([' ', ',']).parse::<f64>().is_ok()
+        };
         let mut pieces = vec![String::new()];
         for word in shown.split_inclusive(' ') {
             match pieces.last_mut() {
@@ -38,9 +56,15 @@ fn notes(parts: &str) -> Vec<String> {
             }
         }
         let is_there = |piece: &String| report.contains(piece.trim());
-        assert!(pieces.iter().all(is_there), "the report has the note {note}");
+        assert!(
+            pieces.iter().all(is_there),
+            "the report has the note {note}"
+        );
     }
-    assert!(!all.is_empty() || !report.contains("Note, "), "the report has no note of its own");
+    assert!(
+        !all.is_empty() || !report.contains("Note, "),
+        "the report has no note of its own"
+    );
     all
 }
 
@@ -65,8 +89,15 @@ fn runs_of_more_than_a_hundred_bounces_state_the_error_of_each() {
             all[0].starts_with(&format!("the wheels bounce about {count} times"))
                 && all[0].contains("an error of 1e-6 for each, 0.00013 in all")
         };
-        assert!(all.len() == 1 && (125..=129).any(is_told), "{stepper}: {all:?}");
-        assert_eq!(bouncing(0.0, 10.0, stepper), Vec::<String>::new(), "{stepper}");
+        assert!(
+            all.len() == 1 && (125..=129).any(is_told),
+            "{stepper}: {all:?}"
+        );
+        assert_eq!(
+            bouncing(0.0, 10.0, stepper),
+            Vec::<String>::new(),
+            "{stepper}"
+        );
     }
     assert_eq!(bouncing(1e5, 14.0, "auto"), Vec::<String>::new());
 }
@@ -87,10 +118,15 @@ fn stopped(end: f64) -> Vec<String> {
 fn runs_say_from_which_strike_of_a_stop_on_only_extremes_are_promised() {
     assert_eq!(stopped(1.9), Vec::<String>::new());
     // Extremes of girders may change with the number of rows after a strike, which has a note of its own.
-    let all: Vec<String> =
-        stopped(2.5).into_iter().filter(|note| !note.starts_with("extremes of girders")).collect();
+    let all: Vec<String> = stopped(2.5)
+        .into_iter()
+        .filter(|note| !note.starts_with("extremes of girders"))
+        .collect();
     let wanted = "the stop buffer strikes at t = 2.000000 s: from then on small differences grow";
-    assert!(all.len() == 1 && all[0].starts_with(wanted) && all[0].contains("for the extremes"), "{all:?}");
+    assert!(
+        all.len() == 1 && all[0].starts_with(wanted) && all[0].contains("for the extremes"),
+        "{all:?}"
+    );
 }
 
 /// A car that a constant force moves to the side, from the middle of its clearance.
@@ -111,9 +147,15 @@ fn runs_say_from_which_strike_of_a_flange_on_only_extremes_are_promised() {
     assert_eq!(sideways(0.5), Vec::<String>::new());
     let all = sideways(1.0);
     let time = (2.0 * 0.05 * 1e6 / (1e4 * 32.174_f64)).sqrt();
-    let told = all.first().and_then(|note| note.split("t = ").nth(1)).and_then(|rest| rest.split(' ').next());
+    let told = all
+        .first()
+        .and_then(|note| note.split("t = ").nth(1))
+        .and_then(|rest| rest.split(' ').next());
     let told: f64 = told.and_then(|time| time.parse().ok()).expect("a time");
-    assert!(all.len() == 1 && all[0].starts_with("the flange of truck.wheel1 strikes"), "{all:?}");
+    assert!(
+        all.len() == 1 && all[0].starts_with("the flange of truck.wheel1 strikes"),
+        "{all:?}"
+    );
     // The step in which the flange touches need not end there.
     assert!((told - time).abs() < 0.05, "{told} {time}");
 }

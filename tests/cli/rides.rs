@@ -28,8 +28,17 @@ fn run(scene: &str, files: &[(&str, &str)], columns: &[&str]) -> Vec<Vec<f64>> {
     run_in(&folder(), scene, files, columns)
 }
 
-fn run_in(folder: &TempDir, scene: &str, files: &[(&str, &str)], columns: &[&str]) -> Vec<Vec<f64>> {
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+fn run_in(
+    folder: &TempDir,
+    scene: &str,
+    files: &[(&str, &str)],
+    columns: &[&str],
+) -> Vec<Vec<f64>> {
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     for (name, text) in [("scene.json", scene)].iter().chain(files) {
         fs::write(folder.path().join(name), text).expect("written");
     }
@@ -40,21 +49,34 @@ fn run_in(folder: &TempDir, scene: &str, files: &[(&str, &str)], columns: &[&str
     let mut lines = history.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     let place = |name: &&str| {
-        header.iter().position(|column| column == name).unwrap_or_else(|| panic!("{name} among {header:?}"))
+        header
+            .iter()
+            .position(|column| column == name)
+            .unwrap_or_else(|| panic!("{name} among {header:?}"))
     };
     let places: Vec<usize> = columns.iter().map(place).collect();
     let row = |line: &str| -> Vec<f64> {
         let values: Vec<&str> = line.split(',').collect();
-        places.iter().map(|&place| values[place].parse().expect("a number")).collect()
+        places
+            .iter()
+            .map(|&place| values[place].parse().expect("a number"))
+            .collect()
     };
     lines.map(row).collect()
 }
 
 #[test]
 fn runway_wheels_carry_the_trolley_and_the_girder_by_their_levers() {
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let files = [("beam.json", BEAM), ("long.json", &long)];
-    let columns = ["time", "base.wheel1.vertical", "base.wheel2.vertical", "cart.wheel1.vertical"];
+    let columns = [
+        "time",
+        "base.wheel1.vertical",
+        "base.wheel2.vertical",
+        "cart.wheel1.vertical",
+    ];
     for foundation in ["influence", "parts", "auto"] {
         let rows = run(&crane_on(foundation), &files, &columns);
         assert_eq!(rows.len(), 9);
@@ -64,7 +86,10 @@ fn runway_wheels_carry_the_trolley_and_the_girder_by_their_levers() {
             let lever = (-8.0 + 2.0 * row[0]) / 9.0;
             let wanted = [1.0 - lever, 1.0 + lever].map(|share| even + trolley * share);
             for (found, wanted) in row[1..3].iter().zip(wanted) {
-                assert!((found - wanted).abs() < 1e-6 * wanted, "{foundation}, {row:?}: {wanted}");
+                assert!(
+                    (found - wanted).abs() < 1e-6 * wanted,
+                    "{foundation}, {row:?}: {wanted}"
+                );
             }
         }
     }
@@ -78,10 +103,14 @@ fn crane_on(foundation: &str) -> String {
 
 #[test]
 fn auto_climbs_on_a_carrier_as_on_the_ground() {
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let files = [("beam.json", BEAM), ("long.json", &long)];
     let moving = |foundation: &str| {
-        crane_on(foundation).replace("quasi-static", "dynamic").replace("\"time\": 8", "\"time\": 1")
+        crane_on(foundation)
+            .replace("quasi-static", "dynamic")
+            .replace("\"time\": 8", "\"time\": 1")
     };
     let columns = ["trolley.deflection", "cart.wheel1.vertical"];
     let folder = folder();
@@ -90,11 +119,19 @@ fn auto_climbs_on_a_carrier_as_on_the_ground() {
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
     let rung = &summary["foundation"]["girder"];
     assert_eq!(rung["foundation"], "modal", "{rung}");
-    assert!(rung["reason"].as_str().is_some_and(|why| why.contains("within the tolerance")), "{rung}");
+    assert!(
+        rung["reason"]
+            .as_str()
+            .is_some_and(|why| why.contains("within the tolerance")),
+        "{rung}"
+    );
     let wanted = run(&moving("full"), &files, &columns);
     for (found, wanted) in found.iter().zip(&wanted) {
         for (found, wanted) in found.iter().zip(wanted) {
-            assert!((found - wanted).abs() < 0.01 * wanted.abs().max(0.002), "{found} for {wanted}");
+            assert!(
+                (found - wanted).abs() < 0.01 * wanted.abs().max(0.002),
+                "{found} for {wanted}"
+            );
         }
     }
 }
@@ -131,17 +168,31 @@ const OVERHEAD: &str = r#"{"format": "girderway-scene/1", "units": {"length": "m
 
 /// Wheel loads of the overhead crane on runways of one foundation, and the time before them.
 fn overhead(foundation: &str) -> Vec<Vec<f64>> {
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let runway = |scene: &str, name: &str| {
         let word = format!("\"{name}\": {{\"spec\": \"long.json\", \"foundation\": ");
-        scene.replace(&format!("{word}\"influence\""), &format!("{word}\"{foundation}\""))
+        scene.replace(
+            &format!("{word}\"influence\""),
+            &format!("{word}\"{foundation}\""),
+        )
     };
     let scene = runway(&runway(OVERHEAD, "north"), "south");
-    let columns =
-        ["n.wheel1", "n.wheel2", "s.wheel1", "s.wheel2", "w.wheel1", "w.wheel2", "e.wheel1", "e.wheel2"]
-            .map(|wheel| format!("{wheel}.vertical"));
-    let columns: Vec<&str> = ["time"].into_iter().chain(columns.iter().map(String::as_str)).collect();
-    run(&scene, &[("bridge.json", BRIDGE), ("long.json", &long)], &columns)
+    let columns = [
+        "n.wheel1", "n.wheel2", "s.wheel1", "s.wheel2", "w.wheel1", "w.wheel2", "e.wheel1",
+        "e.wheel2",
+    ]
+    .map(|wheel| format!("{wheel}.vertical"));
+    let columns: Vec<&str> = ["time"]
+        .into_iter()
+        .chain(columns.iter().map(String::as_str))
+        .collect();
+    run(
+        &scene,
+        &[("bridge.json", BRIDGE), ("long.json", &long)],
+        &columns,
+    )
 }
 
 /// Analytic: weights of bridge, girders, ties, hoist and trolley at their places (x, z) from the bridge's origin.
@@ -182,8 +233,14 @@ fn end_trucks_carry_girders_hoist_and_trolley_at_every_place() {
                 .fold(balance, |max, e| max.max(e.abs() / all));
         }
         println!("{foundation}: balance {balance:.1e}, levers {levers:.1e}");
-        assert!(balance < 1e-9, "{foundation}: the forces miss the weights by {balance}");
-        assert!(foundation != "rigid" || levers < 1e-9, "a wheel errs by {levers}");
+        assert!(
+            balance < 1e-9,
+            "{foundation}: the forces miss the weights by {balance}"
+        );
+        assert!(
+            foundation != "rigid" || levers < 1e-9,
+            "a wheel errs by {levers}"
+        );
     }
 }
 
@@ -193,14 +250,18 @@ fn a_ladle_below_the_trolley_loads_rope_trolley_and_end_trucks() {
     let ladle = r#""ladle": {"mass": 8000, "dof": ["X", "Y", "Z"]}}"#;
     let rope = r#""ropes": [{"name": "hoist", "from": {"body": "trolley", "at": [0.2, 0.5, -0.3]}, "to": {"body": "ladle"}, "EA": 5e7, "length": 6, "speed": [[0, 0], [0.5, 0.4]]}],
  "motions""#;
-    let scene = OVERHEAD.replace("\"analysis\": \"quasi-static\",", "").replace("\"motions\"", rope);
+    let scene = OVERHEAD
+        .replace("\"analysis\": \"quasi-static\",", "")
+        .replace("\"motions\"", rope);
     let scene = scene
         .replace("\"x0\": 2}}", &format!("\"x0\": 2}}, {ladle}"))
         .replace("\"speed\": [[0, 2]]", "\"speed\": [[0, 0], [0.5, 2]]");
     let scene = scene
         .replace("\"time\": 8", "\"time\": 2")
         .replace("\"dt\": 1}}", "\"dt\": 0.1}, \"accuracy\": 1e-7}");
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let columns = [
         "hoist.tension",
         "north.rail.reaction",
@@ -211,7 +272,12 @@ fn a_ladle_below_the_trolley_loads_rope_trolley_and_end_trucks() {
         "ladle.Z",
     ];
     let folder = folder();
-    let rows = run_in(&folder, &scene, &[("bridge.json", BRIDGE), ("long.json", &long)], &columns);
+    let rows = run_in(
+        &folder,
+        &scene,
+        &[("bridge.json", BRIDGE), ("long.json", &long)],
+        &columns,
+    );
     let g = 9.80665;
     let (tension, ground, girders) = (
         rows[0][0] / (8000.0 * g),
@@ -220,7 +286,9 @@ fn a_ladle_below_the_trolley_loads_rope_trolley_and_end_trucks() {
     );
     // Analytic: at rest; the bridge tilts a little, the rope hangs from (0.2, -0.3) of the trolley, whose x is z of the bridge and whose right is -x.
     assert!(
-        [tension, ground, girders].iter().all(|share| (share - 1.0).abs() < 1e-8),
+        [tension, ground, girders]
+            .iter()
+            .all(|share| (share - 1.0).abs() < 1e-8),
         "{tension} {ground} {girders}"
     );
     let [x, z] = [rows[0][5] - 50.3, rows[0][6] + 7.8];
@@ -264,7 +332,9 @@ fn a_girder_on_a_sprung_body_is_a_girder_on_springs_and_masses() {
         r#""supports": [{"point": 0, "fix": ["ux", "uz", "rx"]}, {"point": 4, "fix": ["uz"]}],
  "springs": [{"point": 0, "dof": "uy", "k": 2e6}, {"point": 4, "dof": "uy", "k": 2e6}], "masses": [{"point": 0, "mass": 1000}, {"point": 4, "mass": 1000}]"#,
     );
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let scene = |girder: &str, body: &str, truck: &str| {
         format!(
             r#"{{"format": "girderway-scene/1", "units": {{"length": "m", "force": "N", "time": "s"}}, "gravity": 9.80665,
@@ -276,7 +346,11 @@ fn a_girder_on_a_sprung_body_is_a_girder_on_springs_and_masses() {
  "end": {{"time": 0.6}}, "output": {{"dt": 0.02}}, "accuracy": 1e-7}}"#
         )
     };
-    let files = [("fixed.json", fixed.as_str()), ("sprung.json", &sprung), ("long.json", &long)];
+    let files = [
+        ("fixed.json", fixed.as_str()),
+        ("sprung.json", &sprung),
+        ("long.json", &long),
+    ];
     let columns = ["cart.wheel1.vertical", "cart.wheel2.vertical"];
     let kind = r#""full", "elements": 1"#;
     let upper = scene(
@@ -286,7 +360,11 @@ fn a_girder_on_a_sprung_body_is_a_girder_on_springs_and_masses() {
         r#""bridge": {"mass": 2000, "inertia": [0, 0, 2e5], "dof": ["y", "pitch"], "track": ["runway.rail"], "x0": 50}, "#,
         r#"{"name": "base", "body": "bridge", "rail": "runway.rail", "tree": [-10, 10], "wheel": "spring"}, "#,
     );
-    let lower = scene(&format!(r#""girder": {{"spec": "sprung.json", "foundation": {kind}}}"#), "", "");
+    let lower = scene(
+        &format!(r#""girder": {{"spec": "sprung.json", "foundation": {kind}}}"#),
+        "",
+        "",
+    );
     let upper = run(&upper, &files, &columns);
     let lower = run(&lower, &files, &columns);
     assert_eq!(upper.len(), lower.len());
@@ -299,12 +377,23 @@ fn a_girder_on_a_sprung_body_is_a_girder_on_springs_and_masses() {
 
 #[test]
 fn a_trolley_runs_over_a_bridge_that_moves() {
-    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let long = BEAM
+        .replace("[20]", "[100]")
+        .replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let files = [("beam.json", BEAM), ("long.json", &long)];
-    let scene = CRANE.replace("quasi-static", "dynamic").replace("\"time\": 8", "\"time\": 1");
-    let rows = run(&scene, &files, &["base.wheel1.vertical", "base.wheel2.vertical"]);
+    let scene = CRANE
+        .replace("quasi-static", "dynamic")
+        .replace("\"time\": 8", "\"time\": 1");
+    let rows = run(
+        &scene,
+        &files,
+        &["base.wheel1.vertical", "base.wheel2.vertical"],
+    );
     for row in rows {
-        assert!((row[0] + row[1] - 9.80665 * 20_000.0).abs() < 0.2 * 9.80665 * 20_000.0, "{row:?}");
+        assert!(
+            (row[0] + row[1] - 9.80665 * 20_000.0).abs() < 0.2 * 9.80665 * 20_000.0,
+            "{row:?}"
+        );
     }
 }
 
@@ -336,13 +425,21 @@ fn eight_wheels_under_massive_equalisers_run_from_a_scene() {
         64.0 * mass,
         trucks.join(", ")
     );
-    let columns: Vec<String> =
-        (1..=4).flat_map(|b| (1..=2).map(move |w| format!("b{b}.wheel{w}.vertical"))).collect();
+    let columns: Vec<String> = (1..=4)
+        .flat_map(|b| (1..=2).map(move |w| format!("b{b}.wheel{w}.vertical")))
+        .collect();
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     let rows = run(&scene, &[], &columns);
     // Analytic: at rest every pin lies midway, and all wheels carry alike.
-    assert!(rows[0].iter().all(|force| (force / 6e5 - 1.0).abs() < 1e-8), "{:?}", rows[0]);
+    assert!(
+        rows[0].iter().all(|force| (force / 6e5 - 1.0).abs() < 1e-8),
+        "{:?}",
+        rows[0]
+    );
     for row in rows {
-        assert!((row.iter().sum::<f64>() / 4.8e6 - 1.0).abs() < 0.2, "{row:?}");
+        assert!(
+            (row.iter().sum::<f64>() / 4.8e6 - 1.0).abs() < 0.2,
+            "{row:?}"
+        );
     }
 }

@@ -16,7 +16,11 @@ const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "crane", "units":
 #[test]
 fn a_hung_ladle_presses_the_wheels_of_its_bogie() {
     let folder = folder();
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     fs::write(folder.path().join("scene.json"), SCENE).expect("written");
     let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
@@ -24,14 +28,24 @@ fn a_hung_ladle_presses_the_wheels_of_its_bogie() {
     let mut lines = history.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     for line in lines {
-        let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+        let values: Vec<f64> = line
+            .split(',')
+            .map(|value| value.parse().expect("a number"))
+            .collect();
         for (name, wanted) in [
             ("hoist.tension", 1e6),
             ("hoist.length", 40.0 * (1.0 + 1e6 / 2.8e8)),
             ("girder.rail.reaction", 5.8e6),
         ] {
-            let at = header.iter().position(|column| *column == name).expect("a column");
-            assert!((values[at] / wanted - 1.0).abs() < 1e-8, "{name}: {} {wanted}", values[at]);
+            let at = header
+                .iter()
+                .position(|column| *column == name)
+                .expect("a column");
+            assert!(
+                (values[at] / wanted - 1.0).abs() < 1e-8,
+                "{name}: {} {wanted}",
+                values[at]
+            );
         }
     }
 }

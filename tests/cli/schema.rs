@@ -8,20 +8,31 @@ use super::{example, folder, girderway, json, text};
 
 /// Whether `value` has the form that `schema` asks for.
 fn fits(value: &Value, schema: &Value) -> bool {
-    jsonschema::validator_for(schema).expect("a valid schema").is_valid(value)
+    jsonschema::validator_for(schema)
+        .expect("a valid schema")
+        .is_valid(value)
 }
 
 pub fn schema(format: &str) -> Value {
     let run = girderway(&folder(), &["schema", format]);
-    assert!(run.status.success() && run.stderr.is_empty(), "{}", text(&run.stderr));
+    assert!(
+        run.status.success() && run.stderr.is_empty(),
+        "{}",
+        text(&run.stderr)
+    );
     json(&run.stdout)
 }
 
 /// The formats with a schema, as the help lists them.
 fn formats() -> Vec<String> {
     let run = girderway(&folder(), &["schema", "--help"]);
-    let lines = text(&run.stdout).lines().filter_map(|line| line.trim().strip_prefix("- "));
-    lines.filter_map(|line| line.split_once(':')).map(|(word, _)| word.to_owned()).collect()
+    let lines = text(&run.stdout)
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("- "));
+    lines
+        .filter_map(|line| line.split_once(':'))
+        .map(|(word, _)| word.to_owned())
+        .collect()
 }
 
 #[test]
@@ -54,9 +65,16 @@ fn examples_have_the_form_of_their_schemas() {
 fn grids_have_the_form_of_their_schema() {
     let folder = folder();
     let grid = schema("grid");
-    for spec in ["bogie/spec.json", "mill_girderway/spec.json", "bridge_crane/girders.json"] {
+    for spec in [
+        "bogie/spec.json",
+        "mill_girderway/spec.json",
+        "bridge_crane/girders.json",
+    ] {
         let spec = example(spec);
-        let run = girderway(&folder, &["fea", spec.to_str().expect("UTF-8"), "--modes", "2"]);
+        let run = girderway(
+            &folder,
+            &["fea", spec.to_str().expect("UTF-8"), "--modes", "2"],
+        );
         // the paper's girder has no mass
         let run = if run.status.success() {
             run
@@ -95,7 +113,14 @@ fn keywords_are_those_of_the_readers() {
     let mut compared = 0;
     for (format, name) in schemas {
         let schema = schema(format);
-        for origin in ["bogie", "runway", "bridge_crane", "ties", "mill_girderway", "wheel"] {
+        for origin in [
+            "bogie",
+            "runway",
+            "bridge_crane",
+            "ties",
+            "mill_girderway",
+            "wheel",
+        ] {
             let path = example(origin).join(format!("{name}.json"));
             let Ok(text) = fs::read(path) else { continue };
             let value = json(&text);
@@ -109,7 +134,8 @@ fn keywords_are_those_of_the_readers() {
                 }
                 let mut changed = value.clone();
                 *changed.pointer_mut(&pointer).expect("a value") = Value::from("qzqzq");
-                fs::write(folder.path().join("changed.json"), changed.to_string()).expect("written");
+                fs::write(folder.path().join("changed.json"), changed.to_string())
+                    .expect("written");
                 let command = if format == "beam" {
                     "fea"
                 } else if format == "scene" {
@@ -121,16 +147,26 @@ fn keywords_are_those_of_the_readers() {
                 assert_eq!(run.status.code(), Some(2), "{pointer}");
                 let errors = json(&run.stderr);
                 let asked = errors["errors"].as_array().expect("a list").iter();
-                let asked: Vec<&str> = asked.filter_map(|error| error["expected"].as_str()).collect();
+                let asked: Vec<&str> = asked
+                    .filter_map(|error| error["expected"].as_str())
+                    .collect();
                 // what may move depends on the body, which is a point, carried, or has a spin
-                let depends_on_the_body =
-                    ["/motions/", "/bodies/"].iter().any(|part| pointer.starts_with(part));
+                let depends_on_the_body = ["/motions/", "/bodies/"]
+                    .iter()
+                    .any(|part| pointer.starts_with(part));
                 let all = |asked: &&str| {
                     let quoted: Vec<&str> = asked.split('"').skip(1).step_by(2).collect();
-                    let is_part = || quoted.iter().all(|word| words.iter().any(|known| known == word));
+                    let is_part = || {
+                        quoted
+                            .iter()
+                            .all(|word| words.iter().any(|known| known == word))
+                    };
                     quoted == words || depends_on_the_body && !quoted.is_empty() && is_part()
                 };
-                assert!(asked.iter().any(all), "{origin} {pointer}: {asked:?} {words:?}");
+                assert!(
+                    asked.iter().any(all),
+                    "{origin} {pointer}: {asked:?} {words:?}"
+                );
                 compared += 1;
             }
         }
@@ -139,28 +175,48 @@ fn keywords_are_those_of_the_readers() {
 }
 
 /// Pointers to the values whose schema lists keywords, with these.
-fn keywords(value: &Value, schema: &Value, root: &Value, at: String, found: &mut Vec<(String, Vec<String>)>) {
-    let place = schema["$ref"].as_str().and_then(|path| path.strip_prefix('#'));
+fn keywords(
+    value: &Value,
+    schema: &Value,
+    root: &Value,
+    at: String,
+    found: &mut Vec<(String, Vec<String>)>,
+) {
+    let place = schema["$ref"]
+        .as_str()
+        .and_then(|path| path.strip_prefix('#'));
     let schema = place.map_or(schema, |path| root.pointer(path).expect("a definition"));
     // of lists of words of one of several groups, the group that the value is of
     let is_of = |one: &&Value| {
         let words = one["items"]["enum"].as_array();
         words.is_none_or(|words| {
-            value.as_array().is_none_or(|list| list.iter().all(|own| words.contains(own)))
+            value
+                .as_array()
+                .is_none_or(|list| list.iter().all(|own| words.contains(own)))
         })
     };
-    for one in schema["anyOf"].as_array().into_iter().flatten().filter(is_of) {
+    for one in schema["anyOf"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter(is_of)
+    {
         keywords(value, one, root, at.clone(), found);
     }
     if let (Some(words), true) = (schema["enum"].as_array(), value.is_string()) {
-        let words: Vec<String> = words.iter().filter_map(|word| word.as_str().map(str::to_owned)).collect();
+        let words: Vec<String> = words
+            .iter()
+            .filter_map(|word| word.as_str().map(str::to_owned))
+            .collect();
         // one keyword is that of a unit of time or a type of cell
         if words.len() > 1 && found.iter().all(|(_, known)| *known != words) {
             found.push((at.clone(), words));
         }
     }
     for (key, member) in value.as_object().into_iter().flatten() {
-        let own = schema["properties"].get(key).or_else(|| schema.get("additionalProperties"));
+        let own = schema["properties"]
+            .get(key)
+            .or_else(|| schema.get("additionalProperties"));
         if let Some(own) = own.filter(|_| key != "compare") {
             keywords(member, own, root, format!("{at}/{key}"), found);
         }
@@ -182,7 +238,10 @@ fn variants_of_a_scene_are_typed() {
             true,
         ),
         (serde_json::json!({ "label": "x", "acuracy": 1e-5 }), false),
-        (serde_json::json!({ "label": "x", "structures": { "girder": { "foundation": "rigit" } } }), false),
+        (
+            serde_json::json!({ "label": "x", "structures": { "girder": { "foundation": "rigit" } } }),
+            false,
+        ),
         (serde_json::json!({ "label": "x", "units": {} }), false),
         (serde_json::json!({ "accuracy": 1e-5 }), false),
     ] {
@@ -197,7 +256,16 @@ fn summaries_have_the_form_of_their_schema() {
     let summary = schema("summary");
     for scene in ["bogie/fast.json", "runway/scene.json", "ties/scene.json"] {
         let scene = example(scene);
-        let run = girderway(&folder, &["run", scene.to_str().expect("UTF-8"), "-o", "out", "--quiet"]);
+        let run = girderway(
+            &folder,
+            &[
+                "run",
+                scene.to_str().expect("UTF-8"),
+                "-o",
+                "out",
+                "--quiet",
+            ],
+        );
         assert!(run.status.success(), "{}", text(&run.stderr));
         let value = json(&fs::read(folder.path().join("out/summary.json")).expect("written"));
         assert!(fits(&value, &summary), "{}", scene.display());
@@ -215,7 +283,9 @@ fn every_property_is_described() {
         // conditions name properties that are declared elsewhere
         let conditions = ["allOf", "oneOf", "if", "then", "else"];
         let below = schema.as_object().into_iter().flatten();
-        let below = below.filter(|(key, _)| !conditions.contains(&key.as_str())).map(|(_, value)| value);
+        let below = below
+            .filter(|(key, _)| !conditions.contains(&key.as_str()))
+            .map(|(_, value)| value);
         let below = below.chain(schema.as_array().into_iter().flatten());
         count + below.map(|value| check(value, what)).sum::<usize>()
     }
@@ -232,8 +302,11 @@ fn every_property_is_described() {
 fn the_path_of_a_schema_is_ignored() {
     let folder = folder();
     let spec = fs::read_to_string(example("bogie/spec.json")).expect("an example");
-    fs::write(folder.path().join("spec.json"), spec.replacen('{', "{\"$schema\": \"beam.json\",", 1))
-        .expect("written");
+    fs::write(
+        folder.path().join("spec.json"),
+        spec.replacen('{', "{\"$schema\": \"beam.json\",", 1),
+    )
+    .expect("written");
     let run = girderway(&folder, &["fea", "spec.json"]);
     assert!(run.status.success(), "{}", text(&run.stderr));
 }
@@ -245,5 +318,8 @@ fn a_schema_goes_to_the_file_named() {
     assert!(run.status.success() && run.stdout.is_empty());
     let written = json(&fs::read(folder.path().join("beam.schema.json")).expect("written"));
     assert_eq!(written, schema("beam"));
-    assert_eq!(girderway(&folder, &["schema", "song"]).status.code(), Some(2));
+    assert_eq!(
+        girderway(&folder, &["schema", "song"]).status.code(),
+        Some(2)
+    );
 }

@@ -24,9 +24,17 @@ fn told(change: impl FnOnce(&mut Value)) -> (Option<i32>, Vec<String>, String) {
     let run = girderway(&folder, &["run", "--quiet", "scene.json", "-o", "out"]);
     let warnings = fs::read(folder.path().join("out/summary.json")).map_or_else(
         |_| Vec::new(),
-        |summary| parse(&summary)["warnings"].as_array().cloned().unwrap_or_default(),
+        |summary| {
+            parse(&summary)["warnings"]
+                .as_array()
+                .cloned()
+                .unwrap_or_default()
+        },
     );
-    let warnings = warnings.iter().filter_map(|warning| warning.as_str().map(str::to_owned)).collect();
+    let warnings = warnings
+        .iter()
+        .filter_map(|warning| warning.as_str().map(str::to_owned))
+        .collect();
     (run.status.code(), warnings, text(&run.stderr).to_owned())
 }
 
@@ -52,9 +60,11 @@ fn the_crane_as_it_is_is_passed_over() {
 #[test]
 fn a_weight_in_the_place_of_a_mass_is_told() {
     let heavy = warned(|scene| mistake(scene, "trolley"));
-    let expected =
-        "`mass` of trolley is 450000 lbf s^2/ft, a weight of 14500000 lbf: its 4 wheels are too small for it";
-    assert!(heavy.len() == 1 && heavy[0].starts_with(expected), "{heavy:?}");
+    let expected = "`mass` of trolley is 450000 lbf s^2/ft, a weight of 14500000 lbf: its 4 wheels are too small for it";
+    assert!(
+        heavy.len() == 1 && heavy[0].starts_with(expected),
+        "{heavy:?}"
+    );
     let meant = warned(|scene| {
         mistake(scene, "trolley");
         scene["bodies"]["trolley"]["mass"] = json!(450_000.0 / 32.174);
@@ -67,7 +77,8 @@ fn a_weight_in_the_place_of_a_mass_is_told() {
 fn a_weight_in_the_place_of_a_hung_mass_is_told_by_its_rope() {
     let hung = warned(|scene| mistake(scene, "ladle"));
     assert!(
-        hung.iter().any(|told| told.starts_with("hoist is stretched by 0.117 of its length")),
+        hung.iter()
+            .any(|told| told.starts_with("hoist is stretched by 0.117 of its length")),
         "{hung:?}"
     );
 }
@@ -75,16 +86,25 @@ fn a_weight_in_the_place_of_a_hung_mass_is_told_by_its_rope() {
 #[test]
 fn rotations_without_inertia_are_told_where_girders_lend_theirs() {
     let idle = warned(|scene| {
-        scene["bodies"]["bridge"].as_object_mut().expect("a body").remove("inertia");
+        scene["bodies"]["bridge"]
+            .as_object_mut()
+            .expect("a body")
+            .remove("inertia");
     });
-    assert!(idle.len() == 1 && idle[0].starts_with("bridge can roll and yaw and pitch"), "{idle:?}");
+    assert!(
+        idle.len() == 1 && idle[0].starts_with("bridge can roll and yaw and pitch"),
+        "{idle:?}"
+    );
 }
 
 /// Without inertia about its centre a body that can move along x cannot be pushed at its centre and turn.
 #[test]
 fn rotations_that_nothing_resists_are_refused_by_name() {
     let (status, _, errors) = told(|scene| {
-        scene["bodies"]["trolley"].as_object_mut().expect("a body").remove("inertia");
+        scene["bodies"]["trolley"]
+            .as_object_mut()
+            .expect("a body")
+            .remove("inertia");
     });
     assert_eq!(status, Some(2));
     assert!(
@@ -101,5 +121,8 @@ fn structures_held_beyond_the_wheels_of_their_body_are_told() {
     assert_eq!(at(7.0), Vec::<String>::new());
     let beside = at(-10.0);
     let expected = "bridge supports girders across its track from -47.5 to 27.5, but its wheels stand from -37.5 to 37.5";
-    assert!(beside.len() == 1 && beside[0].starts_with(expected), "{beside:?}");
+    assert!(
+        beside.len() == 1 && beside[0].starts_with(expected),
+        "{beside:?}"
+    );
 }

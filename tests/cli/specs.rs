@@ -27,19 +27,39 @@ fn one_item_a_block_names_and_sets_give_the_bytes_of_the_long_spelling() {
     let short = solved(
         &folder,
         &[
-            ("[[\"beam\", \"beam\", \"beam\"], [\"truss\", \"truss\"]]", "[null, \"truss\"]"),
-            ("[[0, 1, 0], [2, 2]]", "[[\"column\", 1, \"column\"], \"tie\"]"),
+            (
+                "[[\"beam\", \"beam\", \"beam\"], [\"truss\", \"truss\"]]",
+                "[null, \"truss\"]",
+            ),
+            (
+                "[[0, 1, 0], [2, 2]]",
+                "[[\"column\", 1, \"column\"], \"tie\"]",
+            ),
             ("[[0, 0, 1], [0, 0, 1]]]", "[0, 0, 1]]"),
             ("[[[], [\"rz\"], []], [[], []]]", "[[[], [\"rz\"], []], []]"),
-            ("\"point_sets\": {\"crown\": [4]}", "\"point_sets\": {\"crown\": [4], \"feet\": [0, 3]}"),
-            ("{\"point\": 0, \"fix\": [\"ux\", \"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]},\n", ""),
+            (
+                "\"point_sets\": {\"crown\": [4]}",
+                "\"point_sets\": {\"crown\": [4], \"feet\": [0, 3]}",
+            ),
+            (
+                "{\"point\": 0, \"fix\": [\"ux\", \"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]},\n",
+                "",
+            ),
             ("{\"point\": 3, \"fix\"", "{\"point\": \"feet\", \"fix\""),
-            ("{\"point\": 4, \"fix\": [\"uz\"]}", "{\"point\": \"crown\", \"fix\": [\"uz\"]}"),
-            ("{\"point\": 4, \"mass\": 2.5}", "{\"point\": \"crown\", \"mass\": 2.5}"),
+            (
+                "{\"point\": 4, \"fix\": [\"uz\"]}",
+                "{\"point\": \"crown\", \"fix\": [\"uz\"]}",
+            ),
+            (
+                "{\"point\": 4, \"mass\": 2.5}",
+                "{\"point\": \"crown\", \"mass\": 2.5}",
+            ),
         ],
     );
     // the feet are a set of their own now, and called so
-    let named = text(&short).replace("feet1", "point0").replace("feet2", "point3");
+    let named = text(&short)
+        .replace("feet1", "point0")
+        .replace("feet2", "point3");
     assert_eq!(named, text(&long));
 }
 
@@ -59,7 +79,8 @@ fn a_section_by_its_plates_is_that_of_its_integrals() {
     let (h, b, t, w): (f64, f64, f64, f64) = (0.6, 0.3, 0.025, 0.012);
     let clear = h - 2.0 * t;
     let area = 2.0 * b * t + clear * w;
-    let iz = 2.0 * (b * t.powi(3) / 12.0 + b * t * (0.5 * (h - t)).powi(2)) + w * clear.powi(3) / 12.0;
+    let iz =
+        2.0 * (b * t.powi(3) / 12.0 + b * t * (0.5 * (h - t)).powi(2)) + w * clear.powi(3) / 12.0;
     let iy = (2.0 * t * b.powi(3) + clear * w.powi(3)) / 12.0;
     let j = (2.0 * b * t.powi(3) + (h - t) * w.powi(3)) / 3.0;
     let numbers = format!(
@@ -72,22 +93,31 @@ fn a_section_by_its_plates_is_that_of_its_integrals() {
     let by_numbers = vertical(&solved(&folder, &[(old, &numbers)]));
     let by_plates = vertical(&solved(&folder, &[(old, plates)]));
     for (plates, numbers) in by_plates.iter().zip(&by_numbers) {
-        assert!((plates - numbers).abs() <= 1e-12 * numbers.abs().max(1e-9), "{plates} {numbers}");
+        assert!(
+            (plates - numbers).abs() <= 1e-12 * numbers.abs().max(1e-9),
+            "{plates} {numbers}"
+        );
     }
     // what stands beside the shape comes before it
     let stiffer = format!("\"Iz\": {}, {plates}", 2.0 * iz);
     let stiffer = vertical(&solved(&folder, &[(old, &stiffer)]));
-    assert!(stiffer[12] < 0.9 * by_plates[12], "{} {}", stiffer[12], by_plates[12]);
+    assert!(
+        stiffer[12] < 0.9 * by_plates[12],
+        "{} {}",
+        stiffer[12],
+        by_plates[12]
+    );
 }
 
 #[test]
 fn a_modulus_of_no_material_is_told() {
     let folder = folder();
-    let spec = fs::read_to_string(base("frame.json")).expect("the base frame").replace("2.1e8", "2.1e5");
+    let spec = fs::read_to_string(base("frame.json"))
+        .expect("the base frame")
+        .replace("2.1e8", "2.1e5");
     fs::write(folder.path().join("frame.json"), spec).expect("a file");
     let run = girderway(&folder, &["fea", "frame.json", "-o", "grid.json"]);
     assert!(run.status.success());
-    let told =
-        "warning: `E` of section \"column\" is 210000 kN/m^2, 0.21 GPa: steel has about 200000000 kN/m^2";
+    let told = "warning: `E` of section \"column\" is 210000 kN/m^2, 0.21 GPa: steel has about 200000000 kN/m^2";
     assert!(text(&run.stderr).contains(told), "{}", text(&run.stderr));
 }

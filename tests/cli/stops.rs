@@ -19,7 +19,11 @@ const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "stops", "units":
 /// Folder, summary and messages of a run of `scene` on the girder of the bogie.
 fn ran(scene: &str) -> (TempDir, Value, String) {
     let folder = folder();
-    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
     fs::write(folder.path().join("scene.json"), scene).expect("written");
     let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
     let told = text(&run.stderr).to_owned();
@@ -31,14 +35,27 @@ fn ran(scene: &str) -> (TempDir, Value, String) {
 /// Columns of a run of [`SCENE`].
 fn columns(names: [&str; 5]) -> [Vec<f64>; 5] {
     let (folder, summary, _) = ran(SCENE);
-    assert!(summary["energy"]["residual"].as_f64().is_some_and(|left| left < 2e-7), "{summary}");
+    assert!(
+        summary["energy"]["residual"]
+            .as_f64()
+            .is_some_and(|left| left < 2e-7),
+        "{summary}"
+    );
     let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
     let mut lines = history.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let rows: Vec<Vec<f64>> =
-        lines.map(|line| line.split(',').map(|value| value.parse().expect("a number")).collect()).collect();
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| {
+            line.split(',')
+                .map(|value| value.parse().expect("a number"))
+                .collect()
+        })
+        .collect();
     names.map(|name| {
-        let at = header.iter().position(|column| *column == name).expect("a column");
+        let at = header
+            .iter()
+            .position(|column| *column == name)
+            .expect("a column");
         rows.iter().map(|row| row[at]).collect()
     })
 }
@@ -47,19 +64,33 @@ fn columns(names: [&str; 5]) -> [Vec<f64>; 5] {
 /// pi sqrt(m/k), presses with v sqrt(m k), and comes back to the other stop; the ladle falls 11 ft onto its floor.
 #[test]
 fn a_bogie_runs_between_its_stops_and_a_ladle_drops_on_its_floor() {
-    let [time, x, ahead, behind, floor] =
-        columns(["time", "bogie.x", "stop1.force", "stop2.force", "floor.force"]);
+    let [time, x, ahead, behind, floor] = columns([
+        "time",
+        "bogie.x",
+        "stop1.force",
+        "stop2.force",
+        "floor.force",
+    ]);
     let (mass, k) = (4.8e6 / 32.174, 1e6_f64);
     let stay = std::f64::consts::PI * (mass / k).sqrt();
     for (force, met) in [(&ahead, 2.0), (&behind, 2.0 + stay + 4.0)] {
-        let first = force.iter().position(|force| *force > 0.0).expect("a meeting");
+        let first = force
+            .iter()
+            .position(|force| *force > 0.0)
+            .expect("a meeting");
         assert!((time[first] - met).abs() < 2e-3, "{} {met}", time[first]);
     }
     let most = ahead.iter().copied().fold(0.0, f64::max);
-    assert!((most / (5.0 * (mass * k).sqrt()) - 1.0).abs() < 1e-5, "{most}");
+    assert!(
+        (most / (5.0 * (mass * k).sqrt()) - 1.0).abs() < 1e-5,
+        "{most}"
+    );
     assert!(x.iter().all(|x| (18.0..42.0).contains(x)));
     let fall = (2.0 * 11.0 / 32.174_f64).sqrt();
-    let first = floor.iter().position(|force| *force > 0.0).expect("a meeting");
+    let first = floor
+        .iter()
+        .position(|force| *force > 0.0)
+        .expect("a meeting");
     assert!((time[first] - fall).abs() < 2e-3, "{} {fall}", time[first]);
 }
 
@@ -80,10 +111,11 @@ fn a_bogie_that_starts_behind_its_stop_is_turned_and_is_warned_of() {
  "stops": [{{"rail": "girder.rail", "x": {stop}, "k": {stiffness}, "side": "before"}}],
  "end": {{"time": 0.01}}, "output": {{"dt": 0.01}}}}"#
         ));
-        let found = summary["peaks"]["stop1.force"]["max"]["value"].as_f64().expect("a force");
+        let found = summary["peaks"]["stop1.force"]["max"]["value"]
+            .as_f64()
+            .expect("a force");
         assert!((found / force - 1.0).abs() < 1e-7, "{found} for {force}");
-        let warning =
-            "bogie.pitch reaches 0.2 rad, more than 0.1: the assumption of small rotations does not hold";
+        let warning = "bogie.pitch reaches 0.2 rad, more than 0.1: the assumption of small rotations does not hold";
         assert_eq!(told.contains(warning), phi > 0.1, "{told}");
     }
 }

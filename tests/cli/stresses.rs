@@ -48,17 +48,24 @@ fn page(folder: &TempDir) -> String {
 
 /// The only stress of a run.
 fn only(summary: &Value) -> &Value {
-    let all = summary["stresses"].as_array().unwrap_or_else(|| panic!("no stresses in {summary}"));
+    let all = summary["stresses"]
+        .as_array()
+        .unwrap_or_else(|| panic!("no stresses in {summary}"));
     assert_eq!(all.len(), 1, "{all:?}");
     &all[0]
 }
 
 fn value(row: &Value, key: &str) -> f64 {
-    row[key].as_f64().unwrap_or_else(|| panic!("no number {key} in {row}"))
+    row[key]
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number {key} in {row}"))
 }
 
 fn close(found: f64, known: f64, tolerance: f64, what: &str) {
-    assert!((found / known - 1.0).abs() < tolerance, "{what}: {found}, not {known}");
+    assert!(
+        (found / known - 1.0).abs() < tolerance,
+        "{what}: {found}, not {known}"
+    );
 }
 
 /// Hand calculation: under the wheel at midspan M_v = 100 * 8/4 = 200 kN m and M_l = 10 * 8/4 = 20 kN m, so that at the top edge
@@ -67,27 +74,50 @@ fn close(found: f64, known: f64, tolerance: f64, what: &str) {
 #[test]
 fn stresses_of_a_run_are_those_of_simultaneous_moments_with_either_model() {
     let mut given = scene(&json!({"lateral_section": "top flange"}));
-    given["compare"] = json!([{"label": "whole", "practice": {"lateral_section": "whole section"}}]);
+    given["compare"] =
+        json!([{"label": "whole", "practice": {"lateral_section": "whole section"}}]);
     let folder = ran(&beam(), &given);
     let summary = summary(&folder);
     let vertical = -200.0 * 0.2 / 5.8e-4;
     let models = [
         (&summary, "top flange", -20.0 / (0.024 * 0.09 / 6.0)),
-        (&summary["compare"]["whole"], "whole section", -20.0 * 0.15 / 1.1e-4),
+        (
+            &summary["compare"]["whole"],
+            "whole section",
+            -20.0 * 0.15 / 1.1e-4,
+        ),
     ];
     for (summary, word, lateral) in models {
         let row = only(summary);
         close(value(row, "value"), vertical + lateral, 1e-9, word);
-        close(value(row, "utilisation"), -(vertical + lateral) / 2.35e5, 1e-9, word);
+        close(
+            value(row, "utilisation"),
+            -(vertical + lateral) / 2.35e5,
+            1e-9,
+            word,
+        );
         close(value(&row["parts"], "vertical"), vertical, 1e-9, word);
         close(value(&row["parts"], "lateral"), lateral, 1e-9, word);
         close(value(&row["forces"], "moment"), 200.0, 1e-9, word);
         close(value(&row["forces"], "lateral moment"), 20.0, 1e-9, word);
         assert_eq!(value(&row["parts"], "normal"), 0.0, "{row}");
-        assert!((value(row, "x") - 4.0).abs() < 1e-6 && (value(row, "time") - 3.0).abs() < 1e-6, "{row}");
+        assert!(
+            (value(row, "x") - 4.0).abs() < 1e-6 && (value(row, "time") - 3.0).abs() < 1e-6,
+            "{row}"
+        );
         assert_eq!(
-            [&row["lateral_section"], &row["fibre"], &row["section"], &row["within"]],
-            [&json!(word), &json!("top, -z"), &json!("HEB 400"), &json!(true)]
+            [
+                &row["lateral_section"],
+                &row["fibre"],
+                &row["section"],
+                &row["within"]
+            ],
+            [
+                &json!(word),
+                &json!("top, -z"),
+                &json!("HEB 400"),
+                &json!(true)
+            ]
         );
     }
     let page = page(&folder);
@@ -98,7 +128,10 @@ fn stresses_of_a_run_are_those_of_simultaneous_moments_with_either_model() {
         "Largest direct stress of each section under a rail",
     ] {
         let escaped = part.replace('"', "&quot;");
-        assert!(page.contains(part) || page.contains(&escaped), "the page does not say: {part}");
+        assert!(
+            page.contains(part) || page.contains(&escaped),
+            "the page does not say: {part}"
+        );
     }
 }
 
@@ -117,7 +150,8 @@ fn the_largest_stress_need_not_be_where_a_moment_is_largest() {
         {"body": "light", "rail": "girder.rail", "tree": [0], "wheel": "steel"},
         {"body": "heavy", "rail": "girder.rail", "tree": [0], "wheel": "steel"},
     ]);
-    let motion = |body: &str| json!({"body": body, "dof": "x", "kind": "prescribed", "speed": [[0, 1]]});
+    let motion =
+        |body: &str| json!({"body": body, "dof": "x", "kind": "prescribed", "speed": [[0, 1]]});
     given["motions"] = json!([motion("light"), motion("heavy")]);
     given["end"] = json!({"time": 4.4});
     let summary = summary(&ran(&beam(), &given));
@@ -128,8 +162,12 @@ fn the_largest_stress_need_not_be_where_a_moment_is_largest() {
         vertical * 0.2 / 5.8e-4 + 10.0 * line(place, light) * 0.15 / 1.1e-4
     };
     let steps = (0..=440_000).map(|k| 0.5 + 1e-5 * f64::from(k));
-    let all = steps.flat_map(|light| [light, light + 3.0].map(|place| (stress(place, light), place)));
-    let (known, place) = all.fold((0.0, 0.0), |best, next| if next.0 > best.0 { next } else { best });
+    let all =
+        steps.flat_map(|light| [light, light + 3.0].map(|place| (stress(place, light), place)));
+    let (known, place) = all.fold(
+        (0.0, 0.0),
+        |best, next| if next.0 > best.0 { next } else { best },
+    );
     close(value(row, "value").abs(), known, 1e-6, "stress");
     assert!((value(row, "x") - place).abs() < 2e-3, "{row} and {place}");
     let extremes = summary["extremes"].as_array().expect("extremes");
@@ -140,7 +178,10 @@ fn the_largest_stress_need_not_be_where_a_moment_is_largest() {
             .expect("a moment");
         let (x, time) = (value(largest, "x"), value(largest, "time"));
         let there = stress(x, 0.5 + time);
-        assert!(there < known * (1.0 - 1e-3), "{plane}: {there} at {x} is not below {known}");
+        assert!(
+            there < known * (1.0 - 1e-3),
+            "{plane}: {there} at {x} is not below {known}"
+        );
     }
 }
 
@@ -159,8 +200,16 @@ fn stresses_of_dead_load_are_found_between_sections() {
     let row = only(&summary);
     let (w, vertical, lateral) = (4.0 * 9.81, 5.8e-4 / 0.2, 1.1e-4 / 0.15);
     let x = 4.0 - (100.0 + 10.0 * vertical / lateral) * 0.5 / (w * 8.0);
-    let moments = [0.5 * w * x * (8.0 - x) + 50.0 * (8.0 - x) / 8.0, 5.0 * (8.0 - x) / 8.0];
-    close(value(row, "value").abs(), moments[0] / vertical + moments[1] / lateral, 1e-9, "stress");
+    let moments = [
+        0.5 * w * x * (8.0 - x) + 50.0 * (8.0 - x) / 8.0,
+        5.0 * (8.0 - x) / 8.0,
+    ];
+    close(
+        value(row, "value").abs(),
+        moments[0] / vertical + moments[1] / lateral,
+        1e-9,
+        "stress",
+    );
     assert!((value(row, "x") - x).abs() < 2e-3, "{row} and {x}");
 }
 
@@ -171,7 +220,10 @@ fn a_stress_of_a_run_above_its_strength_is_told() {
     spec["girder"]["fy"] = json!(8e4);
     let folder = ran(&spec, &scene(&json!({"lateral_section": "whole section"})));
     assert_eq!(only(&summary(&folder))["within"], json!(false));
-    assert!(page(&folder).contains("120 % of the yield strength of"), "no utilisation on the page");
+    assert!(
+        page(&folder).contains("120 % of the yield strength of"),
+        "no utilisation on the page"
+    );
     assert!(page(&folder).contains("which is exceeded"));
 }
 
@@ -184,10 +236,16 @@ fn what_stresses_of_a_run_lack_is_named() {
     assert!(summary(&folder).get("stresses").is_none() && !page(&folder).contains("direct stress"));
 
     let mut spec = beam();
-    spec["girder"].as_object_mut().expect("an object").remove("fy");
+    spec["girder"]
+        .as_object_mut()
+        .expect("an object")
+        .remove("fy");
     let folder = ran(&spec, &scene(&json!({"lateral_section": "top flange"})));
     let row = only(&summary(&folder)).clone();
-    assert!(row.get("utilisation").is_none() && row.get("within").is_none(), "{row}");
+    assert!(
+        row.get("utilisation").is_none() && row.get("within").is_none(),
+        "{row}"
+    );
     assert!(page(&folder).contains("the spec gives no yield strength <code>fy</code>"));
 
     let mut spec = beam();
@@ -198,7 +256,10 @@ fn what_stresses_of_a_run_lack_is_named() {
     let summary = summary(&folder);
     assert!(summary.get("stresses").is_none());
     let notes = summary["notes"].to_string();
-    assert!(notes.contains("no direct stress on rail girder.rail: section"), "{notes}");
+    assert!(
+        notes.contains("no direct stress on rail girder.rail: section"),
+        "{notes}"
+    );
     assert!(page(&folder).contains("No direct stress of a girder is known"));
 }
 
@@ -208,9 +269,11 @@ fn what_stresses_of_a_run_lack_is_named() {
 #[test]
 fn stresses_of_a_run_know_the_rail_in_the_section() {
     let mut spec = beam();
-    for (key, value) in
-        [("crane_rail", json!("A65")), ("composite", json!(true)), ("rail_height", json!(0.2))]
-    {
+    for (key, value) in [
+        ("crane_rail", json!("A65")),
+        ("composite", json!(true)),
+        ("rail_height", json!(0.2)),
+    ] {
         spec["girder"][key] = value;
     }
     let folder = ran(&spec, &scene(&json!({"lateral_section": "top flange"})));
@@ -245,7 +308,10 @@ fn stresses_of_a_run_know_the_dimensions_of_a_tapered_member() {
     assert_eq!(rows.len(), 4, "{rows:?}");
     for (part, row) in rows.iter().enumerate() {
         let x = value(row, "x");
-        assert!((2.0 * part as f64 - 1e-9..=2.0 * part as f64 + 2.0 + 1e-9).contains(&x), "{row}");
+        assert!(
+            (2.0 * part as f64 - 1e-9..=2.0 * part as f64 + 2.0 + 1e-9).contains(&x),
+            "{row}"
+        );
         let h: f64 = 0.4 + 0.1 * part as f64;
         let second = (0.2 * h.powi(3) - 0.19 * (h - 0.04).powi(3)) / 12.0;
         let shape = x * (8.0 - x) / 8.0;

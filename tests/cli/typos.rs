@@ -143,8 +143,19 @@ fn spellings(word: &str) -> Vec<String> {
     let (mut doubled, mut replaced) = (letters.clone(), letters.clone());
     doubled.insert(middle, letters[middle]);
     replaced[middle] = if letters[middle] == 'q' { 'w' } else { 'q' };
-    let case = |c: &char| if c.is_lowercase() { c.to_ascii_uppercase() } else { c.to_ascii_lowercase() };
-    let other: String = letters.iter().take(1).map(case).chain(letters.iter().skip(1).copied()).collect();
+    let case = |c: &char| {
+        if c.is_lowercase() {
+            c.to_ascii_uppercase()
+        } else {
+            c.to_ascii_lowercase()
+        }
+    };
+    let other: String = letters
+        .iter()
+        .take(1)
+        .map(case)
+        .chain(letters.iter().skip(1).copied())
+        .collect();
     all.extend([text(&doubled), text(&replaced), other]);
     all.retain(|one| one != word);
     all
@@ -210,19 +221,28 @@ fn typos(file: &Value, is_output: bool, most: usize) -> Vec<Typo> {
                 Step::Index(_) => None,
             })
         };
-        let is_name = is_output && key_of(before).is_some_and(|above| NAMED.contains(&above.as_str()));
+        let is_name =
+            is_output && key_of(before).is_some_and(|above| NAMED.contains(&above.as_str()));
         if let (Step::Key(word), false) = (last, is_name) {
             let taken = seen(file, before).as_object().expect("an object has keys");
-            let free = spellings(word).into_iter().filter(|wrong| !taken.contains_key(wrong));
+            let free = spellings(word)
+                .into_iter()
+                .filter(|wrong| !taken.contains_key(wrong));
             all.extend(free.map(|wrong| (path, Mistake::Key(wrong))));
         }
         let (old, key) = (seen(file, path), key_of(path).unwrap_or_default());
-        let is_free = |wrong: &Value| is_output && key != "time" && old.is_number() && wrong.is_number();
-        let wrong = values(old, &key).into_iter().filter(|wrong| !is_free(wrong));
+        let is_free =
+            |wrong: &Value| is_output && key != "time" && old.is_number() && wrong.is_number();
+        let wrong = values(old, &key)
+            .into_iter()
+            .filter(|wrong| !is_free(wrong));
         all.extend(wrong.map(|wrong| (path, Mistake::Value(wrong))));
     }
     let every = all.len().div_ceil(most);
-    all.into_iter().step_by(every).map(|(path, mistake)| made(file, path, mistake)).collect()
+    all.into_iter()
+        .step_by(every)
+        .map(|(path, mistake)| made(file, path, mistake))
+        .collect()
 }
 
 /// The file with a mistake at a place.
@@ -236,9 +256,10 @@ fn made(file: &Value, path: &[Step], mistake: Mistake) -> Typo {
     let mut is_own_name = false;
     let what = match (mistake, path.split_last()) {
         (Mistake::Key(wrong), Some((Step::Key(word), before))) => {
-            is_own_name =
-                matches!(before.last(), Some(Step::Key(above)) if OWN_NAMES.contains(&above.as_str()));
-            let object = at(&mut changed, before).as_object_mut().expect("an object has keys");
+            is_own_name = matches!(before.last(), Some(Step::Key(above)) if OWN_NAMES.contains(&above.as_str()));
+            let object = at(&mut changed, before)
+                .as_object_mut()
+                .expect("an object has keys");
             let member = object.remove(word).expect("a member");
             let what = format!("key {place} => {wrong}");
             object.insert(wrong, member);
@@ -251,14 +272,20 @@ fn made(file: &Value, path: &[Step], mistake: Mistake) -> Typo {
             format!("value {place} => {shown}")
         }
     };
-    Typo { what, is_own_name, file: changed }
+    Typo {
+        what,
+        is_own_name,
+        file: changed,
+    }
 }
 
 /// What the reader of the format says to a file beside `path`; `None` where it accepts it or there is no reader.
 fn refusal(format: &str, path: &Path, file: &Value) -> Option<String> {
     let text = file.to_string();
     let first = |diagnostics: Vec<formats::text::diagnostic::Diagnostic>| {
-        diagnostics.first().map_or_else(|| "refused".to_owned(), |one| format!("{one:?}"))
+        diagnostics
+            .first()
+            .map_or_else(|| "refused".to_owned(), |one| format!("{one:?}"))
     };
     match format {
         "beam" => {
@@ -281,7 +308,15 @@ fn refusal(format: &str, path: &Path, file: &Value) -> Option<String> {
 /// Folders whose files are taken, and summaries of runs and designs of them.
 fn files(work: &tempfile::TempDir) -> Vec<(&'static str, std::path::PathBuf)> {
     let mut all = Vec::new();
-    for origin in ["bogie", "runway", "bridge_crane", "mill_girderway", "ties", "wheel", "yang_yau"] {
+    for origin in [
+        "bogie",
+        "runway",
+        "bridge_crane",
+        "mill_girderway",
+        "ties",
+        "wheel",
+        "yang_yau",
+    ] {
         let target = work.path().join(origin);
         fs::create_dir(&target).expect("a new folder");
         let mut names: Vec<_> = fs::read_dir(example(origin))
@@ -321,25 +356,36 @@ fn files(work: &tempfile::TempDir) -> Vec<(&'static str, std::path::PathBuf)> {
 #[test]
 fn schemas_alone_find_nearly_all_typos() {
     let work = folder();
-    let mut record = std::env::var_os("GIRDERWAY_TYPOS").map(|path| fs::File::create(path).expect("a file"));
+    let mut record =
+        std::env::var_os("GIRDERWAY_TYPOS").map(|path| fs::File::create(path).expect("a file"));
     let (mut faults, mut found, mut missed, mut strict) = (0, 0, Vec::new(), Vec::new());
     // found, all, and the same without names of the user's own
-    let mut by_format: std::collections::BTreeMap<&str, [usize; 4]> = std::collections::BTreeMap::new();
+    let mut by_format: std::collections::BTreeMap<&str, [usize; 4]> =
+        std::collections::BTreeMap::new();
     for (format, path) in files(&work) {
         let schema = schema(format);
         let validator = jsonschema::validator_for(&schema).expect("a valid schema");
         let good = json(&fs::read(&path).expect("a file"));
         assert!(validator.is_valid(&good), "{}", path.display());
         let is_output = format.ends_with("summary");
-        assert!(is_output || refusal(format, &path, &good).is_none(), "{}", path.display());
+        assert!(
+            is_output || refusal(format, &path, &good).is_none(),
+            "{}",
+            path.display()
+        );
         // of files with thousands of values, a sample tells as much
         let is_short = matches!(format, "design" | "sweep");
-        let most = if record.is_some() || is_short { 1000 } else { 60 };
+        let most = if record.is_some() || is_short {
+            1000
+        } else {
+            60
+        };
         let all = typos(&good, is_output, most);
         for (index, typo) in all.into_iter().enumerate() {
             let fits = validator.is_valid(&typo.file);
             if let Some(record) = &mut record {
-                let line = json!({ "schema": format, "what": typo.what, "fits": fits, "file": typo.file });
+                let line =
+                    json!({ "schema": format, "what": typo.what, "fits": fits, "file": typo.file });
                 writeln!(record, "{line}").expect("written");
             }
             let why = if fits || index % SAMPLE == 0 {
@@ -347,7 +393,13 @@ fn schemas_alone_find_nearly_all_typos() {
             } else {
                 Some(String::new())
             };
-            let what = || format!("{} {}", path.file_name().unwrap_or_default().to_string_lossy(), typo.what);
+            let what = || {
+                format!(
+                    "{} {}",
+                    path.file_name().unwrap_or_default().to_string_lossy(),
+                    typo.what
+                )
+            };
             match (fits, why) {
                 (true, None) => {}
                 (false, None) => strict.push(what()),
@@ -357,7 +409,11 @@ fn schemas_alone_find_nearly_all_typos() {
                     let counts = by_format.entry(format).or_default();
                     let is_found = usize::from(!is_missed);
                     let counted = usize::from(!typo.is_own_name);
-                    for (count, more) in counts.iter_mut().zip([is_found, 1, is_found * counted, counted]) {
+                    for (count, more) in
+                        counts
+                            .iter_mut()
+                            .zip([is_found, 1, is_found * counted, counted])
+                    {
                         *count += more;
                     }
                     if is_missed {
@@ -375,7 +431,10 @@ fn schemas_alone_find_nearly_all_typos() {
     for one in &missed {
         println!("missed: {one}");
     }
-    assert!(strict.is_empty(), "the schema refuses what the reader accepts: {strict:?}");
+    assert!(
+        strict.is_empty(),
+        "the schema refuses what the reader accepts: {strict:?}"
+    );
     assert!(faults > 1000, "{faults}");
     assert!(share >= SHARE, "{share}: {missed:?}");
     // what remains are names that a file uses elsewhere, and numbers that are wrong only beside others
@@ -383,6 +442,9 @@ fn schemas_alone_find_nearly_all_typos() {
         let share = |part: usize, whole: usize| part as f64 / whole as f64;
         assert!(share(found, all) >= SHARE, "{format}: {found} of {all}");
         let besides = share(found_besides_names, besides_names);
-        assert!(besides >= SHARE_WITHOUT_NAMES, "{format}: {found_besides_names} of {besides_names}");
+        assert!(
+            besides >= SHARE_WITHOUT_NAMES,
+            "{format}: {found_besides_names} of {besides_names}"
+        );
     }
 }

@@ -28,21 +28,38 @@ fn warned(structure: &str, weight: f64, x0: f64, speed: f64, free: bool) -> Vec<
 }
 
 /// The same, with more members of the body.
-fn warned_with(structure: &str, weight: f64, x0: f64, speed: f64, free: bool, more: &str) -> Vec<String> {
+fn warned_with(
+    structure: &str,
+    weight: f64,
+    x0: f64,
+    speed: f64,
+    free: bool,
+    more: &str,
+) -> Vec<String> {
     let folder = folder();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     write("girder.json", GIRDER);
     write("held.adm", HELD);
     write("taut.json", TAUT);
-    fs::copy(example("bogie").join("printed.adm"), folder.path().join("printed.adm")).expect("a copy");
+    fs::copy(
+        example("bogie").join("printed.adm"),
+        folder.path().join("printed.adm"),
+    )
+    .expect("a copy");
     let (dof, motion) = if free {
         (r#"["x", "y"]"#, String::new())
     } else {
-        let table =
-            format!(r#"{{"body": "car", "dof": "x", "kind": "prescribed", "speed": [[0, {speed}]]}}"#);
+        let table = format!(
+            r#"{{"body": "car", "dof": "x", "kind": "prescribed", "speed": [[0, {speed}]]}}"#
+        );
         (r#"["y"]"#, table)
     };
-    let v0 = if free { format!(r#", "v0": {speed}"#) } else { String::new() };
+    let v0 = if free {
+        format!(r#", "v0": {speed}"#)
+    } else {
+        String::new()
+    };
     let scene = format!(
         r#"{{"format": "girderway-scene/1", "units": {{"length": "ft", "force": "lbf", "time": "s"}}, "gravity": 32.174,
         "structures": {{"bridge": {structure}}}, "bodies": {{"car": {{"weight": {weight}, "dof": {dof}, "x0": {x0}{v0}{more}}}}},
@@ -55,10 +72,14 @@ fn warned_with(structure: &str, weight: f64, x0: f64, speed: f64, free: bool, mo
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
     let list = summary["warnings"].as_array().cloned().unwrap_or_default();
-    let all: Vec<String> = list.iter().filter_map(|warning| warning.as_str().map(str::to_owned)).collect();
+    let all: Vec<String> = list
+        .iter()
+        .filter_map(|warning| warning.as_str().map(str::to_owned))
+        .collect();
     for warning in &all {
-        let told =
-            text(&run.stderr).lines().any(|line| line.starts_with("warning: ") && line.ends_with(warning));
+        let told = text(&run.stderr)
+            .lines()
+            .any(|line| line.starts_with("warning: ") && line.ends_with(warning));
         assert!(told, "{warning:?} is told: {}", text(&run.stderr));
     }
     all
@@ -68,11 +89,20 @@ fn warned_with(structure: &str, weight: f64, x0: f64, speed: f64, free: bool, mo
 #[test]
 fn girders_taken_without_their_mass_warn_from_half_of_the_critical_speed_on() {
     let influence = r#"{"spec": "girder.json", "foundation": "influence"}"#;
-    assert_eq!(warned(influence, 1e3, 10.0, 1360.0, false), Vec::<String>::new());
+    assert_eq!(
+        warned(influence, 1e3, 10.0, 1360.0, false),
+        Vec::<String>::new()
+    );
     let fast = warned(influence, 1e3, 10.0, 1366.0, false);
-    assert!(fast.len() == 1 && fast[0].contains("run at 0.50 of the critical speed"), "{fast:?}");
+    assert!(
+        fast.len() == 1 && fast[0].contains("run at 0.50 of the critical speed"),
+        "{fast:?}"
+    );
     let modal = r#"{"spec": "girder.json", "foundation": "modal", "modes": 4}"#;
-    assert_eq!(warned(modal, 1e3, 10.0, 1366.0, false), Vec::<String>::new());
+    assert_eq!(
+        warned(modal, 1e3, 10.0, 1366.0, false),
+        Vec::<String>::new()
+    );
 }
 
 /// Analytic: in the middle of one of two spans a load sinks by 23/32 of P L^3/48EI, 0.6 ft under 7.64e6 lb. The span
@@ -80,18 +110,30 @@ fn girders_taken_without_their_mass_warn_from_half_of_the_critical_speed_on() {
 #[test]
 fn rails_that_give_by_a_hundredth_of_their_span_warn() {
     let influence = r#"{"spec": "girder.json", "foundation": "influence"}"#;
-    assert_eq!(warned(influence, 7.5e6, 30.0, 0.0, false), Vec::<String>::new());
+    assert_eq!(
+        warned(influence, 7.5e6, 30.0, 0.0, false),
+        Vec::<String>::new()
+    );
     let bent = warned(influence, 7.8e6, 30.0, 0.0, false);
-    assert!(bent.len() == 1 && bent[0].contains("bridge.rail deflects by 0.010 of its span"), "{bent:?}");
+    assert!(
+        bent.len() == 1 && bent[0].contains("bridge.rail deflects by 0.010 of its span"),
+        "{bent:?}"
+    );
 }
 
 /// Analytic: A delta^2 / (4 I) = 0.01 at delta = 0.3087 ft, under 48 E I delta / L^3 = 2.824e6 lb.
 #[test]
 fn rails_held_lengthwise_at_both_ends_warn_where_that_would_stiffen_them() {
     let influence = r#"{"spec": "taut.json", "foundation": "influence"}"#;
-    assert_eq!(warned(influence, 2.8e6, 30.0, 0.0, false), Vec::<String>::new());
+    assert_eq!(
+        warned(influence, 2.8e6, 30.0, 0.0, false),
+        Vec::<String>::new()
+    );
     let taut = warned(influence, 2.85e6, 30.0, 0.0, false);
-    assert!(taut.len() == 1 && taut[0].contains("restrain it lengthwise"), "{taut:?}");
+    assert!(
+        taut.len() == 1 && taut[0].contains("restrain it lengthwise"),
+        "{taut:?}"
+    );
 }
 
 #[test]
@@ -116,13 +158,22 @@ fn bodies_that_roll_freely_over_akispl_warn() {
     };
     let free = warned(&read("akispl"), 1e5, 20.0, 5.0, true);
     assert!(
-        free.iter().any(|warning| warning.contains("read by akispl, which is not symmetric")),
+        free.iter()
+            .any(|warning| warning.contains("read by akispl, which is not symmetric")),
         "{free:?}"
     );
     for (reading, free) in [("natural", true), ("akispl", false)] {
         let all = warned(&read(reading), 1e5, 20.0, 5.0, free);
-        assert!(all.iter().all(|warning| !warning.contains("not symmetric:")), "{reading}: {all:?}");
-        assert!(!all.iter().any(|warning| warning.contains("rolls freely over")), "{reading}: {all:?}");
+        assert!(
+            all.iter()
+                .all(|warning| !warning.contains("not symmetric:")),
+            "{reading}: {all:?}"
+        );
+        assert!(
+            !all.iter()
+                .any(|warning| warning.contains("rolls freely over")),
+            "{reading}: {all:?}"
+        );
     }
 }
 
@@ -131,7 +182,10 @@ fn bodies_that_roll_freely_over_akispl_warn() {
 fn wheels_off_their_rail_warn_with_the_time() {
     let rigid = r#"{"spec": "girder.json", "foundation": "rigid"}"#;
     let all = warned_with(rigid, 1e6, 20.0, 5.0, false, r#", "start": {"y": 1}"#);
-    assert_eq!(all, ["truck.wheel1 is off its rail at 11 of 11 output times, first at 0 s"]);
+    assert_eq!(
+        all,
+        ["truck.wheel1 is off its rail at 11 of 11 output times, first at 0 s"]
+    );
 }
 
 #[test]
@@ -150,11 +204,18 @@ fn wheels_that_are_braked_alone_warn_with_what_applies_a_brake() {
         fs::write(folder.path().join("scene.json"), scene).expect("written");
         let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
         assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-        text(&run.stderr).lines().filter(|line| line.contains("braked")).map(str::to_owned).collect()
+        text(&run.stderr)
+            .lines()
+            .filter(|line| line.contains("braked"))
+            .map(str::to_owned)
+            .collect()
     };
     let alone = braked("");
     assert_eq!(alone.len(), 1, "{alone:?}");
     assert!(alone[0].contains(r#"{"brake": "car"}"#), "{alone:?}");
-    assert!(!alone[0].contains("friction"), "the wheels have it: {alone:?}");
+    assert!(
+        !alone[0].contains("friction"),
+        "the wheels have it: {alone:?}"
+    );
     assert!(braked(r#"{"body": "car", "dof": "x", "kind": "free", "brake": 0.005}"#).is_empty());
 }

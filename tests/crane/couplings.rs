@@ -18,8 +18,7 @@ fn at_rest() -> Value {
     scene["structures"]["aisle"]["longitudinal"] = json!(false);
     scene["end"]["time"] = json!(0.02);
     scene["output"] = json!({"dt": 0.01, "reactions": false, "sections": false});
-    let parted =
-        |label: &str, word: &str| json!({"label": label, "structures": {"aisle": {"couplings": word}}});
+    let parted = |label: &str, word: &str| json!({"label": label, "structures": {"aisle": {"couplings": word}}});
     scene["compare"] = json!([parted("rails", "within rails"), parted("alone", "none")]);
     scene
 }
@@ -30,19 +29,28 @@ fn at_rest() -> Value {
 fn weights_are_carried_whatever_couplings_are_left_out() {
     let (histories, _) = run(&at_rest());
     let first = |history: &History, name: &str| history.column(name)[0];
-    let girders =
-        first(&histories[0], "girders.west.reaction") + first(&histories[0], "girders.east.reaction");
-    let all = first(&histories[0], "aisle.north.reaction") + first(&histories[0], "aisle.south.reaction");
+    let girders = first(&histories[0], "girders.west.reaction")
+        + first(&histories[0], "girders.east.reaction");
+    let all =
+        first(&histories[0], "aisle.north.reaction") + first(&histories[0], "aisle.south.reaction");
     let own = all - (BRIDGE + TROLLEY + LADLE);
     assert!(own > 1e5 && own < 3e5, "{own}: the girders' own weight");
     let mut pressed = 0.0_f64;
     for history in &histories {
-        let carried = first(history, "girders.west.reaction") + first(history, "girders.east.reaction");
+        let carried =
+            first(history, "girders.west.reaction") + first(history, "girders.east.reaction");
         let below = first(history, "aisle.north.reaction") + first(history, "aisle.south.reaction");
-        let off = [carried / (TROLLEY + LADLE) - 1.0, carried / girders - 1.0, below / all - 1.0];
+        let off = [
+            carried / (TROLLEY + LADLE) - 1.0,
+            carried / girders - 1.0,
+            below / all - 1.0,
+        ];
         println!("{off:?}");
         assert!(off.iter().all(|off| off.abs() < 1e-7), "{off:?}");
-        let sideways = history.all("", ".lateral").iter().fold(0.0_f64, |most, own| most.max(own[0].abs()));
+        let sideways = history
+            .all("", ".lateral")
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(own[0].abs()));
         pressed = pressed.max(sideways);
         let tension = history.column("hoist.tension")[0];
         assert!((tension / LADLE - 1.0).abs() < 1e-9, "{tension}");
@@ -72,7 +80,11 @@ fn each_rail_gives_by_the_wheels_that_couplings_keep() {
         let probes: Vec<Probe> = [Axis::Vertical, Axis::Lateral]
             .into_iter()
             .flat_map(|axis| wheels.iter().map(move |(wheel, rail)| (wheel, *rail, axis)))
-            .map(|(wheel, rail, axis)| Probe { rail, x: of(wheel, "x"), axis })
+            .map(|(wheel, rail, axis)| Probe {
+                rail,
+                x: of(wheel, "x"),
+                axis,
+            })
             .collect();
         let forces: Vec<f64> = [("vertical", -1.0), ("lateral", 1.0)]
             .into_iter()
@@ -80,7 +92,9 @@ fn each_rail_gives_by_the_wheels_that_couplings_keep() {
             .map(|(wheel, part, sign)| sign * of(wheel, part))
             .collect();
         let mut give = Influence::zeros(probes.len());
-        surface.fill(&probes, &mut give).expect("wheels on their rails");
+        surface
+            .fill(&probes, &mut give)
+            .expect("wheels on their rails");
         let sags: Vec<f64> = (0..wheels.len())
             .map(|i| {
                 let kept = |j: &usize| match word {
@@ -88,16 +102,24 @@ fn each_rail_gives_by_the_wheels_that_couplings_keep() {
                     "within rails" => probes[i].rail == probes[*j].rail,
                     _ => (probes[i].rail, probes[i].axis) == (probes[*j].rail, probes[*j].axis),
                 };
-                -(0..probes.len()).filter(kept).map(|j| give.value[(i, j)] * forces[j]).sum::<f64>()
+                -(0..probes.len())
+                    .filter(kept)
+                    .map(|j| give.value[(i, j)] * forces[j])
+                    .sum::<f64>()
             })
             .collect();
         // wheels under one set of equalisers sag by their mean
         for truck in [0..4, 4..8, 8..16] {
             let wanted = sags[truck.clone()].iter().sum::<f64>() / truck.len() as f64;
-            let seen =
-                wheels[truck.clone()].iter().map(|(wheel, _)| of(wheel, "rail_deflection")).sum::<f64>();
+            let seen = wheels[truck.clone()]
+                .iter()
+                .map(|(wheel, _)| of(wheel, "rail_deflection"))
+                .sum::<f64>();
             let seen = seen / truck.len() as f64;
-            assert!((seen / wanted - 1.0).abs() < 1e-9, "{word}, {truck:?}: {seen} {wanted}");
+            assert!(
+                (seen / wanted - 1.0).abs() < 1e-9,
+                "{word}, {truck:?}: {seen} {wanted}"
+            );
         }
         let sag = of("NW.wheel1", "rail_deflection");
         match word {
@@ -106,6 +128,9 @@ fn each_rail_gives_by_the_wheels_that_couplings_keep() {
             _ => {}
         }
     }
-    println!("sag of the north rail at its first wheel: {} coupled, {} alone", moved[0], moved[1]);
+    println!(
+        "sag of the north rail at its first wheel: {} coupled, {} alone",
+        moved[0], moved[1]
+    );
     assert!((moved[1] / moved[0] - 1.0).abs() > 1e-4, "{moved:?}");
 }

@@ -32,7 +32,11 @@ fn standing(damping: [f64; 2], start: [Option<f64>; 2], end: f64) -> Vec<(Histor
     let (histories, summary) = run(&scene);
     let mut out: Vec<(History, Value)> = Vec::new();
     for (k, history) in histories.into_iter().enumerate() {
-        let own = if k == 0 { &summary } else { &summary["compare"]["rigid"] };
+        let own = if k == 0 {
+            &summary
+        } else {
+            &summary["compare"]["rigid"]
+        };
         out.push((history, own["natural_modes"].clone()));
     }
     out
@@ -41,7 +45,11 @@ fn standing(damping: [f64; 2], start: [Option<f64>; 2], end: f64) -> Vec<(Histor
 /// Frequency and kinetic share of the ladle in the mode in which it bounces.
 fn bounce(modes: &Value) -> [f64; 2] {
     let all = modes.as_array().expect("natural modes");
-    let own = |mode: &&Value| mode["mode"].as_str().is_some_and(|name| name.starts_with("ladle.Y"));
+    let own = |mode: &&Value| {
+        mode["mode"]
+            .as_str()
+            .is_some_and(|name| name.starts_with("ladle.Y"))
+    };
     let mode = all.iter().find(own).expect("a bouncing ladle");
     [&mode["hz"], &mode["fractions"]["ladle.Y"]].map(|value| value.as_f64().expect("a number"))
 }
@@ -59,19 +67,24 @@ fn a_plucked_ladle_rings_and_dies_away_as_its_mode_says() {
     assert!(soft < 0.92 * stiff, "{soft} {stiff}");
     let mut wheels = [0.0; 2];
     for ratio in [0.0, 0.005, 0.01, 0.02, 0.05] {
-        let damping =
-            modes.map(|[hz, share]| 2.0 * ratio * ROPE * ROPE / (share * mass * (TAU * hz).powi(3)));
+        let damping = modes
+            .map(|[hz, share]| 2.0 * ratio * ROPE * ROPE / (share * mass * (TAU * hz).powi(3)));
         for (k, (history, _)) in standing(damping, start, 5.0).iter().enumerate() {
             // half a second for what else the pluck shakes
             let ring = &history.column("hoist.tension")[50..];
-            let found = decay(ring, 0.01, 0.05).expect("samples").expect("a ringing rope");
+            let found = decay(ring, 0.01, 0.05)
+                .expect("samples")
+                .expect("a ringing rope");
             let hz = modes[k][0];
             let name = ["flexible", "rigid"][k];
             println!(
                 "{name}, rope {ratio}: damping {:.5}, {:.4} Hz of {hz:.4} by the mode, c {:.0}",
                 found.ratio, found.frequency, damping[k]
             );
-            assert!((found.frequency / hz - 1.0).abs() < 0.01, "{name}, {ratio}: {found:?} {hz}");
+            assert!(
+                (found.frequency / hz - 1.0).abs() < 0.01,
+                "{name}, {ratio}: {found:?} {hz}"
+            );
             if ratio == 0.0 {
                 // the wheels' own dampers
                 wheels[k] = found.ratio;

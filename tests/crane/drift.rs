@@ -11,8 +11,10 @@ fn drift_is_the_largest_that_gauges_at_the_columns_read() {
     let mut scene = scene("skew");
     scene["end"]["time"] = json!(4);
     scene["output"] = json!({"dt": 0.05, "reactions": false, "sections": false, "stresses": false});
-    let columns =
-        [("north", &[45.0, 90.0, 150.0, 195.0][..]), ("south", &[45.0, 90.0, 120.0, 150.0, 195.0][..])];
+    let columns = [
+        ("north", &[45.0, 90.0, 150.0, 195.0][..]),
+        ("south", &[45.0, 90.0, 120.0, 150.0, 195.0][..]),
+    ];
     let mut gauges = json!({});
     for (rail, places) in columns {
         for x in places {
@@ -27,18 +29,28 @@ fn drift_is_the_largest_that_gauges_at_the_columns_read() {
         let of = |key: &str| drift[key].as_f64().expect(key);
         let read = |x: &f64| {
             let values = histories[0].column(&format!("aisle.{rail} {x}"));
-            values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
+            values
+                .iter()
+                .fold(0.0_f64, |most, value| most.max(value.abs()))
         };
         let most = places.iter().map(read).fold(0.0, f64::max);
-        println!("{rail}: {} at {}, {most} of the gauges", of("displacement"), of("x"));
+        println!(
+            "{rail}: {} at {}, {most} of the gauges",
+            of("displacement"),
+            of("x")
+        );
         assert!(most > 1e-2, "{most}");
-        assert!((of("displacement") / most - 1.0).abs() < 1e-9, "{drift} {most}");
+        assert!(
+            (of("displacement") / most - 1.0).abs() < 1e-9,
+            "{drift} {most}"
+        );
         let height = of("height");
         assert!((50.0..60.0).contains(&height), "{height}");
         let limits = drift["limits"].as_array().expect("limits");
         assert_eq!(limits[0]["value"], height / 400.0);
         assert!(
-            (limits[1]["value"].as_f64().expect("a limit") / (height / 400.0).min(1.0 / 6.0) - 1.0).abs()
+            (limits[1]["value"].as_f64().expect("a limit") / (height / 400.0).min(1.0 / 6.0) - 1.0)
+                .abs()
                 < 1e-12
         );
     }

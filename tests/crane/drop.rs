@@ -17,26 +17,51 @@ fn a_dropped_load_falls_freely_and_the_whole_crane_bounces() {
     scene["output"]["dt"] = json!(0.02);
     let (histories, summary) = run(&scene);
     let history = &histories[0];
-    let (time, height, tension) =
-        (history.column("time"), history.column("ladle.Y"), history.column("hoist.tension"));
+    let (time, height, tension) = (
+        history.column("time"),
+        history.column("ladle.Y"),
+        history.column("hoist.tension"),
+    );
     let mut fallen = 0;
     for ((t, y), force) in time.iter().zip(height).zip(tension) {
         let since = (t - FALLS).max(0.0);
         let wanted = height[0] - 0.5 * GRAVITY * since * since;
-        assert!((y - wanted).abs() < 1e-6 * (1.0 + since), "t = {t}: {y}, {wanted}");
+        assert!(
+            (y - wanted).abs() < 1e-6 * (1.0 + since),
+            "t = {t}: {y}, {wanted}"
+        );
         let carried = if *t <= FALLS { LADLE } else { 0.0 };
-        assert!((force - carried).abs() < 1e-6 * LADLE || (t - FALLS).abs() < 1e-9, "t = {t}: {force}");
+        assert!(
+            (force - carried).abs() < 1e-6 * LADLE || (t - FALLS).abs() < 1e-9,
+            "t = {t}: {force}"
+        );
         fallen += usize::from(since > 0.0);
     }
     assert!(fallen > 90, "{fallen}");
     // it is thrown off its girders, lands and clatters: the run goes on to its end
-    let least = history.column("girders.west.reaction").iter().copied().fold(f64::INFINITY, f64::min);
+    let least = history
+        .column("girders.west.reaction")
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
     let steps = &summary["steps"];
-    println!("least force {least}, {steps}, energy {}", summary["energy"]["residual"]);
+    println!(
+        "least force {least}, {steps}, energy {}",
+        summary["energy"]["residual"]
+    );
     assert_eq!(summary["status"], "done");
     assert_eq!(least, 0.0);
-    assert!(steps["events"].as_u64().is_some_and(|events| events > 20), "{steps}");
-    assert!(summary["energy"]["residual"].as_f64().is_some_and(|left| left < 1e-4), "{}", summary["energy"]);
+    assert!(
+        steps["events"].as_u64().is_some_and(|events| events > 20),
+        "{steps}"
+    );
+    assert!(
+        summary["energy"]["residual"]
+            .as_f64()
+            .is_some_and(|left| left < 1e-4),
+        "{}",
+        summary["energy"]
+    );
 }
 
 /// Analytic: on rails that do not give and without dampers the bridge on sixteen wheels and the trolley on four are two masses on
@@ -58,7 +83,10 @@ fn carriers_of_a_lighter_load_rebound_as_two_masses() {
     let (histories, _) = run(&scene);
     let history = &histories[0];
     let carried = |row: usize| -> f64 {
-        ["aisle.north.reaction", "aisle.south.reaction"].iter().map(|rail| history.column(rail)[row]).sum()
+        ["aisle.north.reaction", "aisle.south.reaction"]
+            .iter()
+            .map(|rail| history.column(rail)[row])
+            .sum()
     };
     let girders = carried(0) - BRIDGE - TROLLEY - load;
     let [lower, upper] = wheels.map(|count| count * k);
@@ -77,9 +105,18 @@ fn carriers_of_a_lighter_load_rebound_as_two_masses() {
     });
     let (mut worst, mut least, mut rows) = (0.0_f64, f64::INFINITY, 0);
     let sides = ["girders.west.reaction", "girders.east.reaction"].map(|rail| history.column(rail));
-    for (row, t) in history.column("time").iter().enumerate().filter(|(_, t)| **t > FALLS + 1e-9) {
+    for (row, t) in history
+        .column("time")
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| **t > FALLS + 1e-9)
+    {
         let since = t - FALLS;
-        let wanted = TROLLEY + parts.iter().map(|(omega, part)| part * (omega * since).cos()).sum::<f64>();
+        let wanted = TROLLEY
+            + parts
+                .iter()
+                .map(|(omega, part)| part * (omega * since).cos())
+                .sum::<f64>();
         let seen = sides[0][row] + sides[1][row];
         worst = worst.max((seen - wanted).abs() / TROLLEY);
         least = least.min(seen);

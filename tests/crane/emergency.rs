@@ -20,7 +20,10 @@ fn an_emergency_stop_leaves_the_ladle_swinging_by_the_root_of_l_over_g() {
     let time = history.column("time");
     let from = time.iter().position(|t| *t >= braked).expect("a row");
     let of = |name: &str| history.column(name);
-    let carried: f64 = ["aisle.north.reaction", "aisle.south.reaction"].iter().map(|rail| of(rail)[0]).sum();
+    let carried: f64 = ["aisle.north.reaction", "aisle.south.reaction"]
+        .iter()
+        .map(|rail| of(rail)[0])
+        .sum();
     let ladle = 1.02e6;
     let crane = carried - ladle;
     // along the runway
@@ -32,7 +35,8 @@ fn an_emergency_stop_leaves_the_ladle_swinging_by_the_root_of_l_over_g() {
             0.5 * (push(i) + push(i - 1)) * (time[i] - time[i - 1])
         })
         .sum();
-    let momentum = |i: usize| (crane * of("bridge.speed")[i] + ladle * of("ladle.X_speed")[i]) / GRAVITY;
+    let momentum =
+        |i: usize| (crane * of("bridge.speed")[i] + ladle * of("ladle.X_speed")[i]) / GRAVITY;
     let lost = momentum(from - 1) - momentum(last);
     println!("brakes {impulse:.4e}, momentum lost {lost:.4e}");
     assert!((impulse + lost).abs() < 0.02 * lost, "{impulse} {lost}");
@@ -44,7 +48,10 @@ fn an_emergency_stop_leaves_the_ladle_swinging_by_the_root_of_l_over_g() {
     let root = (40.0 * (1.0 + ladle / 2.8e8) / GRAVITY).sqrt();
     let swing = |axis: &str, rest: f64| {
         let place = of(&format!("ladle.{axis}"));
-        let most = place[from..].iter().map(|x| (x - rest).abs()).fold(0.0_f64, f64::max);
+        let most = place[from..]
+            .iter()
+            .map(|x| (x - rest).abs())
+            .fold(0.0_f64, f64::max);
         let speed = of(&format!("ladle.{axis}_speed"))[from - 1];
         [most, (speed * root).hypot(place[from - 1] - rest)]
     };

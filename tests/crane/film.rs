@@ -6,11 +6,18 @@ use super::{run_whole, scene};
 
 /// What moves in a report, frame by frame, and the time that it stands at.
 fn film(report: &str) -> (Value, f64) {
-    let (_, rest) = report.split_once("class=\"picture animation\"").expect("a picture that moves");
-    let (_, rest) = rest.split_once("data-still=\"").expect("a frame that stands");
+    let (_, rest) = report
+        .split_once("class=\"picture animation\"")
+        .expect("a picture that moves");
+    let (_, rest) = rest
+        .split_once("data-still=\"")
+        .expect("a frame that stands");
     let (still, rest) = rest.split_once("\">").expect("an attribute");
     let (data, _) = rest.split_once("</script>").expect("an end");
-    (serde_json::from_str(data).expect("JSON"), still.parse().expect("a time"))
+    (
+        serde_json::from_str(data).expect("JSON"),
+        still.parse().expect("a time"),
+    )
 }
 
 /// The numbers of a code: whole steps of a power of ten, each from the one before; the last step repeats.
@@ -58,11 +65,18 @@ fn pictures_move_as_the_history_does() {
     let scale = (moved[0][last][0] - moved[0][0][0]) / (bridge[last] - bridge[0]);
     // 748 pixels for 240 ft between the outer columns
     assert!((scale / (748.0 / 240.0) - 1.0).abs() < 0.05, "{scale}");
-    for (places, column) in [(&moved[0], "bridge.x"), (&moved[1], "bridge.x"), (&moved[2], "ladle.X")] {
+    for (places, column) in [
+        (&moved[0], "bridge.x"),
+        (&moved[1], "bridge.x"),
+        (&moved[2], "ladle.X"),
+    ] {
         let x = history.column(column);
         for (place, x_now) in places.iter().zip(x) {
             let wanted = (x_now - x[0]) * scale;
-            assert!((place[0] - places[0][0] - wanted).abs() < 0.03, "{column}: {place:?} {wanted}");
+            assert!(
+                (place[0] - places[0][0] - wanted).abs() < 0.03,
+                "{column}: {place:?} {wanted}"
+            );
         }
     }
     let says: Vec<&Value> = tracks.iter().filter(|track| track["a"] == "text").collect();

@@ -24,8 +24,8 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
     scene["end"]["time"] = json!(0.4);
     scene["output"] = json!({"dt": 0.01, "reactions": ["aisle"], "sections": false});
     std::fs::write(folder.path().join("scene.json"), scene.to_string()).expect("written");
-    let document =
-        Document::open(&folder.path().join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let document = Document::open(&folder.path().join("scene.json"))
+        .unwrap_or_else(|wrong| panic!("{wrong:?}"));
     let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
         .map(|(_, _, spec)| SolvedStructure {
@@ -42,20 +42,33 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
         true,
     )
     .expect("a foundation");
-    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else {
+        panic!("natural modes")
+    };
     let (record, history) = (&outcomes[0].columns, &outcomes[0].run.history);
     let all = |begin: &str, end: &str| -> Vec<&Vec<f64>> {
-        let own = record.columns.iter().filter(|c| c.name.starts_with(begin) && c.name.ends_with(end));
+        let own = record
+            .columns
+            .iter()
+            .filter(|c| c.name.starts_with(begin) && c.name.ends_with(end));
         own.map(|column| &column.values).collect()
     };
-    let weight: f64 =
-        ["aisle.north.reaction", "aisle.south.reaction"].map(|rail| record.values(rail)[0]).iter().sum();
-    for (k, (freedom, part, sign)) in
-        [(".ux", ".traction", -1.0), (".uy", ".vertical", -1.0), (".uz", ".lateral", 1.0)]
-            .into_iter()
-            .enumerate()
+    let weight: f64 = ["aisle.north.reaction", "aisle.south.reaction"]
+        .map(|rail| record.values(rail)[0])
+        .iter()
+        .sum();
+    for (k, (freedom, part, sign)) in [
+        (".ux", ".traction", -1.0),
+        (".uy", ".vertical", -1.0),
+        (".uz", ".lateral", 1.0),
+    ]
+    .into_iter()
+    .enumerate()
     {
-        let wheels: Vec<&Vec<f64>> = ["NW.", "NE.", "S."].iter().flat_map(|truck| all(truck, part)).collect();
+        let wheels: Vec<&Vec<f64>> = ["NW.", "NE.", "S."]
+            .iter()
+            .flat_map(|truck| all(truck, part))
+            .collect();
         let ground = all("aisle.", freedom);
         assert_eq!((wheels.len(), ground.len() > 5), (16, true), "{freedom}");
         let (mut worst, mut most) = (0.0_f64, 0.0_f64);

@@ -54,7 +54,10 @@ fn deflections_under_static_loads_are_those_of_the_closed_form() {
         };
         let found = limit["static_deflection"].as_f64().expect("a number");
         assert!((found / wanted - 1.0).abs() < 1e-9, "{limit}");
-        assert!((limit["x"].as_f64().expect("a place") - 30.0).abs() < 1e-9, "{limit}");
+        assert!(
+            (limit["x"].as_f64().expect("a place") - 30.0).abs() < 1e-9,
+            "{limit}"
+        );
         for code in limit["codes"].as_array().expect("codes") {
             let allowable = code["value"].as_f64().expect("a number");
             assert_eq!(code["within"], json!(found <= allowable), "{code}");
@@ -63,7 +66,10 @@ fn deflections_under_static_loads_are_those_of_the_closed_form() {
     // 60 ft/1000 = 0.06 ft by Design Guide 7 for class E, 25 mm = 0.0820 ft by EN 1993-6, below 60 ft/600
     let of = |code: &str| {
         let codes = limits[0]["codes"].as_array().expect("codes");
-        let own = codes.iter().find(|limit| limit["code"] == code).expect(code);
+        let own = codes
+            .iter()
+            .find(|limit| limit["code"] == code)
+            .expect(code);
         own["value"].as_f64().expect("a number")
     };
     assert!((of("AISC Design Guide 7") - 0.06).abs() < 1e-12);

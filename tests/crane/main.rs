@@ -1,6 +1,9 @@
 //! The bridge crane and its parts against closed forms: pendulum, sudden stop, hoisting, buffers, equilibrium.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -33,7 +36,8 @@ fn example() -> PathBuf {
 }
 
 fn read(path: &Path) -> Value {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let text =
+        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
@@ -48,11 +52,18 @@ impl History {
     /// Columns whose names begin and end so.
     fn all(&self, begin: &str, end: &str) -> Vec<&[f64]> {
         let fits = |name: &str| name.starts_with(begin) && name.ends_with(end);
-        self.0.iter().filter(|(name, _)| fits(name)).map(|(_, values)| values.as_slice()).collect()
+        self.0
+            .iter()
+            .filter(|(name, _)| fits(name))
+            .map(|(_, values)| values.as_slice())
+            .collect()
     }
 
     fn most(&self, name: &str) -> f64 {
-        self.column(name).iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        self.column(name)
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
@@ -72,7 +83,11 @@ fn run_in(folder: &Path) -> PathBuf {
         .arg(&out)
         .output()
         .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     out
 }
 
@@ -86,17 +101,26 @@ fn run_whole(scene: &Value) -> (Vec<History>, Value, String) {
     let out = run_in(folder.path());
     let mut files = vec![out.join("history.csv")];
     let labels = scene["compare"].as_array().into_iter().flatten();
-    files.extend(
-        labels.map(|case| out.join(format!("history-{}.csv", case["label"].as_str().unwrap_or_default()))),
-    );
+    files.extend(labels.map(|case| {
+        out.join(format!(
+            "history-{}.csv",
+            case["label"].as_str().unwrap_or_default()
+        ))
+    }));
     let report = std::fs::read_to_string(out.join("report.html")).expect("a report");
-    (files.iter().map(|file| History::read(file)).collect(), read(&out.join("summary.json")), report)
+    (
+        files.iter().map(|file| History::read(file)).collect(),
+        read(&out.join("summary.json")),
+        report,
+    )
 }
 
 /// Times at which a history passes zero upwards, by lines between rows.
 fn upwards(times: &[f64], values: &[f64]) -> Vec<f64> {
     (1..values.len())
         .filter(|&k| values[k - 1] < 0.0 && values[k] >= 0.0)
-        .map(|k| times[k - 1] + (times[k] - times[k - 1]) * values[k - 1] / (values[k - 1] - values[k]))
+        .map(|k| {
+            times[k - 1] + (times[k] - times[k - 1]) * values[k - 1] / (values[k - 1] - values[k])
+        })
         .collect()
 }

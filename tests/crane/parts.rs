@@ -50,13 +50,21 @@ fn a_ladle_swings_in_the_period_of_a_pendulum() {
     let (histories, summary) = run(&scene);
     let swing = &histories[0];
     let passes = upwards(swing.column("time"), swing.column("ladle.Z"));
-    let [first, .., last] = passes[..] else { panic!("{passes:?}") };
+    let [first, .., last] = passes[..] else {
+        panic!("{passes:?}")
+    };
     let period = (last - first) / (passes.len() - 1) as f64;
     let wanted = TAU * (hung() / GRAVITY).sqrt() * (1.0 + (aside / hung()).powi(2) / 16.0);
     println!("period {period} s, {wanted} of the closed form");
     assert!((period / wanted - 1.0).abs() < 2e-3, "{period} {wanted}");
     assert!((swing.most("ladle.Z") / aside - 1.0).abs() < 1e-3);
-    assert!(summary["energy"]["residual"].as_f64().is_some_and(|left| left < 1e-6), "{}", summary["energy"]);
+    assert!(
+        summary["energy"]["residual"]
+            .as_f64()
+            .is_some_and(|left| left < 1e-6),
+        "{}",
+        summary["energy"]
+    );
 }
 
 /// Analytic: a trolley at v that stops at once leaves its ladle swinging by v sqrt(l/g), more exactly by theta with
@@ -73,7 +81,10 @@ fn a_sudden_stop_swings_the_ladle_by_the_root_of_l_over_g() {
     let swing = histories[0].most("ladle.X") - end;
     let angle = (1.0 - speed * speed / (2.0 * GRAVITY * hung())).acos();
     let wanted = hung() * angle.sin();
-    println!("swing {swing} ft, {wanted} exactly, {} by v sqrt(l/g)", speed * (hung() / GRAVITY).sqrt());
+    println!(
+        "swing {swing} ft, {wanted} exactly, {} by v sqrt(l/g)",
+        speed * (hung() / GRAVITY).sqrt()
+    );
     assert!((swing / wanted - 1.0).abs() < 1e-2, "{swing} {wanted}");
 }
 
@@ -103,7 +114,10 @@ fn hoisting_off_the_floor_peaks_at_the_two_mass_closed_form() {
 fn a_buffer_takes_v_sqrt_m_k() {
     let (speed, k) = (3.33, 2e5);
     let mut scene = trolley(2.0);
-    scene["bodies"].as_object_mut().expect("bodies").remove("ladle");
+    scene["bodies"]
+        .as_object_mut()
+        .expect("bodies")
+        .remove("ladle");
     scene["ropes"] = json!([]);
     scene["bodies"]["trolley"]["dof"] = json!(["x", "y", "roll", "pitch"]);
     scene["bodies"]["trolley"]["v0"] = json!(speed);

@@ -49,15 +49,23 @@ fn feet_of_columns_hold_the_moment_of_drive_and_flanges() {
         let [x, z] = [0, 2].map(|k| point[k].as_f64().expect("a coordinate"));
         for (freedom, arm) in [("ux", z), ("uz", -x), ("ry", 1.0)] {
             let all = history.all(&format!("aisle.{name}.{freedom}"), "");
-            for (sum, value) in ground.iter_mut().zip(all.first().expect("a reaction").iter()) {
+            for (sum, value) in ground
+                .iter_mut()
+                .zip(all.first().expect("a reaction").iter())
+            {
                 *sum += arm * value;
             }
         }
     }
     let [push, flanges] = moments(history, 0.0);
     let largest = push.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
-    let apart = (0..rows).map(|row| (ground[row] - push[row] - flanges[row]).abs()).fold(0.0, f64::max);
-    println!("moments {:.1e} of the largest, {largest} lbf ft, apart", apart / largest);
+    let apart = (0..rows)
+        .map(|row| (ground[row] - push[row] - flanges[row]).abs())
+        .fold(0.0, f64::max);
+    println!(
+        "moments {:.1e} of the largest, {largest} lbf ft, apart",
+        apart / largest
+    );
     assert!(apart < 1e-9 * largest && largest > 1e6, "{apart} {largest}");
 }
 
@@ -73,7 +81,9 @@ fn flanges_turn_back_what_a_one_sided_drive_turns() {
         let last = |name: &str| history.column(name).last().copied().expect("rows");
         let time = history.column("time");
         let impulse = |values: &[f64]| -> f64 {
-            (1..time.len()).map(|i| 0.5 * (values[i] + values[i - 1]) * (time[i] - time[i - 1])).sum()
+            (1..time.len())
+                .map(|i| 0.5 * (values[i] + values[i - 1]) * (time[i] - time[i - 1]))
+                .sum()
         };
         let [push, flanges] = moments(history, last("bridge.x")).map(|moment| impulse(&moment));
         // The trolley stands 14 ft from the south; the girders' mass lies evenly.
@@ -82,9 +92,20 @@ fn flanges_turn_back_what_a_one_sided_drive_turns() {
         let ladle = 1.02e6 / GRAVITY * (z * last("ladle.X_speed") - x * last("ladle.Z_speed"));
         let gained = trolley + ladle;
         println!("{label}: drive {push:.4e}, flanges {flanges:.4e}, gained {gained:.4e}");
-        assert!(push > 5e6 && flanges < -0.5 * push, "{label}: {push} {flanges}");
-        assert!((push + flanges - gained).abs() < 0.03 * push, "{label}: {push} {flanges} {gained}");
+        assert!(
+            push > 5e6 && flanges < -0.5 * push,
+            "{label}: {push} {flanges}"
+        );
+        assert!(
+            (push + flanges - gained).abs() < 0.03 * push,
+            "{label}: {push} {flanges} {gained}"
+        );
         // only the north wheels drive
-        assert!(history.all("S.", ".traction").iter().all(|own| own.iter().all(|force| *force == 0.0)));
+        assert!(
+            history
+                .all("S.", ".traction")
+                .iter()
+                .all(|own| own.iter().all(|force| *force == 0.0))
+        );
     }
 }

@@ -14,7 +14,11 @@ fn root() -> PathBuf {
 
 fn crosscheck(spec: &Path, more: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_girderway"));
-    command.args(["crosscheck", "--json"]).arg(spec).args(more).env("XDG_CACHE_HOME", cache());
+    command
+        .args(["crosscheck", "--json"])
+        .arg(spec)
+        .args(more)
+        .env("XDG_CACHE_HOME", cache());
     command.output().expect("the program starts")
 }
 
@@ -26,13 +30,19 @@ fn result(output: &Output) -> Value {
 /// Largest difference of a grid from a code, by the first word of its name.
 fn difference(result: &Value, code: &str, grid: &str) -> f64 {
     let list = |value: &Value| value.as_array().expect("a list").clone();
-    let named =
-        |value: &Value, key: &str, name: &str| value[key].as_str().is_some_and(|t| t.starts_with(name));
+    let named = |value: &Value, key: &str, name: &str| {
+        value[key].as_str().is_some_and(|t| t.starts_with(name))
+    };
     let compared = list(&result["compared"]);
-    let outcome =
-        compared.iter().find(|outcome| named(outcome, "code", code)).expect("the code was compared");
+    let outcome = compared
+        .iter()
+        .find(|outcome| named(outcome, "code", code))
+        .expect("the code was compared");
     let differences = list(&outcome["differences"]);
-    let found = differences.iter().find(|d| d["grid"] == grid).expect("the grid was compared");
+    let found = differences
+        .iter()
+        .find(|d| d["grid"] == grid)
+        .expect("the grid was compared");
     found["relative"].as_f64().expect("a number")
 }
 
@@ -49,7 +59,10 @@ fn mill_girderway_agrees_with_both_frame_codes() {
         for code in ["OpenSees", "PyNite"] {
             for quantity in GridBlock::ALL {
                 let relative = difference(&result, code, quantity.name());
-                assert!(relative < 1e-8, "{theory}, {code}, {quantity}: {relative:e}");
+                assert!(
+                    relative < 1e-8,
+                    "{theory}, {code}, {quantity}: {relative:e}"
+                );
             }
         }
     }
@@ -67,8 +80,12 @@ fn a_frame_with_everything_agrees_with_both_frame_codes() {
     let result = result(&output);
     assert!(output.status.success(), "{result:#}");
     for quantity in GridBlock::ALL {
-        let relative = ["OpenSees", "PyNite"].map(|code| difference(&result, code, quantity.name()));
-        assert!(relative[0] < 5e-8 && relative[1] < 1e-10, "{quantity}: {relative:?}");
+        let relative =
+            ["OpenSees", "PyNite"].map(|code| difference(&result, code, quantity.name()));
+        assert!(
+            relative[0] < 5e-8 && relative[1] < 1e-10,
+            "{quantity}: {relative:?}"
+        );
     }
 }
 
@@ -137,7 +154,10 @@ fn solids_agree_with_timoshenko_beams() {
         let result = result(&output);
         assert!(output.status.success(), "{result:#}");
         let found = ["vertical", "lateral"].map(|grid| difference(&result, "gmsh", grid));
-        assert!(found[0] < vertical && found[1] < lateral, "{name}: {found:?}");
+        assert!(
+            found[0] < vertical && found[1] < lateral,
+            "{name}: {found:?}"
+        );
         assert!(difference(&result, "scikit-fem", "vertical") < 1e-9);
     }
 }
@@ -172,10 +192,14 @@ fn a_wrong_shear_area_is_found_by_the_solid_alone() {
     if environment().is_none() {
         return;
     }
-    let text = std::fs::read_to_string(root().join("fea/rectangle_20.json")).expect("the spec is there");
+    let text =
+        std::fs::read_to_string(root().join("fea/rectangle_20.json")).expect("the spec is there");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let spec = folder.path().join("spec.json");
-    let wrong = text.replace("\"kA_vertical\": 0.4166666666666667", "\"kA_vertical\": 0.2");
+    let wrong = text.replace(
+        "\"kA_vertical\": 0.4166666666666667",
+        "\"kA_vertical\": 0.2",
+    );
     assert_ne!(wrong, text);
     std::fs::write(&spec, wrong).expect("a writable folder");
     let out = folder.path().join("out");
@@ -218,7 +242,10 @@ fn sections_and_crane_rails_by_name_are_compared() {
         assert_eq!(output.status.code(), Some(0), "{result:#}");
         for code in ["OpenSees", "PyNite"] {
             for quantity in ["vertical", "lateral"] {
-                assert!(difference(&result, code, quantity) < 1e-9, "{code} {quantity}: {result:#}");
+                assert!(
+                    difference(&result, code, quantity) < 1e-9,
+                    "{code} {quantity}: {result:#}"
+                );
             }
         }
     }
@@ -237,7 +264,9 @@ fn paper() -> (Value, Vec<Station>) {
 
 #[test]
 fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
-    let Some(environment) = environment() else { return };
+    let Some(environment) = environment() else {
+        return;
+    };
     let (spec, stations) = paper();
     let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
     let mut vertical: PlainGrid = PAPER.iter().map(|row| row.to_vec()).collect();
@@ -245,11 +274,22 @@ fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
         let ours = [(GridBlock::Vertical, vertical.clone())];
         let outcome = ask(peer, &question, &ours, &stations, environment, &mut |_| {});
         let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
-        assert!(outcome.agrees() && outcome.differences[0].relative < 1e-11, "{}", outcome.table(&[]));
+        assert!(
+            outcome.agrees() && outcome.differences[0].relative < 1e-11,
+            "{}",
+            outcome.table(&[])
+        );
     }
     vertical[2][4] *= 1.0 + 1e-6;
     let ours = [(GridBlock::Vertical, vertical)];
-    let outcome = ask(Peer::PyNite, &question, &ours, &stations, environment, &mut |_| {});
+    let outcome = ask(
+        Peer::PyNite,
+        &question,
+        &ours,
+        &stations,
+        environment,
+        &mut |_| {},
+    );
     let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
     assert!(!outcome.agrees(), "{}", outcome.table(&[]));
     assert_eq!(outcome.differences[0].at, [15.0, 45.0]);
@@ -257,13 +297,22 @@ fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
 
 #[test]
 fn sections_that_are_no_rectangle_are_refused_by_the_solid() {
-    let Some(environment) = environment() else { return };
+    let Some(environment) = environment() else {
+        return;
+    };
     let (mut spec, stations) = paper();
     spec["girder"]["A"] = json!(1.0);
     spec["girder"]["G"] = json!(1.66e9);
     spec["girder"]["I_lateral"] = json!(0.875);
     let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
-    let answer = ask(Peer::Solid, &question, &[], &stations, environment, &mut |_| {});
+    let answer = ask(
+        Peer::Solid,
+        &question,
+        &[],
+        &stations,
+        environment,
+        &mut |_| {},
+    );
     let why = answer.expect_err("I_lateral is another one").to_string();
     assert!(why.contains("no solid rectangle"), "{why}");
 }
@@ -281,8 +330,15 @@ fn without_python_the_status_is_2_and_the_hint_says_what_is_needed() {
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(message.contains("python3") && message.contains("hint"), "{message}");
-    assert_eq!(std::fs::read_dir(empty.path()).expect("the folder").count(), 0, "nothing is left behind");
+    assert!(
+        message.contains("python3") && message.contains("hint"),
+        "{message}"
+    );
+    assert_eq!(
+        std::fs::read_dir(empty.path()).expect("the folder").count(),
+        0,
+        "nothing is left behind"
+    );
 }
 
 /// With a local address at which nothing listens in place of the index, and no folder of packages.
@@ -302,8 +358,13 @@ fn without_a_package_index_the_message_comes_without_retries() {
     assert_eq!(output.status.code(), Some(2));
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     // a machine without Python stops earlier, as above
-    assert!(message.contains("package index") || message.contains("python3"), "{message}");
+    assert!(
+        message.contains("package index") || message.contains("python3"),
+        "{message}"
+    );
     assert!(!message.contains("Retrying"), "{message}");
-    let left: Vec<_> = std::fs::read_dir(empty.path().join("girderway")).expect("the cache").collect();
+    let left: Vec<_> = std::fs::read_dir(empty.path().join("girderway"))
+        .expect("the cache")
+        .collect();
     assert!(left.is_empty(), "{left:?}");
 }

@@ -90,9 +90,14 @@ fn paper() -> PlainGirder {
 pub fn environment() -> Option<&'static Environment> {
     static MADE: OnceLock<Result<Environment, String>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
-        let environment = Environment { python: "python3".into(), cache: cache().join("girderway") };
+        let environment = Environment {
+            python: "python3".into(),
+            cache: cache().join("girderway"),
+        };
         let prepared = environment.prepare(&mut |_| {});
-        prepared.map(|_| environment).map_err(|error| error.to_string())
+        prepared
+            .map(|_| environment)
+            .map_err(|error| error.to_string())
     });
     if let Err(error) = made {
         // Not by a macro: that would be seen only where a test fails.
@@ -106,7 +111,11 @@ pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("python")
 }
 
-fn compare(girder: &PlainGirder, ours: &[(GridBlock, Grid)], tolerance: f64) -> Option<PeerOutcome> {
+fn compare(
+    girder: &PlainGirder,
+    ours: &[(GridBlock, Grid)],
+    tolerance: f64,
+) -> Option<PeerOutcome> {
     match crosscheck(girder, ours, tolerance, environment()?, &mut |_| {}) {
         Ok(outcome) => Some(outcome),
         Err(error) => panic!("{error}"),
@@ -115,7 +124,10 @@ fn compare(girder: &PlainGirder, ours: &[(GridBlock, Grid)], tolerance: f64) -> 
 
 /// A grid from a function of the stations of deflection and load.
 fn grid(stations: &[f64], entry: impl Fn(f64, f64) -> f64) -> Grid {
-    stations.iter().map(|x| stations.iter().map(|z| entry(*x, *z)).collect()).collect()
+    stations
+        .iter()
+        .map(|x| stations.iter().map(|z| entry(*x, *z)).collect())
+        .collect()
 }
 
 /// Twist at x from a unit torque at z, times GJ: linear in the span, constant beyond the outer supports.
@@ -162,9 +174,14 @@ fn scikit_fem_reproduces_the_closed_forms_of_the_papers_girder() {
         }
     }
     let zero = grid(&girder.stations, |_, _| 0.0);
-    let ours =
-        [(GridBlock::Vertical, vertical), (GridBlock::Lateral, lateral), (GridBlock::VerticalLateral, zero)];
-    let Some(outcome) = compare(&girder, &ours, 1e-11) else { return };
+    let ours = [
+        (GridBlock::Vertical, vertical),
+        (GridBlock::Lateral, lateral),
+        (GridBlock::VerticalLateral, zero),
+    ];
+    let Some(outcome) = compare(&girder, &ours, 1e-11) else {
+        return;
+    };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
     assert_eq!(outcome.differences.len(), 3, "{}", outcome.table(&[]));
     assert_eq!(outcome.code, "scikit-fem 12.0.2");
@@ -173,13 +190,19 @@ fn scikit_fem_reproduces_the_closed_forms_of_the_papers_girder() {
 #[test]
 fn scikit_fem_reproduces_the_longitudinal_closed_forms_at_the_supports() {
     // Slope of a simply supported span at its ends from moments at its ends: L/3EI and -L/6EI.
-    let girder = PlainGirder { overhangs: [0.0; 2], stations: vec![0.0, 60.0], ..paper() };
+    let girder = PlainGirder {
+        overhangs: [0.0; 2],
+        stations: vec![0.0, 60.0],
+        ..paper()
+    };
     let bending = HEIGHT * HEIGHT * 60.0 / EI;
     let longitudinal = grid(
         &girder.stations,
         |x, z| if x == z { bending / 3.0 } else { -bending / 6.0 } + x.min(z) / 4.32e9,
     );
-    let Some(outcome) = compare(&girder, &[(GridBlock::Longitudinal, longitudinal)], 1e-12) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Longitudinal, longitudinal)], 1e-12) else {
+        return;
+    };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
@@ -187,15 +210,25 @@ fn scikit_fem_reproduces_the_longitudinal_closed_forms_at_the_supports() {
 fn longitudinal_load_at_the_rail_head_bends_the_span_as_a_moment() {
     // A load P along +x at a height h over x = 0 is a moment -h P: midspan moves by -M L^2 / 16 EI, down for
     // a moment that turns the end upwards. Source: analytic, end moment on a simply supported span.
-    let girder = PlainGirder { overhangs: [0.0; 2], stations: vec![0.0, 30.0, 60.0], ..paper() };
+    let girder = PlainGirder {
+        overhangs: [0.0; 2],
+        stations: vec![0.0, 30.0, 60.0],
+        ..paper()
+    };
     let zero = grid(&girder.stations, |_, _| 0.0);
-    let Some(outcome) = compare(&girder, &[(GridBlock::VerticalLongitudinal, zero)], 1e-9) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::VerticalLongitudinal, zero)], 1e-9) else {
+        return;
+    };
     let worst = &outcome.differences[0];
     let expected = HEIGHT * 3600.0 / (16.0 * EI);
     assert_eq!(worst.at[0], 30.0, "midspan moves most");
     // Moments at both ends move midspan by the same size; loads at x = 0 push it down, at x = 60 up.
     let sign = if worst.at[1] == 0.0 { -1.0 } else { 1.0 };
-    assert!((worst.theirs / (sign * expected) - 1.0).abs() < 1e-12, "{}", outcome.table(&[]));
+    assert!(
+        (worst.theirs / (sign * expected) - 1.0).abs() < 1e-12,
+        "{}",
+        outcome.table(&[])
+    );
 }
 
 #[test]
@@ -210,25 +243,38 @@ fn scikit_fem_reproduces_the_two_span_girder() {
     };
     let (near, far) = (23.0 / 1536.0 * unit, -9.0 / 1536.0 * unit);
     let midspan = |x: f64| x == 30.0 || x == 90.0;
-    let vertical = grid(&girder.stations, |x, z| match (midspan(x) && midspan(z), x == z) {
-        (true, true) => near,
-        (true, false) => far,
-        (false, _) => 0.0,
+    let vertical = grid(&girder.stations, |x, z| {
+        match (midspan(x) && midspan(z), x == z) {
+            (true, true) => near,
+            (true, false) => far,
+            (false, _) => 0.0,
+        }
     });
-    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-12) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-12) else {
+        return;
+    };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
 #[test]
 fn scikit_fem_reproduces_the_girder_that_shears() {
     let rigidity = 1e8;
-    let girder = PlainGirder { shear_vertical: Some(rigidity), ..paper() };
+    let girder = PlainGirder {
+        shear_vertical: Some(rigidity),
+        ..paper()
+    };
     let stations = girder.stations.clone();
-    let mut vertical = grid(&stations, |x, z| pinned(60.0, x, z, |r| -0.5 * r / rigidity));
+    let mut vertical = grid(&stations, |x, z| {
+        pinned(60.0, x, z, |r| -0.5 * r / rigidity)
+    });
     for (row, bending) in vertical.iter_mut().zip(&PAPER) {
-        row.iter_mut().zip(bending).for_each(|(entry, bending)| *entry += bending);
+        row.iter_mut()
+            .zip(bending)
+            .for_each(|(entry, bending)| *entry += bending);
     }
-    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-11) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-11) else {
+        return;
+    };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
@@ -236,10 +282,17 @@ fn scikit_fem_reproduces_the_girder_that_shears() {
 fn many_stations_cost_no_digits() {
     // Reads of 181 stations stay within the tolerance, though a mesh of 180 elements would not.
     let stations: Vec<f64> = (0..=180).map(|i| -15.0 + 0.5 * f64::from(i)).collect();
-    let vertical = grid(&stations, |x, z| pinned(60.0, x, z, |r| r.powi(3) / (12.0 * EI)));
-    let Some(outcome) =
-        compare(&PlainGirder { stations, ..paper() }, &[(GridBlock::Vertical, vertical)], 1e-9)
-    else {
+    let vertical = grid(&stations, |x, z| {
+        pinned(60.0, x, z, |r| r.powi(3) / (12.0 * EI))
+    });
+    let Some(outcome) = compare(
+        &PlainGirder {
+            stations,
+            ..paper()
+        },
+        &[(GridBlock::Vertical, vertical)],
+        1e-9,
+    ) else {
         return;
     };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
@@ -249,7 +302,9 @@ fn many_stations_cost_no_digits() {
 fn a_wrong_grid_is_found() {
     let mut vertical: Grid = PAPER.iter().map(|row| row.to_vec()).collect();
     vertical[2][4] += 3e-9 * 1.3665862020710885e-07;
-    let Some(outcome) = compare(&paper(), &[(GridBlock::Vertical, vertical)], 1e-9) else { return };
+    let Some(outcome) = compare(&paper(), &[(GridBlock::Vertical, vertical)], 1e-9) else {
+        return;
+    };
     assert!(!outcome.agrees());
     assert_eq!(outcome.differences[0].at, [15.0, 45.0]);
 }

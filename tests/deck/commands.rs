@@ -9,7 +9,10 @@ use serde_json::Value;
 use super::{example, scene};
 
 fn girderway(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_girderway")).args(arguments).output().expect("the program starts")
+    Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(arguments)
+        .output()
+        .expect("the program starts")
 }
 
 fn path(path: &Path) -> &str {
@@ -21,19 +24,41 @@ fn without_a_file_the_data_set_alone_goes_to_standard_output() {
     let run = girderway(&["deck", path(&example("bogie"))]);
     assert_eq!(run.status.code(), Some(0));
     let text = String::from_utf8(run.stdout).expect("text");
-    assert!(text.starts_with("bogie: 2 wheels, form factored\n") && text.ends_with("END\n"), "{text}");
+    assert!(
+        text.starts_with("bogie: 2 wheels, form factored\n") && text.ends_with("END\n"),
+        "{text}"
+    );
 }
 
 #[test]
 fn a_file_has_its_command_file_beside_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("crossing.adm");
-    let run = girderway(&["deck", path(&example("bogie")), "-o", path(&file), "--form", "akispl"]);
-    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let run = girderway(&[
+        "deck",
+        path(&example("bogie")),
+        "-o",
+        path(&file),
+        "--form",
+        "akispl",
+    ]);
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
     assert!(run.stdout.is_empty());
     let commands = fs::read_to_string(folder.path().join("crossing.acf")).expect("a command file");
-    assert_eq!(commands, "file/model=crossing\nSIMULATE/DYNAMIC, END=12.0, DTOUT=0.02\nstop\n");
-    assert!(fs::read_to_string(&file).expect("a data set").contains("AKISPL("));
+    assert_eq!(
+        commands,
+        "file/model=crossing\nSIMULATE/DYNAMIC, END=12.0, DTOUT=0.02\nstop\n"
+    );
+    assert!(
+        fs::read_to_string(&file)
+            .expect("a data set")
+            .contains("AKISPL(")
+    );
 }
 
 #[test]
@@ -41,18 +66,45 @@ fn a_check_says_what_it_found_and_its_status_whether_that_is_enough() {
     let bogie = example("bogie");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("b.adm");
-    let run = girderway(&["deck", path(&bogie), "-o", path(&file), "--check", "--states", "50", "--json"]);
-    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let run = girderway(&[
+        "deck",
+        path(&bogie),
+        "-o",
+        path(&file),
+        "--check",
+        "--states",
+        "50",
+        "--json",
+    ]);
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
     let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
     assert_eq!(report["holds"], true);
     assert_eq!(report["forces"][0]["states"], 50);
-    let paper = ["deck", path(&bogie), "-o", path(&file), "--form", "paper", "--check", "--states", "50"];
+    let paper = [
+        "deck",
+        path(&bogie),
+        "-o",
+        path(&file),
+        "--form",
+        "paper",
+        "--check",
+        "--states",
+        "50",
+    ];
     let run = girderway(&paper);
     assert_eq!(run.status.code(), Some(1));
     let told = String::from_utf8_lossy(&run.stderr).into_owned();
     assert!(told.contains("forces at random states"));
     // Its loops start from IC = 0, its path is found all the same: with the near-diagonal for cross terms it is off.
-    assert!(told.contains("quasi-static path, 41 positions: heights differ by 6.2e-3"), "{told}");
+    assert!(
+        told.contains("quasi-static path, 41 positions: heights differ by 6.2e-3"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -60,7 +112,10 @@ fn coulomb_friction_is_a_tanh_of_the_slip_in_every_form() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::copy(scene("floor"), folder.path().join("floor.json")).expect("a copy");
     let step = fs::read_to_string(scene("crane")).expect("a scene");
-    let coulomb = step.replace(r#""friction": {"law": "step""#, r#""friction": {"law": "coulomb""#);
+    let coulomb = step.replace(
+        r#""friction": {"law": "step""#,
+        r#""friction": {"law": "coulomb""#,
+    );
     assert_ne!(coulomb, step);
     let [from, file] = ["scene.json", "crane.adm"].map(|name| folder.path().join(name));
     fs::write(&from, coulomb).expect("written");
@@ -77,7 +132,12 @@ fn coulomb_friction_is_a_tanh_of_the_slip_in_every_form() {
             "20",
             "--json",
         ]);
-        assert_eq!(run.status.code(), Some(0), "{form}: {}", String::from_utf8_lossy(&run.stderr));
+        assert_eq!(
+            run.status.code(),
+            Some(0),
+            "{form}: {}",
+            String::from_utf8_lossy(&run.stderr)
+        );
         let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
         assert_eq!(report["holds"], true);
         // Three wheels of the crane have friction.
@@ -94,7 +154,11 @@ fn foundations_that_a_deck_cannot_have_are_refused_by_name() {
     fs::write(folder.path().join("spec.json"), spec).expect("written");
     let text = fs::read_to_string(example("bogie")).expect("a scene");
     for word in ["parts", "modal"] {
-        let text = text.replacen("\"foundation\": \"influence\"", &format!("\"foundation\": \"{word}\""), 1);
+        let text = text.replacen(
+            "\"foundation\": \"influence\"",
+            &format!("\"foundation\": \"{word}\""),
+            1,
+        );
         let mut object: Value = serde_json::from_str(&text).expect("JSON");
         object.as_object_mut().expect("an object").remove("compare");
         let file = folder.path().join("scene.json");
@@ -103,14 +167,22 @@ fn foundations_that_a_deck_cannot_have_are_refused_by_name() {
         let told = String::from_utf8_lossy(&run.stderr).into_owned();
         assert_eq!(run.status.code(), Some(2), "{told}");
         assert!(run.stdout.is_empty());
-        assert!(told.contains("structure \"girder\"") && told.contains("hint: use \"influence\""), "{told}");
+        assert!(
+            told.contains("structure \"girder\"") && told.contains("hint: use \"influence\""),
+            "{told}"
+        );
     }
 }
 
 #[test]
 fn a_scene_read_by_akispl_has_its_deck_so() {
     let run = girderway(&["deck", path(&scene("printed"))]);
-    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
     assert!(String::from_utf8_lossy(&run.stdout).starts_with("printed: 2 wheels, form akispl\n"));
 }
 

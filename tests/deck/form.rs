@@ -11,13 +11,21 @@ use super::{FORMS, Loaded, example, scene};
 fn all() -> Vec<Loaded> {
     let examples = ["wheel", "bogie", "mill_girderway"].map(example);
     let scenes = ["crane", "wagons", "printed"].map(scene);
-    examples.iter().chain(&scenes).map(|path| Loaded::new(path)).collect()
+    examples
+        .iter()
+        .chain(&scenes)
+        .map(|path| Loaded::new(path))
+        .collect()
 }
 
 /// Statements by a reader of these tests' own: keyword, identifier, arguments as text.
 fn statements(text: &str) -> Vec<(String, Option<u32>, String)> {
     let mut out: Vec<(String, Option<u32>, String)> = Vec::new();
-    for line in text.lines().skip(1).filter(|line| !line.starts_with('!') && *line != "END") {
+    for line in text
+        .lines()
+        .skip(1)
+        .filter(|line| !line.starts_with('!') && *line != "END")
+    {
         match line.strip_prefix(',') {
             Some(more) => {
                 let last = out.last_mut().expect("a statement goes on");
@@ -54,29 +62,44 @@ fn identifiers_and_names_are_unique_and_references_resolve() {
             let mut seen = BTreeMap::new();
             for (keyword, id, _) in &all {
                 let Some(id) = id else { continue };
-                assert_eq!(seen.insert((keyword.as_str(), *id), ()), None, "{keyword}/{id}");
+                assert_eq!(
+                    seen.insert((keyword.as_str(), *id), ()),
+                    None,
+                    "{keyword}/{id}"
+                );
             }
             for (keyword, _, arguments) in &all {
                 for part in arguments.split(';') {
-                    let Some((name, value)) = part.split_once('=') else { continue };
+                    let Some((name, value)) = part.split_once('=') else {
+                        continue;
+                    };
                     let what = match (name.trim(), keyword.as_str()) {
                         ("PART", "MARKER") => "PART",
                         ("I" | "J" | "RM" | "JFLOAT" | "CM", _) => "MARKER",
                         _ => continue,
                     };
                     let id: u32 = value.trim().parse().expect("an identifier");
-                    assert!(seen.contains_key(&(what, id)), "{keyword} refers to {what}/{id}");
+                    assert!(
+                        seen.contains_key(&(what, id)),
+                        "{keyword} refers to {what}/{id}"
+                    );
                 }
             }
             // markers, variables, splines and states inside expressions
-            AdamsModel::new(&DataSet::read(&text).expect("our own text")).expect("every reference resolves");
-            let mut names: Vec<&str> =
-                text.lines().filter(|line| line.starts_with("!  adams_view_name")).collect();
+            AdamsModel::new(&DataSet::read(&text).expect("our own text"))
+                .expect("every reference resolves");
+            let mut names: Vec<&str> = text
+                .lines()
+                .filter(|line| line.starts_with("!  adams_view_name"))
+                .collect();
             let count = names.len();
             names.sort_unstable();
             names.dedup();
             // a part, a force and a marker may share a name; nothing else does
-            assert!(count - names.len() <= loaded.document.scene().bodies.len() + 40, "{count}");
+            assert!(
+                count - names.len() <= loaded.document.scene().bodies.len() + 40,
+                "{count}"
+            );
         }
     }
 }
@@ -95,7 +118,10 @@ fn a_deck_read_and_printed_is_read_again_as_itself() {
 #[test]
 fn equal_scenes_give_equal_bytes() {
     let path = example("mill_girderway");
-    assert_eq!(Loaded::new(&path).text(DeckForm::Factored), Loaded::new(&path).text(DeckForm::Factored));
+    assert_eq!(
+        Loaded::new(&path).text(DeckForm::Factored),
+        Loaded::new(&path).text(DeckForm::Factored)
+    );
 }
 
 /// kg of a unit of mass, m of one of length: the definitions of the pound, the foot and the pound-force.
@@ -135,29 +161,62 @@ fn masses_in_their_unit_times_gravity_are_the_weights_of_the_scene() {
         let all = statements(&text);
         let find = |arguments: &str, name: &str| -> Option<String> {
             let mut parts = arguments.split(';').filter_map(|part| part.split_once('='));
-            parts.find(|(key, _)| key.trim() == name).map(|(_, value)| value.trim().to_owned())
+            parts
+                .find(|(key, _)| key.trim() == name)
+                .map(|(_, value)| value.trim().to_owned())
         };
-        let (_, _, units) = all.iter().find(|(keyword, ..)| keyword == "UNITS").expect("UNITS");
-        let (_, _, gravity) = all.iter().find(|(keyword, ..)| keyword == "ACCGRAV").expect("ACCGRAV");
+        let (_, _, units) = all
+            .iter()
+            .find(|(keyword, ..)| keyword == "UNITS")
+            .expect("UNITS");
+        let (_, _, gravity) = all
+            .iter()
+            .find(|(keyword, ..)| keyword == "ACCGRAV")
+            .expect("ACCGRAV");
         let unit = kilograms(&find(units, "MASS").expect("MASS"));
-        let g: f64 = find(gravity, "JGRAV").and_then(|text| text.parse().ok()).expect("JGRAV");
-        let of = |arguments: &str| find(arguments, "MASS").and_then(|text| text.parse::<f64>().ok());
-        let mass: f64 =
-            all.iter().filter(|(keyword, ..)| keyword == "PART").filter_map(|(.., text)| of(text)).sum();
+        let g: f64 = find(gravity, "JGRAV")
+            .and_then(|text| text.parse().ok())
+            .expect("JGRAV");
+        let of =
+            |arguments: &str| find(arguments, "MASS").and_then(|text| text.parse::<f64>().ok());
+        let mass: f64 = all
+            .iter()
+            .filter(|(keyword, ..)| keyword == "PART")
+            .filter_map(|(.., text)| of(text))
+            .sum();
         let found = mass * unit * -g * metres(scene.units.length);
-        let weight: f64 = scene.bodies.iter().map(|body| body.mass * scene.gravity).sum();
+        let weight: f64 = scene
+            .bodies
+            .iter()
+            .map(|body| body.mass * scene.gravity)
+            .sum();
         let wanted = weight * newtons(scene.units.force);
-        assert!((found / wanted - 1.0).abs() < 1e-14, "{}: {found} {wanted}", scene.name);
+        assert!(
+            (found / wanted - 1.0).abs() < 1e-14,
+            "{}: {found} {wanted}",
+            scene.name
+        );
     }
 }
 
 #[test]
 fn every_trap_has_its_remark_once() {
     let text = Loaded::new(&scene("wagons")).text(DeckForm::Akispl);
-    for word in
-        ["Frame of", "Cross terms:", "IC:", "Units:", "VX..VZ", "Exponent", "Reactions:", "Range:", "Slope:"]
-    {
-        let count = text.lines().filter(|line| line.starts_with('!') && line.contains(word)).count();
+    for word in [
+        "Frame of",
+        "Cross terms:",
+        "IC:",
+        "Units:",
+        "VX..VZ",
+        "Exponent",
+        "Reactions:",
+        "Range:",
+        "Slope:",
+    ] {
+        let count = text
+            .lines()
+            .filter(|line| line.starts_with('!') && line.contains(word))
+            .count();
         assert!(count >= 1, "{word}");
     }
     let text = Loaded::new(&example("bogie")).text(DeckForm::Akispl);
@@ -172,11 +231,19 @@ fn look_ups_grow_as_the_forms_say() {
     let wheels = 4;
     let of = |form, name: &str| {
         let text = loaded.text(form).replace("\n,", "").replace(' ', "");
-        text.split("REQUEST/").next().map_or(0, |head| head.matches(name).count())
+        text.split("REQUEST/")
+            .next()
+            .map_or(0, |head| head.matches(name).count())
     };
     assert_eq!(of(DeckForm::Akispl, "AKISPL(VARVAL"), wheels * wheels);
-    assert_eq!(of(DeckForm::Symmetrised, "AKISPL(VARVAL"), 2 * wheels * wheels);
+    assert_eq!(
+        of(DeckForm::Symmetrised, "AKISPL(VARVAL"),
+        2 * wheels * wheels
+    );
     let factored = of(DeckForm::Factored, "CUBSPL(VARVAL");
     assert_eq!(factored % (3 * wheels), 0);
-    assert!(factored / (3 * wheels) <= 41, "no more products than stations: {factored}");
+    assert!(
+        factored / (3 * wheels) <= 41,
+        "no more products than stations: {factored}"
+    );
 }

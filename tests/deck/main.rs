@@ -27,7 +27,10 @@ fn example(name: &str) -> PathBuf {
 /// A scene of these tests: `crane` on two coupled rails with flanges and spins, `wagons` on two structures in inches and
 /// kip, `printed` on tables of values, `stiff` with wheels that are stiff compared with their rail.
 fn scene(name: &str) -> PathBuf {
-    root().join("tests/deck/scenes").join(name).with_extension("json")
+    root()
+        .join("tests/deck/scenes")
+        .join(name)
+        .with_extension("json")
 }
 
 /// A scene with its structures solved.
@@ -43,13 +46,20 @@ impl Loaded {
             spec: Arc::clone(spec),
             solution: Arc::new(foundations::solve(spec).expect("a structure that stands")),
         };
-        let known = distinct_specs(&document).into_iter().map(|(_, _, spec)| solve(spec)).collect();
+        let known = distinct_specs(&document)
+            .into_iter()
+            .map(|(_, _, spec)| solve(spec))
+            .collect();
         Loaded { document, known }
     }
 
     fn text(&self, form: DeckForm) -> String {
         let plan = plan(self.document.scene(), &self.known, form, "scene.json").expect("a plan");
-        deck(&plan, &self.known, "model").expect("a deck").set.write().expect("a text")
+        deck(&plan, &self.known, "model")
+            .expect("a deck")
+            .set
+            .write()
+            .expect("a text")
     }
 
     /// The check of `text` as the deck in `form`.
@@ -69,7 +79,10 @@ fn holds(path: &Path, states: usize) -> String {
         all.push_str(&format!("{} {form:?}\n{lines}\n", path.display()));
         assert!(report.holds(), "{} {form:?}\n{lines}", path.display());
         assert_eq!(report.states.all, states);
-        assert!(report.states.loaded < states, "some wheels are off their rails");
+        assert!(
+            report.states.loaded < states,
+            "some wheels are off their rails"
+        );
     }
     all
 }
@@ -146,7 +159,11 @@ fn decks_of_stiff_wheels_with_dampers_give_the_simulators_forces_beside_supports
 #[test]
 #[ignore = "slow: 10^4 states of every scene in every form"]
 fn decks_give_the_simulators_forces_at_ten_thousand_states() {
-    for path in [example("wheel"), example("bogie"), example("mill_girderway")] {
+    for path in [
+        example("wheel"),
+        example("bogie"),
+        example("mill_girderway"),
+    ] {
         println!("{}", holds(&path, 10_000));
     }
     for name in ["crane", "wagons", "printed"] {
@@ -155,7 +172,10 @@ fn decks_give_the_simulators_forces_at_ten_thousand_states() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for k in STIFFNESSES {
         for c in DAMPINGS {
-            println!("k = {k:e}, c = {c}\n{}", holds(&stiff(folder.path(), k, c), 10_000));
+            println!(
+                "k = {k:e}, c = {c}\n{}",
+                holds(&stiff(folder.path(), k, c), 10_000)
+            );
         }
     }
 }
@@ -163,27 +183,48 @@ fn decks_give_the_simulators_forces_at_ten_thousand_states() {
 #[test]
 fn random_states_have_everything_that_can_act() {
     let loaded = Loaded::new(&scene("crane"));
-    let count = loaded.check(DeckForm::Akispl, &loaded.text(DeckForm::Akispl), 100).states;
-    assert!(count.loaded > 5 && count.flange > 50 && count.slide > 50, "{count:?}");
+    let count = loaded
+        .check(DeckForm::Akispl, &loaded.text(DeckForm::Akispl), 100)
+        .states;
+    assert!(
+        count.loaded > 5 && count.flange > 50 && count.slide > 50,
+        "{count:?}"
+    );
 }
 
 #[test]
 fn decks_start_in_the_equilibrium_of_their_first_instant() {
-    for path in [example("bogie"), example("mill_girderway"), scene("wagons"), scene("printed")] {
+    for path in [
+        example("bogie"),
+        example("mill_girderway"),
+        scene("wagons"),
+        scene("printed"),
+    ] {
         let loaded = Loaded::new(&path);
         for form in FORMS {
             let set = DataSet::read(&loaded.text(form)).expect("our own text");
             let model = adams::AdamsModel::new(&set).expect("a model");
             let start = model.initial();
-            let rest = model.equilibrium(0.0, &start).expect("an equilibrium").state;
+            let rest = model
+                .equilibrium(0.0, &start)
+                .expect("an equilibrium")
+                .state;
             for (part, pose) in &start.parts {
                 let moved = (rest.parts[part].origin - pose.origin).norm();
                 // of a radius of 1 to 15: finite rotations against small ones
-                assert!(moved < 2e-5, "{} {form:?} PART/{part}: {moved:e}", path.display());
+                assert!(
+                    moved < 2e-5,
+                    "{} {form:?} PART/{part}: {moved:e}",
+                    path.display()
+                );
             }
             for (id, gap) in &start.differentials {
                 let moved = (rest.differentials[id] / gap - 1.0).abs();
-                assert!(moved < 1e-4, "{} {form:?} DIFF/{id}: {moved:e}", path.display());
+                assert!(
+                    moved < 1e-4,
+                    "{} {form:?} DIFF/{id}: {moved:e}",
+                    path.display()
+                );
             }
         }
     }

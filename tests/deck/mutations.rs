@@ -15,7 +15,10 @@ fn changed(
 ) -> String {
     let mut set = DataSet::read(&loaded.text(form)).expect("our own text");
     let before = set.clone();
-    let one = set.statements.iter_mut().find(|one| one.keyword == keyword && one.id == Some(id));
+    let one = set
+        .statements
+        .iter_mut()
+        .find(|one| one.keyword == keyword && one.id == Some(id));
     change(one.unwrap_or_else(|| panic!("no {keyword}/{id}")));
     assert_ne!(set, before, "the change changes something");
     set.write().expect("a text")
@@ -32,7 +35,11 @@ fn replace(statement: &mut Statement, from: &str, to: &str) {
 
 fn caught(loaded: &Loaded, form: DeckForm, text: &str, what: &str) {
     let report = loaded.check(form, text, 60);
-    assert!(!report.holds(), "{what} goes unseen:\n{}", report.lines().join("\n"));
+    assert!(
+        !report.holds(),
+        "{what} goes unseen:\n{}",
+        report.lines().join("\n")
+    );
 }
 
 #[test]
@@ -40,10 +47,18 @@ fn a_cross_term_that_is_missing_or_of_the_wrong_place_is_caught() {
     let loaded = Loaded::new(&example("bogie"));
     for (from, to) in [
         ("-VARVAL(205)*AKISPL(VARVAL(201),VARVAL(101),6)", ""),
-        ("AKISPL(VARVAL(201),VARVAL(101),6)", "AKISPL(VARVAL(201),VARVAL(201),6)"),
-        ("AKISPL(VARVAL(201),VARVAL(101),6)", "AKISPL(VARVAL(101),VARVAL(201),6)"),
+        (
+            "AKISPL(VARVAL(201),VARVAL(101),6)",
+            "AKISPL(VARVAL(201),VARVAL(201),6)",
+        ),
+        (
+            "AKISPL(VARVAL(201),VARVAL(101),6)",
+            "AKISPL(VARVAL(101),VARVAL(201),6)",
+        ),
     ] {
-        let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 102, |one| replace(one, from, to));
+        let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 102, |one| {
+            replace(one, from, to)
+        });
         caught(&loaded, DeckForm::Akispl, &text, from);
     }
 }
@@ -51,11 +66,17 @@ fn a_cross_term_that_is_missing_or_of_the_wrong_place_is_caught() {
 #[test]
 fn wrong_signs_are_caught() {
     let loaded = Loaded::new(&scene("crane"));
-    for (component, from, to) in
-        [("FY", "VARVAL(105)", "-VARVAL(105)"), ("FZ", "-VARVAL(107)", "VARVAL(107)"), ("TZ", "-(", "(")]
-    {
+    for (component, from, to) in [
+        ("FY", "VARVAL(105)", "-VARVAL(105)"),
+        ("FZ", "-VARVAL(107)", "VARVAL(107)"),
+        ("TZ", "-(", "("),
+    ] {
         let text = changed(&loaded, DeckForm::Factored, "GFORCE", 1, |one| {
-            for argument in one.arguments.iter_mut().filter(|argument| argument.name == component) {
+            for argument in one
+                .arguments
+                .iter_mut()
+                .filter(|argument| argument.name == component)
+            {
                 if let ArgumentValue::Function(text) = &mut argument.value {
                     *text = text.replace(' ', "").replacen(from, to, 1);
                 }
@@ -64,31 +85,51 @@ fn wrong_signs_are_caught() {
         caught(&loaded, DeckForm::Factored, &text, component);
     }
     // the force along the rail, the rail's rise in the gap, the flange's side
-    for (id, from, to) in [(109, "-VARVAL(105)", "VARVAL(105)"), (104, "-VARVAL(102)", "+VARVAL(102)")] {
-        let text = changed(&loaded, DeckForm::Factored, "VARIABLE", id, |one| replace(one, from, to));
+    for (id, from, to) in [
+        (109, "-VARVAL(105)", "VARVAL(105)"),
+        (104, "-VARVAL(102)", "+VARVAL(102)"),
+    ] {
+        let text = changed(&loaded, DeckForm::Factored, "VARIABLE", id, |one| {
+            replace(one, from, to)
+        });
         caught(&loaded, DeckForm::Factored, &text, from);
     }
 }
 
 #[test]
 fn velocities_without_their_fourth_marker_are_caught_on_a_moving_frame() {
-    for (path, id, name) in [(example("wheel"), 105, "VY("), (example("wheel"), 108, "VX(")] {
+    for (path, id, name) in [
+        (example("wheel"), 105, "VY("),
+        (example("wheel"), 108, "VX("),
+    ] {
         let loaded = Loaded::new(&path);
         let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", id, |one| {
             let (from, to) = ("(5,4,4,4)", "(5,4,4)");
-            replace(one, &format!("{name}{}", &from[1..]), &format!("{name}{}", &to[1..]));
+            replace(
+                one,
+                &format!("{name}{}", &from[1..]),
+                &format!("{name}{}", &to[1..]),
+            );
         });
         let report = loaded.check(DeckForm::Akispl, &text, 60);
-        assert!(report.forces[0].holds(), "on a fixed rail three markers are enough");
-        assert!(!report.forces[1].holds(), "{name}\n{}", report.lines().join("\n"));
+        assert!(
+            report.forces[0].holds(),
+            "on a fixed rail three markers are enough"
+        );
+        assert!(
+            !report.forces[1].holds(),
+            "{name}\n{}",
+            report.lines().join("\n")
+        );
     }
 }
 
 #[test]
 fn displacements_resolved_in_ground_are_caught_on_a_moving_frame() {
     let loaded = Loaded::new(&example("wheel"));
-    let text =
-        changed(&loaded, DeckForm::Akispl, "VARIABLE", 104, |one| replace(one, "DY(5,4,4)", "DY(5,4)"));
+    let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 104, |one| {
+        replace(one, "DY(5,4,4)", "DY(5,4)")
+    });
     let report = loaded.check(DeckForm::Akispl, &text, 60);
     assert!(report.forces[0].holds() && !report.forces[1].holds());
 }
@@ -99,13 +140,20 @@ fn a_damper_against_the_ground_is_caught() {
     let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 105, |one| {
         replace(one, "+100000.0*DIF1(1)", "-100000.0*VY(5,4,4,4)")
     });
-    caught(&loaded, DeckForm::Akispl, &text, "a damper against the ground");
+    caught(
+        &loaded,
+        DeckForm::Akispl,
+        &text,
+        "a damper against the ground",
+    );
 }
 
 #[test]
 fn another_exponent_is_caught() {
     let loaded = Loaded::new(&example("wheel"));
-    let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 105, |one| replace(one, ",1.1,", ",1.0,"));
+    let text = changed(&loaded, DeckForm::Akispl, "VARIABLE", 105, |one| {
+        replace(one, ",1.1,", ",1.0,")
+    });
     caught(&loaded, DeckForm::Akispl, &text, "exponent 1");
 }
 
@@ -113,7 +161,11 @@ fn another_exponent_is_caught() {
 fn a_rail_whose_origin_is_shifted_is_caught() {
     let loaded = Loaded::new(&example("bogie"));
     let text = changed(&loaded, DeckForm::Factored, "MARKER", 4, |one| {
-        for argument in one.arguments.iter_mut().filter(|argument| argument.name == "QP") {
+        for argument in one
+            .arguments
+            .iter_mut()
+            .filter(|argument| argument.name == "QP")
+        {
             argument.value = ArgumentValue::Numbers(vec![1e-9, 0.0, 0.0]);
         }
     });
@@ -124,17 +176,27 @@ fn a_rail_whose_origin_is_shifted_is_caught() {
 fn masses_in_another_unit_and_other_motions_are_caught_by_the_path() {
     let loaded = Loaded::new(&example("bogie"));
     let heavier = changed(&loaded, DeckForm::Akispl, "PART", 2, |one| {
-        for argument in one.arguments.iter_mut().filter(|argument| argument.name == "MASS") {
+        for argument in one
+            .arguments
+            .iter_mut()
+            .filter(|argument| argument.name == "MASS")
+        {
             if let ArgumentValue::Numbers(all) = &mut argument.value {
                 all[0] *= 32.174;
             }
         }
     });
-    let faster =
-        changed(&loaded, DeckForm::Akispl, "MOTION", 1, |one| replace(one, "5.0*TIME", "5.001*TIME"));
+    let faster = changed(&loaded, DeckForm::Akispl, "MOTION", 1, |one| {
+        replace(one, "5.0*TIME", "5.001*TIME")
+    });
     for text in [heavier, faster] {
         let report = loaded.check(DeckForm::Akispl, &text, 20);
-        assert!(report.forces.iter().all(deck::check::CheckDifference::holds));
+        assert!(
+            report
+                .forces
+                .iter()
+                .all(deck::check::CheckDifference::holds)
+        );
         assert!(report.path.is_some_and(|path| !path.holds()));
     }
 }
@@ -143,7 +205,10 @@ fn masses_in_another_unit_and_other_motions_are_caught_by_the_path() {
 fn a_value_of_a_table_that_is_off_by_a_millionth_is_caught() {
     let loaded = Loaded::new(&example("bogie"));
     let text = changed(&loaded, DeckForm::Symmetrised, "SPLINE", 6, |one| {
-        let rows = one.arguments.iter_mut().filter(|argument| argument.name == "Y");
+        let rows = one
+            .arguments
+            .iter_mut()
+            .filter(|argument| argument.name == "Y");
         for argument in rows.skip(3).take(1) {
             if let ArgumentValue::Numbers(all) = &mut argument.value {
                 all[4] *= 1.0 + 1e-6;

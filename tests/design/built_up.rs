@@ -13,7 +13,11 @@ fn tapered(is_reversed: bool) -> Value {
         json!({"name": name, "material": "S235",
                "shape": {"kind": "I", "length": "mm", "height": height, "width": 200, "flange": 20, "web": 10}})
     };
-    let [cell, ends] = if is_reversed { [[1, 0], [1, 0]] } else { [[0, 1], [0, 1]] };
+    let [cell, ends] = if is_reversed {
+        [[1, 0], [1, 0]]
+    } else {
+        [[0, 1], [0, 1]]
+    };
     json!({
         "format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
         "points": [[0, 0, 0], [8, 0, 0]], "cells": [{"type": "line", "data": [cell]}],
@@ -47,18 +51,40 @@ fn stresses_of_a_tapered_member_are_those_of_the_dimensions_at_the_place() {
     for is_reversed in [false, true] {
         let found = solved(&tapered(is_reversed), &wheel(100.0, 0.0));
         let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
-        close(value(direct, "value").abs(), stress(value(direct, "x")), "direct stress");
-        close(value(direct, "utilisation"), stress(value(direct, "x")) / 2.35e5, "utilisation");
-        let largest = (0..=20).map(|k| stress(0.4 * f64::from(k))).fold(0.0, f64::max);
+        close(
+            value(direct, "value").abs(),
+            stress(value(direct, "x")),
+            "direct stress",
+        );
+        close(
+            value(direct, "utilisation"),
+            stress(value(direct, "x")) / 2.35e5,
+            "utilisation",
+        );
+        let largest = (0..=20)
+            .map(|k| stress(0.4 * f64::from(k)))
+            .fold(0.0, f64::max);
         assert!(
             value(direct, "value").abs() >= largest * (1.0 - 1e-9),
             "{direct}, {largest} at the twentieths"
         );
         assert!(direct.get("bound").is_none(), "{direct}");
-        let name = if is_reversed { "high to low" } else { "low to high" };
+        let name = if is_reversed {
+            "high to low"
+        } else {
+            "low to high"
+        };
         assert_eq!(direct["section"], json!(name));
-        let shear = row(&found, "stresses", &[("quantity", json!("shear stress in the web"))]);
-        close(value(shear, "value").abs(), 100.0 / (0.4 * 0.01), "shear stress");
+        let shear = row(
+            &found,
+            "stresses",
+            &[("quantity", json!("shear stress in the web"))],
+        );
+        close(
+            value(shear, "value").abs(),
+            100.0 / (0.4 * 0.01),
+            "shear stress",
+        );
         assert_eq!(value(shear, "x"), 0.0);
     }
 }
@@ -74,7 +100,10 @@ fn tapers_without_dimensions_are_left_out_by_name() {
         let found = solved(&spec, &wheel(100.0, 0.0));
         let known = "stress utilisation on rail rail: the dimensions of members that taper from section low to section high";
         let said = found["left_out"].to_string();
-        assert!(said.contains(known) && found.get("stresses").is_none(), "{said}");
+        assert!(
+            said.contains(known) && found.get("stresses").is_none(),
+            "{said}"
+        );
     }
 }
 
@@ -94,7 +123,11 @@ fn composite(height: f64) -> Value {
 fn whole(height: f64) -> [f64; 3] {
     let (rail, h) = (5490e-6, height + 0.03084);
     let area = 0.02 + rail;
-    [area, h * rail / area, 5.8e-4 + 319e-8 + 0.02 * rail / area * h * h]
+    [
+        area,
+        h * rail / area,
+        5.8e-4 + 319e-8 + 0.02 * rail / area * h * h,
+    ]
 }
 
 /// Hand calculation: 200 kN m at midspan; the edges of the lower flange are 0.2 m + e below the common centroid. The stress in
@@ -104,11 +137,32 @@ fn a_rail_in_the_section_moves_the_centroid_towards_it() {
     let found = solved(&composite(0.2), &wheel(100.0, 0.0));
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
     let [_, e, second] = whole(0.2);
-    close(value(direct, "value"), 200.0 * (0.2 + e) / second, "lower flange");
-    close(value(direct, "bound"), 200.0 * (0.2 + e) / second / 2.35e5, "bound");
-    assert!(direct["fibre"].as_str().is_some_and(|fibre| fibre.starts_with("bottom")), "{direct}");
-    let shear = row(&found, "stresses", &[("quantity", json!("shear stress in the web"))]);
-    close(value(shear, "value").abs(), 100.0 / (0.4 * 0.0135), "shear stress");
+    close(
+        value(direct, "value"),
+        200.0 * (0.2 + e) / second,
+        "lower flange",
+    );
+    close(
+        value(direct, "bound"),
+        200.0 * (0.2 + e) / second / 2.35e5,
+        "bound",
+    );
+    assert!(
+        direct["fibre"]
+            .as_str()
+            .is_some_and(|fibre| fibre.starts_with("bottom")),
+        "{direct}"
+    );
+    let shear = row(
+        &found,
+        "stresses",
+        &[("quantity", json!("shear stress in the web"))],
+    );
+    close(
+        value(shear, "value").abs(),
+        100.0 / (0.4 * 0.0135),
+        "shear stress",
+    );
     let said = found["left_out"].to_string();
     let known = "direct stress of a crane rail that is a part of the section, on rail rail: the spec does not have its strength";
     assert!(said.contains(known), "{said}");
@@ -124,7 +178,12 @@ fn normal_forces_act_in_the_axis_below_the_centroid() {
     let [area, e, second] = whole(0.0);
     let stress = 50.0 / area + (50.0 * 0.075 - 50.0 * e) * (0.2 - e) / second;
     close(value(direct, "value").abs(), stress, "upper flange");
-    assert!(direct["fibre"].as_str().is_some_and(|fibre| fibre.starts_with("top")), "{direct}");
+    assert!(
+        direct["fibre"]
+            .as_str()
+            .is_some_and(|fibre| fibre.starts_with("top")),
+        "{direct}"
+    );
 }
 
 /// Closed form: a wheel of 100 kN, 0.05 m beside the web of a simple beam, twists its middle by T L/(4 G J), T = 5 kN m, and
@@ -142,18 +201,39 @@ fn lateral_limits_count_where_vertical_forces_bend_sideways() {
     design["practice"] = json!({"code": "EN 1993-6"});
     let lateral = |found: &Value| {
         let rows = found["limits"].as_array().expect("limits").clone();
-        rows.into_iter().filter(|row| row["quantity"] == "lateral deflection").collect::<Vec<Value>>()
+        rows.into_iter()
+            .filter(|row| row["quantity"] == "lateral deflection")
+            .collect::<Vec<Value>>()
     };
     let found = solved(&spec, &design);
     assert!(lateral(&found).is_empty());
-    assert!(found["left_out"].to_string().contains("no train has lateral forces"), "{}", found["left_out"]);
+    assert!(
+        found["left_out"]
+            .to_string()
+            .contains("no train has lateral forces"),
+        "{}",
+        found["left_out"]
+    );
     design["trains"][0]["eccentricity"] = json!(0.05);
     let found = solved(&spec, &design);
     let rows = lateral(&found);
     assert_eq!(rows.len(), 1, "{rows:?}");
-    assert_eq!(rows[0]["loads"], json!("vertical wheel loads alone, which move the rail sideways"));
-    close(value(&rows[0], "value"), 0.3 * 5.0 * 8.0 / (4.0 * 8.1e7 * 3.6e-6), "lateral deflection");
-    assert!(!found["left_out"].to_string().contains("no train has lateral forces"), "{}", found["left_out"]);
+    assert_eq!(
+        rows[0]["loads"],
+        json!("vertical wheel loads alone, which move the rail sideways")
+    );
+    close(
+        value(&rows[0], "value"),
+        0.3 * 5.0 * 8.0 / (4.0 * 8.1e7 * 3.6e-6),
+        "lateral deflection",
+    );
+    assert!(
+        !found["left_out"]
+            .to_string()
+            .contains("no train has lateral forces"),
+        "{}",
+        found["left_out"]
+    );
 }
 
 /// Hand calculation: 600 x 300 mm, flanges 20 mm, web 10 mm: I = (0.3 * 0.6^3 - 0.29 * 0.56^3)/12 for 200 kN m.
@@ -168,7 +248,11 @@ fn a_girder_by_its_plates_has_stresses() {
     let found = solved(&spec, &wheel(100.0, 0.0));
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
     let second = (0.3 * 0.6f64.powi(3) - 0.29 * 0.56f64.powi(3)) / 12.0;
-    close(value(direct, "value").abs(), 200.0 * 0.3 / second, "direct stress");
+    close(
+        value(direct, "value").abs(),
+        200.0 * 0.3 / second,
+        "direct stress",
+    );
 }
 
 /// EN 1991-3, Table 2.2 (from memory): group 10 has the crane, the hoisted load and the tilting force, each with the factor 1.
@@ -177,7 +261,10 @@ fn a_girder_by_its_plates_has_stresses() {
 #[test]
 fn group_10_has_the_forces_of_a_crane_that_tilts() {
     let mut spec = composite(0.0);
-    spec["girder"].as_object_mut().expect("an object").retain(|key, _| !key.starts_with("c"));
+    spec["girder"]
+        .as_object_mut()
+        .expect("an object")
+        .retain(|key, _| !key.starts_with("c"));
     let parts = |tilting: f64| json!({"crane": 60, "hoist": 120, "tilting": tilting});
     let design = json!({
         "format": "girderway-design/1", "name": "tilting", "units": {"length": "m", "force": "kN", "time": "s"},
@@ -187,22 +274,39 @@ fn group_10_has_the_forces_of_a_crane_that_tilts() {
         "practice": {"code": "EN 1991-3", "hoisting": "HC2", "hoist_speed": 0.133, "combinations": true}
     });
     let (folder, output) = run(&spec, &design, &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let found = summary(&folder);
     let tenth = by_name(&found, "crane: EN 1991-3:2006 group 10");
-    for (load, known) in [("crane", 1.0), ("hoist", 1.0), ("tilting", 1.0), ("lateral", 0.0), ("buffer", 0.0)]
-    {
+    for (load, known) in [
+        ("crane", 1.0),
+        ("hoist", 1.0),
+        ("tilting", 1.0),
+        ("lateral", 0.0),
+        ("buffer", 0.0),
+    ] {
         close(1.0 + value(&tenth["factors"], load), 1.0 + known, load);
     }
     let reaction = |case: &Value, support: &str, direction: &str| {
-        let wanted = [("case", case.clone()), ("support", json!(support)), ("direction", json!(direction))];
+        let wanted = [
+            ("case", case.clone()),
+            ("support", json!(support)),
+            ("direction", json!(direction)),
+        ];
         value(row(&found, "extremes", &wanted), "value")
     };
     let case = &tenth["case"];
     close(reaction(case, "support1", "uy"), 140.0, "the lifted wheel");
     close(reaction(case, "support2", "uy"), 220.0, "the pressed wheel");
     close(reaction(case, "support1", "uz"), -8.0, "sideways");
-    close(reaction(&json!(1), "support1", "uy"), 180.0, "without tilting");
+    close(
+        reaction(&json!(1), "support1", "uy"),
+        180.0,
+        "without tilting",
+    );
     assert_eq!(reaction(&json!(1), "support1", "uz"), 0.0);
     let rows = table(&folder.path().join("out"), "reactions.csv");
     let own = |row: &&std::collections::BTreeMap<String, String>| {
@@ -211,9 +315,19 @@ fn group_10_has_the_forces_of_a_crane_that_tilts() {
             && row["direction"] == "uy"
             && row["kind"] == "max"
     };
-    let alone: Vec<f64> = rows.iter().filter(own).map(|row| super::number(&row["value"])).collect();
-    assert!(alone.iter().all(|value| (value + 40.0).abs() < 1e-9) && alone.len() > 1, "{alone:?}");
+    let alone: Vec<f64> = rows
+        .iter()
+        .filter(own)
+        .map(|row| super::number(&row["value"]))
+        .collect();
+    assert!(
+        alone.iter().all(|value| (value + 40.0).abs() < 1e-9) && alone.len() > 1,
+        "{alone:?}"
+    );
     let said = found["left_out"].to_string();
     assert!(!said.contains("group 10"), "{said}");
-    assert!(said.contains("group 7: the part eta of the hoisted load"), "{said}");
+    assert!(
+        said.contains("group 7: the part eta of the hoisted load"),
+        "{said}"
+    );
 }

@@ -26,22 +26,35 @@ fn wheel(practice: Value) -> Value {
 
 pub(super) fn solved(spec: &Value, design: &Value) -> Value {
     let (folder, output) = run(spec, design, &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     summary(&folder)
 }
 
 pub(super) fn row<'s>(summary: &'s Value, list: &str, wanted: &[(&str, Value)]) -> &'s Value {
-    let rows = summary[list].as_array().unwrap_or_else(|| panic!("no {list}"));
+    let rows = summary[list]
+        .as_array()
+        .unwrap_or_else(|| panic!("no {list}"));
     let same = |row: &&Value| wanted.iter().all(|(key, value)| row[*key] == *value);
-    rows.iter().find(same).unwrap_or_else(|| panic!("no row with {wanted:?} in {rows:?}"))
+    rows.iter()
+        .find(same)
+        .unwrap_or_else(|| panic!("no row with {wanted:?} in {rows:?}"))
 }
 
 pub(super) fn value(row: &Value, key: &str) -> f64 {
-    row[key].as_f64().unwrap_or_else(|| panic!("no number {key} in {row}"))
+    row[key]
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number {key} in {row}"))
 }
 
 pub(super) fn close(found: f64, known: f64, what: &str) {
-    assert!((found / known - 1.0).abs() < 1e-9, "{what}: {found}, not {known}");
+    assert!(
+        (found / known - 1.0).abs() < 1e-9,
+        "{what}: {found}, not {known}"
+    );
 }
 
 /// Hand calculation: M_v = 100 * 8/4 = 200 kN m and M_l = 10 * 8/4 = 20 kN m under the wheel at midspan, N = 50 kN between the
@@ -59,10 +72,25 @@ fn stresses_are_those_of_the_coincident_forces() {
     for (name, part) in ["normal", "vertical", "lateral"].iter().zip(parts) {
         close(value(&direct["parts"], name).abs(), part, name);
     }
-    assert_eq!((value(direct, "x"), value(direct, "position")), (4.0, 4.0), "{direct}");
-    assert_eq!((&direct["lateral_section"], &direct["sampled"]), (&json!("whole section"), &json!(true)));
-    let shear = row(&found, "stresses", &[("quantity", json!("shear stress in the web"))]);
-    close(value(shear, "value").abs(), 100.0 / (0.4 * 0.0135), "shear stress");
+    assert_eq!(
+        (value(direct, "x"), value(direct, "position")),
+        (4.0, 4.0),
+        "{direct}"
+    );
+    assert_eq!(
+        (&direct["lateral_section"], &direct["sampled"]),
+        (&json!("whole section"), &json!(true))
+    );
+    let shear = row(
+        &found,
+        "stresses",
+        &[("quantity", json!("shear stress in the web"))],
+    );
+    close(
+        value(shear, "value").abs(),
+        100.0 / (0.4 * 0.0135),
+        "shear stress",
+    );
     close(value(shear, "strength"), 2.35e5 / 3f64.sqrt(), "strength");
     assert_eq!(found["within"], json!(true));
 }
@@ -71,18 +99,38 @@ fn stresses_are_those_of_the_coincident_forces() {
 /// bottom flange takes nothing of the lateral moment. The largest stress is therefore compression at the top.
 #[test]
 fn the_top_flange_alone_takes_lateral_moments_where_it_is_asked_to() {
-    let (folder, output) = run(&beam(), &wheel(json!({"lateral_section": "top flange"})), &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let (folder, output) = run(
+        &beam(),
+        &wheel(json!({"lateral_section": "top flange"})),
+        &[],
+    );
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
-    for part in ["Largest stresses of each rail", "lateral moments on the top flange alone"] {
+    for part in [
+        "Largest stresses of each rail",
+        "lateral moments on the top flange alone",
+    ] {
         assert!(page.contains(part), "the page does not say: {part}");
     }
     let found = summary(&folder);
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
     let stress = 200.0 * 0.2 / 5.8e-4 + 20.0 / (0.024 * 0.09 / 6.0) + 50.0 / 0.02;
     close(value(direct, "value"), -stress, "top flange");
-    close(value(&direct["parts"], "lateral"), -20.0 / 3.6e-4, "lateral part");
-    assert!(direct["fibre"].as_str().is_some_and(|fibre| fibre.starts_with("top")), "{direct}");
+    close(
+        value(&direct["parts"], "lateral"),
+        -20.0 / 3.6e-4,
+        "lateral part",
+    );
+    assert!(
+        direct["fibre"]
+            .as_str()
+            .is_some_and(|fibre| fibre.starts_with("top")),
+        "{direct}"
+    );
     assert_eq!(direct["lateral_section"], json!("top flange"));
 }
 
@@ -94,7 +142,10 @@ fn a_stress_above_its_strength_is_a_result() {
     let (folder, output) = run(&spec, &wheel(json!({})), &["--fail-on-limit"]);
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(said.contains("1 stresses exceed their strength: direct stress of rail rail"), "{said}");
+    assert!(
+        said.contains("1 stresses exceed their strength: direct stress of rail rail"),
+        "{said}"
+    );
     assert_eq!(summary(&folder)["within"], json!(false));
     let (_folder, output) = run(&spec, &wheel(json!({})), &[]);
     assert_eq!(output.status.code(), Some(0));
@@ -104,7 +155,10 @@ fn a_stress_above_its_strength_is_a_result() {
 #[test]
 fn stresses_without_data_are_left_out_by_name() {
     let mut spec = beam();
-    spec["girder"].as_object_mut().expect("an object").remove("fy");
+    spec["girder"]
+        .as_object_mut()
+        .expect("an object")
+        .remove("fy");
     let found = solved(&spec, &wheel(json!({})));
     assert!(found.get("stresses").is_none());
     let said = found["left_out"].to_string();
@@ -117,7 +171,10 @@ fn stresses_without_data_are_left_out_by_name() {
     let mut spec = lateral_spec();
     spec["girder"]["fy"] = json!(2.35e5);
     let said = solved(&spec, &wheel(json!({})))["left_out"].to_string();
-    assert!(said.contains("section girder has no shape: name a rolled section"), "{said}");
+    assert!(
+        said.contains("section girder has no shape: name a rolled section"),
+        "{said}"
+    );
 }
 
 /// Hand calculation in mm: A65 has I_r = 319e4, A_r = 5490, its centroid 30.84 above its base of 175, and is 75 high (DIN 536-1
@@ -133,16 +190,28 @@ fn local_stresses_follow_from_the_effective_length() {
     for (practice, word, assumed, length) in [
         (json!({}), "loose", true, loose),
         (json!({"rail_fastening": "loose"}), "loose", false, loose),
-        (json!({"rail_fastening": "pad"}), "pad", false, loose * 4.25 / 3.25),
-        (json!({"rail_fastening": "rigid"}), "rigid", false, 3.25 * (rigid / 13.5).cbrt()),
+        (
+            json!({"rail_fastening": "pad"}),
+            "pad",
+            false,
+            loose * 4.25 / 3.25,
+        ),
+        (
+            json!({"rail_fastening": "rigid"}),
+            "rigid",
+            false,
+            3.25 * (rigid / 13.5).cbrt(),
+        ),
     ] {
         let mut design = wheel(practice);
-        design["cases"] =
-            json!([["crane"], {"name": "factored", "trains": ["crane"], "factors": {"vertical": 1.5}}]);
+        design["cases"] = json!([["crane"], {"name": "factored", "trains": ["crane"], "factors": {"vertical": 1.5}}]);
         let found = solved(&spec, &design);
         for (case, force) in [(1, 100.0), (2, 150.0)] {
             let local = row(&found, "wheel_stresses", &[("case", json!(case))]);
-            assert_eq!((&local["fastening"], &local["fastening_assumed"]), (&json!(word), &json!(assumed)));
+            assert_eq!(
+                (&local["fastening"], &local["fastening_assumed"]),
+                (&json!(word), &json!(assumed))
+            );
             close(value(local, "effective_length"), 1e-3 * length, word);
             let stress = force / (1e-3 * length * 0.0135);
             close(value(local, "vertical"), stress, "sigma_oz");
@@ -150,11 +219,23 @@ fn local_stresses_follow_from_the_effective_length() {
             // One wheel: sigma_oz comes and goes once a passage, the local shear reverses. The girder's own largest shear is the
             // whole wheel at a support.
             assert_eq!(local["cycles"].as_array().map(Vec::len), Some(1));
-            close(value(&local["cycles"][0], "vertical"), stress, "range of sigma_oz");
-            close(value(&local["cycles"][0], "shear"), 0.4 * stress, "range of the local shear");
+            close(
+                value(&local["cycles"][0], "vertical"),
+                stress,
+                "range of sigma_oz",
+            );
+            close(
+                value(&local["cycles"][0], "shear"),
+                0.4 * stress,
+                "range of the local shear",
+            );
             let girder = value(local, "global_shear");
             assert!(girder >= force / (0.4 * 0.0135) * (1.0 - 1e-12), "{girder}");
-            close(value(local, "total_shear"), girder + 0.2 * stress, "total shear");
+            close(
+                value(local, "total_shear"),
+                girder + 0.2 * stress,
+                "total shear",
+            );
             close(value(local, "utilisation"), stress / 2.35e5, "utilisation");
         }
     }
@@ -168,11 +249,20 @@ fn wheels_closer_than_the_effective_length_press_together() {
     spec["girder"]["crane_rail"] = json!("A65");
     for (distance, together) in [(0.15, 200.0), (0.3, 100.0)] {
         let mut design = wheel(json!({}));
-        design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": 100}, {"x": distance, "vertical": 100}]);
+        design["trains"][0]["wheels"] =
+            json!([{"x": 0, "vertical": 100}, {"x": distance, "vertical": 100}]);
         let found = solved(&spec, &design);
         let local = row(&found, "wheel_stresses", &[("case", json!(1))]);
-        assert_eq!((value(local, "force"), value(local, "overlapping")), (100.0, together), "{local}");
-        close(value(local, "vertical"), together / (value(local, "effective_length") * 0.0135), "sigma_oz");
+        assert_eq!(
+            (value(local, "force"), value(local, "overlapping")),
+            (100.0, together),
+            "{local}"
+        );
+        close(
+            value(local, "vertical"),
+            together / (value(local, "effective_length") * 0.0135),
+            "sigma_oz",
+        );
         assert_eq!(local["cycles"].as_array().map(Vec::len), Some(2));
     }
 }
@@ -196,7 +286,10 @@ fn crane_rails_without_data_are_left_out_by_name() {
         spec["girder"]["crane_rail"] = json!(rail);
         let found = solved(&spec, &wheel(practice));
         let said = found["left_out"].to_string();
-        assert!(said.contains(known) && found.get("wheel_stresses").is_none(), "{said}");
+        assert!(
+            said.contains(known) && found.get("wheel_stresses").is_none(),
+            "{said}"
+        );
     }
 }
 
@@ -208,7 +301,11 @@ fn end_stops_have_the_factored_buffer_force() {
     design["trains"][0]["buffer"] = json!(80);
     let found = solved(&beam(), &design);
     assert!(found.get("end_stops").is_none());
-    assert!(found["left_out"].to_string().contains("forces on end stops: no case has a factor of `buffer`"));
+    assert!(
+        found["left_out"]
+            .to_string()
+            .contains("forces on end stops: no case has a factor of `buffer`")
+    );
     design["cases"] = json!([{"name": "stop", "trains": ["crane"], "factors": {"buffer": 1.25}}]);
     let found = solved(&beam(), &design);
     for (stop, x, force) in [("first", 0.0, -100.0), ("last", 8.0, 100.0)] {
@@ -243,18 +340,31 @@ fn groups_6_and_8_follow_from_the_weights_and_the_test_load() {
         assert!(said.contains(part), "{said}");
     }
     let eighth = &by_name(&found, "crane: EN 1991-3:2006 group 8")["factors"];
-    for (load, known) in
-        [("crane", 1.1), ("hoist", 1.25), ("longitudinal", 1.5), ("buffer", 0.0), ("skewing", 0.0)]
-    {
+    for (load, known) in [
+        ("crane", 1.1),
+        ("hoist", 1.25),
+        ("longitudinal", 1.5),
+        ("buffer", 0.0),
+        ("skewing", 0.0),
+    ] {
         close(1.0 + value(eighth, load), 1.0 + known, load);
     }
     design["trains"][0]["hoist_load"] = json!(240);
     design["trains"][0]["trolley"] = json!(40);
     let (folder, output) = run(&lateral_spec(), &design, &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let found = summary(&folder);
     let sixth = by_name(&found, "crane: EN 1991-3:2006 group 6");
-    for (load, known) in [("crane", 1.0), ("hoist", 1.0), ("trolley drives", 1.0), ("lateral", 0.0)] {
+    for (load, known) in [
+        ("crane", 1.0),
+        ("hoist", 1.0),
+        ("trolley drives", 1.0),
+        ("lateral", 0.0),
+    ] {
         close(1.0 + value(&sixth["factors"], load), 1.0 + known, load);
     }
     let rows = table(&folder.path().join("out"), "reactions.csv");
@@ -266,7 +376,10 @@ fn groups_6_and_8_follow_from_the_weights_and_the_test_load() {
             && row["kind"] == "max"
     };
     let listed: Vec<_> = rows.iter().filter(own).collect();
-    assert!(listed.len() == 1 && listed[0]["case"] == case, "only group 6 has this load: {listed:?}");
+    assert!(
+        listed.len() == 1 && listed[0]["case"] == case,
+        "only group 6 has this load: {listed:?}"
+    );
     // 14 kN over the support and 14 kN at 3.6 m, as a fraction of the vertical reaction of the same wheels of 180 kN (equal spans,
     // no shear flexibility laterally): between 14 and 28 kN.
     let reaction = number(&listed[0]["value"]);
@@ -276,7 +389,11 @@ fn groups_6_and_8_follow_from_the_weights_and_the_test_load() {
 /// Two simple beams of 6 m, 10 m apart, with a crane that stands on both.
 pub(super) fn runways() -> (Value, Value) {
     let support = |point: usize, last: bool| {
-        let fix = if last { json!(["uy", "uz", "rx"]) } else { json!(["ux", "uy", "uz", "rx"]) };
+        let fix = if last {
+            json!(["uy", "uz", "rx"])
+        } else {
+            json!(["ux", "uy", "uz", "rx"])
+        };
         json!({"point": point, "fix": fix})
     };
     let rail = |z: f64, cell: usize| json!({"origin": [0, 0, z], "axis": [1, 0, 0], "segments": [{"cell": [0, cell]}], "stations": [0, 3, 6]});
@@ -315,14 +432,24 @@ fn two_rails_have_a_gauge_and_a_difference_in_height() {
     ] {
         let response = row(&found, "pairs", &[("quantity", json!(quantity))]);
         close(value(response, "value"), known, quantity);
-        assert_eq!((value(response, "x"), value(response, "distance")), (3.0, 10.0), "{response}");
+        assert_eq!(
+            (value(response, "x"), value(response, "distance")),
+            (3.0, 10.0),
+            "{response}"
+        );
         let limited = row(&found, "limits", &[("quantity", json!(quantity))]);
         close(value(limited, "limit"), limit, "limit");
         close(value(limited, "value"), known.abs(), "limited value");
-        assert_eq!((&limited["sampled"], &limited["rail"]), (&json!(true), &json!("west, east")));
+        assert_eq!(
+            (&limited["sampled"], &limited["rail"]),
+            (&json!(true), &json!("west, east"))
+        );
     }
     let said = found["left_out"].to_string();
-    assert!(!said.contains("gauge_change") && !said.contains("height_difference"), "{said}");
+    assert!(
+        !said.contains("gauge_change") && !said.contains("height_difference"),
+        "{said}"
+    );
 }
 
 /// Hand calculation on the same beams: the wheel of 120 kN at midspan gives M_v = 180 and M_l = 9 kN m.
@@ -330,13 +457,30 @@ fn two_rails_have_a_gauge_and_a_difference_in_height() {
 fn plates_of_the_general_form_have_fibres() {
     let (spec, design) = runways();
     let found = solved(&spec, &design);
-    let west = row(&found, "stresses", &[("rail", json!("west")), ("quantity", json!("direct stress"))]);
+    let west = row(
+        &found,
+        "stresses",
+        &[
+            ("rail", json!("west")),
+            ("quantity", json!("direct stress")),
+        ],
+    );
     let vertical = 1e-12 * (300.0 * 600f64.powi(3) - 290.0 * 560f64.powi(3)) / 12.0;
     let lateral = 1e-12 * (40.0 * 300f64.powi(3) + 560.0 * 1000.0) / 12.0;
-    close(value(west, "value").abs(), 180.0 * 0.3 / vertical + 9.0 * 0.15 / lateral, "stress");
+    close(
+        value(west, "value").abs(),
+        180.0 * 0.3 / vertical + 9.0 * 0.15 / lateral,
+        "stress",
+    );
     close(value(west, "strength"), 3.55e5, "strength");
-    let shear =
-        row(&found, "stresses", &[("rail", json!("east")), ("quantity", json!("shear stress in the web"))]);
+    let shear = row(
+        &found,
+        "stresses",
+        &[
+            ("rail", json!("east")),
+            ("quantity", json!("shear stress in the web")),
+        ],
+    );
     close(value(shear, "value").abs(), 40.0 / 0.006, "shear");
 }
 
@@ -352,15 +496,31 @@ fn sections_upside_down_keep_their_plates() {
         design["trains"][0]["wheels"][wheel]["lateral"] = json!(0);
     }
     let found = solved(&spec, &design);
-    let west = row(&found, "stresses", &[("rail", json!("west")), ("quantity", json!("direct stress"))]);
+    let west = row(
+        &found,
+        "stresses",
+        &[
+            ("rail", json!("west")),
+            ("quantity", json!("direct stress")),
+        ],
+    );
     let low = (6000.0 * 10.0 + 5600.0 * 300.0 + 3000.0 * 590.0) / 14600.0;
     let own = (300.0 * 8000.0 + 150.0 * 8000.0 + 10.0 * 560f64.powi(3)) / 12.0;
     let inertia = own
         + 6000.0 * (low - 10.0f64).powi(2)
         + 5600.0 * (300.0f64 - low).powi(2)
         + 3000.0 * (590.0f64 - low).powi(2);
-    close(value(west, "value"), -180.0 * 1e-3 * (600.0 - low) / (1e-12 * inertia), "compression above");
-    assert!(west["fibre"].as_str().is_some_and(|fibre| fibre.starts_with("top")), "{west}");
+    close(
+        value(west, "value"),
+        -180.0 * 1e-3 * (600.0 - low) / (1e-12 * inertia),
+        "compression above",
+    );
+    assert!(
+        west["fibre"]
+            .as_str()
+            .is_some_and(|fibre| fibre.starts_with("top")),
+        "{west}"
+    );
 }
 
 /// Hand calculation: W24X94 is 24.3 in deep with a web of 0.515 in (AISC). The spec is in ft and lbf, the design in in and kip:
@@ -376,11 +536,23 @@ fn stresses_have_the_units_of_the_design() {
         "spec": "spec.json", "trains": [{"name": "hoist", "wheels": [{"x": 0, "vertical": 20}]}]
     });
     let found = solved(&spec, &design);
-    let shear = row(&found, "stresses", &[("quantity", json!("shear stress in the web"))]);
-    close(value(shear, "value").abs(), 20.0 / (24.3 * 0.515), "shear stress");
+    let shear = row(
+        &found,
+        "stresses",
+        &[("quantity", json!("shear stress in the web"))],
+    );
+    close(
+        value(shear, "value").abs(),
+        20.0 / (24.3 * 0.515),
+        "shear stress",
+    );
     close(value(shear, "strength"), 50.0 / 3f64.sqrt(), "strength");
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
-    close(value(direct, "value").abs(), 20.0 * 60.0 * 12.15 / (0.13 * 12f64.powi(4)), "direct stress");
+    close(
+        value(direct, "value").abs(),
+        20.0 * 60.0 * 12.15 / (0.13 * 12f64.powi(4)),
+        "direct stress",
+    );
 }
 
 /// Analytic, sampled here every 2 mm with the section at either wheel: wheels of 100 and 60 kN whose lateral forces of 5 and 15 kN
@@ -394,7 +566,11 @@ fn the_utilisation_is_enclosed_by_its_bound() {
     let found = solved(&beam(), &design);
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
     let moment = |x: f64, at: f64, force: f64| {
-        if x <= at { force * (8.0 - at) / 8.0 * x } else { force * at / 8.0 * (8.0 - x) }
+        if x <= at {
+            force * (8.0 - at) / 8.0 * x
+        } else {
+            force * at / 8.0 * (8.0 - x)
+        }
     };
     let mut largest: f64 = 0.0;
     for step in 0..=2500 {
@@ -405,7 +581,16 @@ fn the_utilisation_is_enclosed_by_its_bound() {
             largest = largest.max(vertical * 0.2 / 5.8e-4 + lateral * 0.15 / 1.1e-4);
         }
     }
-    let (stress, bound) = (value(direct, "value").abs(), 2.35e5 * value(direct, "bound"));
-    assert!(stress <= largest * (1.0 + 1e-4) && stress >= 0.99 * largest, "{stress} and {largest}");
-    assert!(bound >= largest * (1.0 - 1e-12) && bound > stress * 1.001, "{bound} and {largest}");
+    let (stress, bound) = (
+        value(direct, "value").abs(),
+        2.35e5 * value(direct, "bound"),
+    );
+    assert!(
+        stress <= largest * (1.0 + 1e-4) && stress >= 0.99 * largest,
+        "{stress} and {largest}"
+    );
+    assert!(
+        bound >= largest * (1.0 - 1e-12) && bound > stress * 1.001,
+        "{bound} and {largest}"
+    );
 }

@@ -32,7 +32,10 @@ fn of(lines: &[GoverningLine], wanted: GirderResponse, is_max: bool) -> &Governi
         line.is_max == is_max
             && matches!(line.subject, LineSubject::Girder { quantity, .. } if quantity == wanted)
     };
-    lines.iter().find(is_own).unwrap_or_else(|| panic!("no line of {wanted:?}"))
+    lines
+        .iter()
+        .find(is_own)
+        .unwrap_or_else(|| panic!("no line of {wanted:?}"))
 }
 
 /// Without horizontal forces the forces times the ordinates and the dead load are the governing value.
@@ -40,7 +43,12 @@ fn assert_sums(lines: &[GoverningLine]) {
     for line in lines {
         let sum = line.of_wheels() + line.governing.dead;
         let error = (sum - line.governing.value).abs() / line.governing.value.abs();
-        assert!(error < 1e-9, "{:?}: {sum}, not {}", line.subject, line.governing.value);
+        assert!(
+            error < 1e-9,
+            "{:?}: {sum}, not {}",
+            line.subject,
+            line.governing.value
+        );
     }
 }
 
@@ -63,22 +71,42 @@ fn lines_of_a_simple_beam_have_their_closed_forms() {
     let deflection = of(&lines, GirderResponse::VerticalDeflection, true);
     let end = deflection.governing.x;
     assert!((end - 4.0).abs() < 1e-5);
-    let reaction = lines.iter().find(|line| matches!(line.subject, LineSubject::Reaction { .. }));
+    let reaction = lines
+        .iter()
+        .find(|line| matches!(line.subject, LineSubject::Reaction { .. }));
     let reaction = reaction.expect("supports have reactions");
-    let LineSubject::Reaction { support, .. } = &reaction.subject else { panic!("it is a reaction") };
+    let LineSubject::Reaction { support, .. } = &reaction.subject else {
+        panic!("it is a reaction")
+    };
     for x in [0.5, 1.7, 3.9] {
         let at = |line: &GoverningLine| line.lines[0].value(x, SectionSide::At);
         assert!((at(moment) - 0.5 * x).abs() < 1e-12, "moment at {x}");
         let sag = x * (3.0 * length * length - 4.0 * x * x) / (48.0 * stiffness);
-        assert!((at(deflection) / sag - 1.0).abs() < 1e-6, "deflection at {x}");
-        let share = if support == "support1" { 1.0 - x / length } else { x / length };
+        assert!(
+            (at(deflection) / sag - 1.0).abs() < 1e-6,
+            "deflection at {x}"
+        );
+        let share = if support == "support1" {
+            1.0 - x / length
+        } else {
+            x / length
+        };
         assert!((at(reaction) - share).abs() < 1e-12, "{support} at {x}");
     }
     let shear = &lines.iter().find(|line| {
-        matches!(line.subject, LineSubject::Girder { quantity: GirderResponse::VerticalShear, .. })
+        matches!(
+            line.subject,
+            LineSubject::Girder {
+                quantity: GirderResponse::VerticalShear,
+                ..
+            }
+        )
     });
     let shear = shear.expect("the beam has shear forces");
-    assert!((shear.of_wheels().abs() - 100.0).abs() < 1e-9, "the wheel stands beside the support");
+    assert!(
+        (shear.of_wheels().abs() - 100.0).abs() < 1e-9,
+        "the wheel stands beside the support"
+    );
 }
 
 /// Superposition: exact envelopes and influence lines are computed by different ways.
@@ -90,13 +118,28 @@ fn forces_times_ordinates_are_the_governing_values() {
     design["dead_load"] = json!(true);
     design["cases"] = json!([["crane"], {"trains": ["crane", "crane"], "gap": 0.5, "factors": {"dead": 1.1, "vertical": 1.35}}]);
     let (_, lines, csv) = solved(&spec, &design);
-    assert_eq!(lines.len(), 6, "two moments, shear, deflection, two reactions");
-    assert!(lines.iter().all(|line| line.governing.dead != 0.0 && line.wheels.len() <= 4));
+    assert_eq!(
+        lines.len(),
+        6,
+        "two moments, shear, deflection, two reactions"
+    );
+    assert!(
+        lines
+            .iter()
+            .all(|line| line.governing.dead != 0.0 && line.wheels.len() <= 4)
+    );
     assert_sums(&lines);
     let shear = of(&lines, GirderResponse::VerticalShear, lines[2].is_max);
-    let jumps = shear.points(0).windows(2).filter(|pair| pair[0][0] == pair[1][0]).count();
+    let jumps = shear
+        .points(0)
+        .windows(2)
+        .filter(|pair| pair[0][0] == pair[1][0])
+        .count();
     let at = shear.governing.x;
-    assert!(jumps == 1 || [0.0, 6.0, 13.5, 19.5].contains(&at), "{jumps} jumps, section at {at}");
+    assert!(
+        jumps == 1 || [0.0, 6.0, 13.5, 19.5].contains(&at),
+        "{jumps} jumps, section at {at}"
+    );
     assert!(!csv.contains("NaN") && csv.lines().count() > 6 * 200);
 }
 
@@ -120,7 +163,11 @@ fn a_train_on_two_rails_loads_both_lines() {
     assert_eq!(read.spec.rails().len(), 2);
     assert!(lines.len() >= 8, "{} lines", lines.len());
     assert_sums(&lines);
-    assert!(lines.iter().all(|line| line.wheels.len() == 4 && line.lines.len() == 2));
+    assert!(
+        lines
+            .iter()
+            .all(|line| line.wheels.len() == 4 && line.lines.len() == 2)
+    );
     assert!(csv.contains(",south,") && csv.contains(",north,"));
 }
 
@@ -129,7 +176,11 @@ fn a_train_on_two_rails_loads_both_lines() {
 #[test]
 fn the_command_writes_lines_and_a_page_for_print() {
     let (folder, output) = run(&spec(), &worked(), &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let out = folder.path().join("out");
     let rows = table(&out, "influence.csv");
     let moment: Vec<(f64, f64, f64)> = rows
@@ -140,17 +191,35 @@ fn the_command_writes_lines_and_a_page_for_print() {
             (number("x"), number("load_x"), number("value"))
         })
         .collect();
-    let (x, place, largest) =
-        moment.iter().copied().reduce(|best, next| if next.2 > best.2 { next } else { best }).expect("rows");
-    assert!((x - place).abs() < 0.1, "the largest ordinate is at {place}, the section at {x}");
+    let (x, place, largest) = moment
+        .iter()
+        .copied()
+        .reduce(|best, next| if next.2 > best.2 { next } else { best })
+        .expect("rows");
+    assert!(
+        (x - place).abs() < 0.1,
+        "the largest ordinate is at {place}, the section at {x}"
+    );
     // Analytic: at midspan between L/8 of a span with clamped ends and L/4 of a simple beam, L = 7.5 m.
     assert!(largest > 7.5 / 8.0 && largest < 7.5 / 4.0, "{largest}");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a report");
-    assert_eq!(page.matches("Influence line of the largest sagging moment").count(), 1);
-    assert_eq!(page.matches("<title>Influence line with the governing wheels</title>").count(), 6);
+    assert_eq!(
+        page.matches("Influence line of the largest sagging moment")
+            .count(),
+        1
+    );
+    assert_eq!(
+        page.matches("<title>Influence line with the governing wheels</title>")
+            .count(),
+        6
+    );
     let verdict = page.find("<h2>Verdict</h2>").expect("a verdict");
-    let basis = page.find("class=\"ends-page\"").expect("the first page ends");
-    let rest = page.find("<h2>Deflections and limits</h2>").expect("the second page");
+    let basis = page
+        .find("class=\"ends-page\"")
+        .expect("the first page ends");
+    let rest = page
+        .find("<h2>Deflections and limits</h2>")
+        .expect("the second page");
     assert!(verdict < basis && basis < rest);
 }
 
@@ -172,9 +241,14 @@ fn forces_in_newtons_are_read_in_kilonewtons() {
     }
     let (read, inputs) = Design::open(&folder.path().join("design.json")).expect("a design");
     let result = solve(&read, &inputs).expect("it stands");
-    let page = design_report(&read, &result, &[]).html(Some(1)).expect("finite numbers");
+    let page = design_report(&read, &result, &[])
+        .html(Some(1))
+        .expect("finite numbers");
     // External: 241.2377 kN m, the worked runway of `the_worked_runway_has_its_digits`.
     assert!(page.contains("241.2\u{a0}kN\u{a0}m"), "moments in kN m");
-    assert!(page.contains("E = 210\u{202f}000 N/mm\u{b2}"), "moduli in N/mm2");
+    assert!(
+        page.contains("E = 210\u{202f}000 N/mm\u{b2}"),
+        "moduli in N/mm2"
+    );
     assert!(!page.contains("<h2>Influence lines</h2>"));
 }

@@ -46,13 +46,19 @@ fn table(folder: &Path, name: &str) -> Vec<BTreeMap<String, String>> {
     let text = std::fs::read_to_string(folder.join(name)).expect("the table exists");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
-    let row =
-        |line: &str| names.iter().map(|n| (*n).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
+    let row = |line: &str| {
+        names
+            .iter()
+            .map(|n| (*n).to_owned())
+            .zip(line.split(',').map(str::to_owned))
+            .collect()
+    };
     lines.map(row).collect()
 }
 
 fn number(text: &str) -> f64 {
-    text.parse().unwrap_or_else(|_| panic!("{text} is not a number"))
+    text.parse()
+        .unwrap_or_else(|_| panic!("{text} is not a number"))
 }
 
 /// The worked runway: HEB 400 with a shear area of 0.007 m2 over 6, 7.5 and 6 m.
@@ -76,30 +82,52 @@ fn design() -> Value {
 fn extreme<'s>(summary: &'s Value, wanted: &[(&str, Value)]) -> &'s Value {
     let all = summary["extremes"].as_array().expect("a list of extremes");
     let same = |entry: &&Value| wanted.iter().all(|(key, value)| entry[*key] == *value);
-    all.iter().find(same).unwrap_or_else(|| panic!("no extreme with {wanted:?}"))
+    all.iter()
+        .find(same)
+        .unwrap_or_else(|| panic!("no extreme with {wanted:?}"))
 }
 
 /// External: an independent Timoshenko model with elements of 0.05 m.
 #[test]
 fn the_worked_runway_has_its_digits() {
     let (folder, output) = run(&spec(), &design(), &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let found = summary(&folder);
-    let moment =
-        extreme(&found, &[("span", json!(2)), ("quantity", json!("moment")), ("kind", json!("max"))]);
+    let moment = extreme(
+        &found,
+        &[
+            ("span", json!(2)),
+            ("quantity", json!("moment")),
+            ("kind", json!("max")),
+        ],
+    );
     let value = moment["value"].as_f64().expect("a number");
     assert!((value - 241.2377).abs() < 5e-5, "{moment}");
     let x = moment["x"].as_f64().expect("a number");
-    assert!((x - 9.2442).abs() < 5e-5 || (x - 10.2558).abs() < 5e-5, "{moment}");
+    assert!(
+        (x - 9.2442).abs() < 5e-5 || (x - 10.2558).abs() < 5e-5,
+        "{moment}"
+    );
     for (support, kind, known) in [
         ("support1", "max", 235.687),
         ("support1", "min", -28.335),
         ("support2", "max", 317.259),
         ("support2", "min", -26.143),
     ] {
-        let keys = [("support", json!(support)), ("direction", json!("uy")), ("kind", json!(kind))];
+        let keys = [
+            ("support", json!(support)),
+            ("direction", json!("uy")),
+            ("kind", json!(kind)),
+        ];
         let reaction = extreme(&found, &keys)["value"].as_f64().expect("a number");
-        assert!((reaction - known).abs() < 1e-3, "{support} {kind}: {reaction}, not {known}");
+        assert!(
+            (reaction - known).abs() < 1e-3,
+            "{support} {kind}: {reaction}, not {known}"
+        );
     }
     let rows = table(&folder.path().join("out"), "envelope.csv");
     let at = |x: f64, kind: &str| {
@@ -121,10 +149,15 @@ fn factors_multiply_the_loads_that_they_name() {
     let mut spec = spec();
     spec["girder"]["I_lateral"] = json!(1e-4);
     let mut design = design();
-    design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": {"crane": 60, "hoist": 120}, "lateral": 10}]);
+    design["trains"][0]["wheels"] =
+        json!([{"x": 0, "vertical": {"crane": 60, "hoist": 120}, "lateral": 10}]);
     design["cases"] = json!([["crane"], {"name": "ultimate", "trains": ["crane"], "factors": {"crane": 1.1, "hoist": 1.5}}]);
     let (folder, output) = run(&spec, &design, &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let found = summary(&folder);
     let of = |case: usize, direction: &str| {
         let keys = [
@@ -177,7 +210,10 @@ fn reactions_are_listed_by_load() {
         ("kind", json!("max")),
     ];
     let all = extreme(&found, &keys)["value"].as_f64().expect("a number");
-    assert!(all <= together + 1e-9 && all > together - 5.0, "{all} and {together}");
+    assert!(
+        all <= together + 1e-9 && all > together - 5.0,
+        "{all} and {together}"
+    );
     for file in ["report.html", "manifest.json", "envelope.csv"] {
         assert!(out.path().join(file).is_file(), "{file} is missing");
     }
@@ -214,7 +250,10 @@ fn lateral_spec() -> Value {
 
 fn by_name<'s>(summary: &'s Value, name: &str) -> &'s Value {
     let cases = summary["cases"].as_array().expect("a list of cases");
-    cases.iter().find(|case| case["name"] == name).unwrap_or_else(|| panic!("no case {name} in {cases:?}"))
+    cases
+        .iter()
+        .find(|case| case["name"] == name)
+        .unwrap_or_else(|| panic!("no case {name} in {cases:?}"))
 }
 
 /// Hand calculation, EN 1991-3: HC2 at 0.133 m/s has phi2 = 1.10 + 0.34 * 0.133 = 1.14522 (Tables 2.4 and 2.5); group 1
@@ -223,17 +262,31 @@ fn by_name<'s>(summary: &'s Value, name: &str) -> &'s Value {
 fn groups_of_a_code_become_cases_with_their_factors() {
     let practice = json!({"code": "EN 1991-3", "hoisting": "HC2", "hoist_speed": 0.133, "combinations": true, "s_class": "S5"});
     let (folder, output) = run(&lateral_spec(), &coded(practice), &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let found = summary(&folder);
     let first = &by_name(&found, "crane: EN 1991-3:2006 group 1")["factors"];
-    for (load, known) in
-        [("crane", 1.1), ("hoist", 1.14522), ("longitudinal", 1.5), ("dead", 1.0), ("skewing", 0.0)]
-    {
+    for (load, known) in [
+        ("crane", 1.1),
+        ("hoist", 1.14522),
+        ("longitudinal", 1.5),
+        ("dead", 1.0),
+        ("skewing", 0.0),
+    ] {
         let factor = first[load].as_f64().expect("a factor");
         assert!((factor - known).abs() < 1e-12, "{load}: {factor}");
     }
     let fifth = by_name(&found, "crane: EN 1991-3:2006 group 5");
-    assert_eq!([&fifth["factors"]["skewing"], &fifth["factors"]["longitudinal"]], [&json!(1.0), &json!(0.0)]);
+    assert_eq!(
+        [
+            &fifth["factors"]["skewing"],
+            &fifth["factors"]["longitudinal"]
+        ],
+        [&json!(1.0), &json!(0.0)]
+    );
     // The moments of a group are those of the wheel loads with its factors: 60 * 1.1 + 120 * 1.14522 in place of 180.
     let moment = |case: usize| {
         let keys = [
@@ -243,19 +296,38 @@ fn groups_of_a_code_become_cases_with_their_factors() {
             ("kind", json!("max")),
         ];
         let vertical = [&keys[..], &[("plane", json!("vertical"))]].concat();
-        extreme(&found, &vertical)["value"].as_f64().expect("a number")
+        extreme(&found, &vertical)["value"]
+            .as_f64()
+            .expect("a number")
     };
     let factored = (60.0 * 1.1 + 120.0 * 1.14522) / 180.0;
-    assert!((moment(2) / moment(1) / factored - 1.0).abs() < 1e-12, "{} and {}", moment(1), moment(2));
+    assert!(
+        (moment(2) / moment(1) / factored - 1.0).abs() < 1e-12,
+        "{} and {}",
+        moment(1),
+        moment(2)
+    );
     // Skewing acts where a factor names it, and is listed as a load of its own.
     let rows = table(&folder.path().join("out"), "reactions.csv");
-    assert!(rows.iter().any(|row| row["load"] == "skewing" && number(&row["value"]) > 1.0), "{rows:?}");
+    assert!(
+        rows.iter()
+            .any(|row| row["load"] == "skewing" && number(&row["value"]) > 1.0),
+        "{rows:?}"
+    );
     // Damage-equivalent loads by hand: lambda = 0.63 for S5 (Table 2.12), (1.05 * 60 + 1.07261 * 120) * 0.63.
-    let equivalent = found["fatigue"][0]["wheels"][0]["normal"].as_f64().expect("a load");
-    assert!((equivalent - 0.63 * (1.05 * 60.0 + 1.07261 * 120.0)).abs() < 1e-9, "{equivalent}");
+    let equivalent = found["fatigue"][0]["wheels"][0]["normal"]
+        .as_f64()
+        .expect("a load");
+    assert!(
+        (equivalent - 0.63 * (1.05 * 60.0 + 1.07261 * 120.0)).abs() < 1e-9,
+        "{equivalent}"
+    );
     // What the design lacks is named.
     let left_out = found["left_out"].to_string();
-    assert!(left_out.contains("group 9: no train has a `buffer` force"), "{left_out}");
+    assert!(
+        left_out.contains("group 9: no train has a `buffer` force"),
+        "{left_out}"
+    );
 }
 
 /// Hand calculation: the worked sag of span 2 is 9.385 mm from the undeflected line, and its limits are 7.5 m/600 = 12.5 mm
@@ -264,19 +336,44 @@ fn groups_of_a_code_become_cases_with_their_factors() {
 fn limits_follow_the_code_and_its_class() {
     for (practice, limit, within) in [
         (json!({"code": "EN 1991-3"}), 7.5 / 600.0, true),
-        (json!({"code": "AIST TR-13", "building_class": "A"}), 7.5 / 1000.0, false),
-        (json!({"code": "AISC Design Guide 7", "class": "C"}), 7.5 / 600.0, true),
-        (json!({"code": "AISC Design Guide 7", "class": "D"}), 7.5 / 800.0, false),
+        (
+            json!({"code": "AIST TR-13", "building_class": "A"}),
+            7.5 / 1000.0,
+            false,
+        ),
+        (
+            json!({"code": "AISC Design Guide 7", "class": "C"}),
+            7.5 / 600.0,
+            true,
+        ),
+        (
+            json!({"code": "AISC Design Guide 7", "class": "D"}),
+            7.5 / 800.0,
+            false,
+        ),
     ] {
         let mut design = design();
         design["practice"] = practice.clone();
         let (folder, output) = run(&spec(), &design, &[]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         let found = summary(&folder);
         let rows = found["limits"].as_array().expect("limits");
-        let row = rows.iter().find(|row| row["span"] == 2).expect("a row for every span");
-        assert!((row["limit"].as_f64().expect("a limit") - limit).abs() < 1e-12, "{row}");
-        assert!((row["value"].as_f64().expect("a value") - 9.385e-3).abs() < 2e-5, "{row}");
+        let row = rows
+            .iter()
+            .find(|row| row["span"] == 2)
+            .expect("a row for every span");
+        assert!(
+            (row["limit"].as_f64().expect("a limit") - limit).abs() < 1e-12,
+            "{row}"
+        );
+        assert!(
+            (row["value"].as_f64().expect("a value") - 9.385e-3).abs() < 2e-5,
+            "{row}"
+        );
         assert_eq!(
             (row["within"].as_bool(), found["within"].as_bool()),
             (Some(within), Some(within)),
@@ -287,7 +384,11 @@ fn limits_follow_the_code_and_its_class() {
             "{row}"
         );
         let (_folder, output) = run(&spec(), &design, &["--fail-on-limit"]);
-        assert_eq!(output.status.code(), Some(if within { 0 } else { 1 }), "{practice}");
+        assert_eq!(
+            output.status.code(),
+            Some(if within { 0 } else { 1 }),
+            "{practice}"
+        );
     }
 }
 
@@ -304,11 +405,28 @@ fn a_design_about_a_preload_has_the_closed_moment() {
     let mut design = design();
     design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": 180}]);
     let (folder, output) = run(&spec, &design, &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let summary = summary(&folder);
     let u = 0.5 * std::f64::consts::PI * 0.5_f64.sqrt();
-    let wanted = [("quantity", json!("moment")), ("plane", json!("vertical")), ("kind", json!("max"))];
-    let found = extreme(&summary, &wanted)["value"].as_f64().expect("a number");
-    assert!((found / (0.25 * 180.0 * 6.0 * u.tan() / u) - 1.0).abs() < 1e-9, "{found}");
-    assert!(!summary["warnings"].to_string().contains("err by"), "{}", summary["warnings"]);
+    let wanted = [
+        ("quantity", json!("moment")),
+        ("plane", json!("vertical")),
+        ("kind", json!("max")),
+    ];
+    let found = extreme(&summary, &wanted)["value"]
+        .as_f64()
+        .expect("a number");
+    assert!(
+        (found / (0.25 * 180.0 * 6.0 * u.tan() / u) - 1.0).abs() < 1e-9,
+        "{found}"
+    );
+    assert!(
+        !summary["warnings"].to_string().contains("err by"),
+        "{}",
+        summary["warnings"]
+    );
 }

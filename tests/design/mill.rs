@@ -16,7 +16,11 @@ fn run(command: &str, job: &Path, out: &Path) -> Value {
         .arg(out)
         .output()
         .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
     serde_json::from_str(&text).expect("the summary is JSON")
 }
@@ -26,13 +30,41 @@ fn run(command: &str, job: &Path, out: &Path) -> Value {
 #[test]
 fn reactions_of_the_example_are_those_of_another_code() {
     let out = tempfile::tempdir().expect("a temporary folder");
-    let found = run("design", &root().join("examples/mill_girderway/design.json"), out.path());
+    let found = run(
+        "design",
+        &root().join("examples/mill_girderway/design.json"),
+        out.path(),
+    );
     let extremes = found["extremes"].as_array().expect("a list of extremes");
     let sampled = [
-        (1, [344802.6, 447510.5, 461579.2, 432424.0, 459391.0, 452125.8, 372823.6], "max"),
-        (1, [-33723.0, -48472.5, -41272.7, -30575.7, -49420.4, -54789.8, -28294.3], "min"),
-        (2, [396133.2, 788917.8, 865958.3, 761119.2, 839061.0, 803116.7, 490048.9], "max"),
-        (2, [-49580.9, -83975.3, -43026.8, -56707.7, -69544.4, -86800.8, -36293.8], "min"),
+        (
+            1,
+            [
+                344802.6, 447510.5, 461579.2, 432424.0, 459391.0, 452125.8, 372823.6,
+            ],
+            "max",
+        ),
+        (
+            1,
+            [
+                -33723.0, -48472.5, -41272.7, -30575.7, -49420.4, -54789.8, -28294.3,
+            ],
+            "min",
+        ),
+        (
+            2,
+            [
+                396133.2, 788917.8, 865958.3, 761119.2, 839061.0, 803116.7, 490048.9,
+            ],
+            "max",
+        ),
+        (
+            2,
+            [
+                -49580.9, -83975.3, -43026.8, -56707.7, -69544.4, -86800.8, -36293.8,
+            ],
+            "min",
+        ),
     ];
     for (case, columns, kind) in sampled {
         for (k, known) in columns.into_iter().enumerate() {
@@ -43,10 +75,19 @@ fn reactions_of_the_example_are_those_of_another_code() {
                     && entry["direction"] == json!("uy")
                     && entry["kind"] == json!(kind)
             });
-            let value = wanted.expect("the reaction is listed")["value"].as_f64().expect("a number");
+            let value = wanted.expect("the reaction is listed")["value"]
+                .as_f64()
+                .expect("a number");
             // A digit of the samples, and what they fall short by.
-            let beyond = if kind == "max" { value - known } else { known - value };
-            assert!((-0.06..0.3).contains(&beyond), "{name} {kind}: {value}, sampled {known}");
+            let beyond = if kind == "max" {
+                value - known
+            } else {
+                known - value
+            };
+            assert!(
+                (-0.06..0.3).contains(&beyond),
+                "{name} {kind}: {value}, sampled {known}"
+            );
         }
     }
 }
@@ -59,9 +100,16 @@ fn reactions_of_the_example_are_those_of_another_code() {
 fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = |name: &str| folder.path().join(name);
-    std::fs::copy(root().join("examples/mill_girderway/spec.json"), path("spec.json")).expect("a copy");
+    std::fs::copy(
+        root().join("examples/mill_girderway/spec.json"),
+        path("spec.json"),
+    )
+    .expect("a copy");
     let units = json!({"length": "ft", "force": "lbf", "time": "s"});
-    let wheels: Vec<Value> = [0, 5, 13, 18].iter().map(|x| json!({"x": x, "vertical": 120_000})).collect();
+    let wheels: Vec<Value> = [0, 5, 13, 18]
+        .iter()
+        .map(|x| json!({"x": x, "vertical": 120_000}))
+        .collect();
     let design = json!({
         "format": "girderway-design/1", "name": "mill", "units": units, "spec": "spec.json",
         "trains": [{"name": "crane", "wheels": wheels}],
@@ -80,9 +128,15 @@ fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
         std::fs::write(path(name), value.to_string()).expect("a writable folder");
     }
     let extremes = |summary: &Value| -> BTreeMap<String, f64> {
-        let all = summary["extremes"].as_array().expect("a list of extremes").iter();
-        let key =
-            |entry: &Value| ["quantity", "plane", "span", "kind"].map(|k| entry[k].to_string()).join(" ");
+        let all = summary["extremes"]
+            .as_array()
+            .expect("a list of extremes")
+            .iter();
+        let key = |entry: &Value| {
+            ["quantity", "plane", "span", "kind"]
+                .map(|k| entry[k].to_string())
+                .join(" ")
+        };
         all.filter(|entry| entry.get("span").is_some())
             .map(|entry| (key(entry), entry["value"].as_f64().expect("a number")))
             .collect()
@@ -91,11 +145,18 @@ fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
     let found = extremes(&run("run", &path("scene.json"), &path("moved")));
     for quantity in ["moment", "shear", "normal", "torsion", "deflection"] {
         let of = |key: &str| key.starts_with(&format!("\"{quantity}\""));
-        let largest = known.iter().filter(|(key, _)| of(key)).fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
+        let largest = known
+            .iter()
+            .filter(|(key, _)| of(key))
+            .fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
         let mut count = 0;
         for (key, value) in known.iter().filter(|(key, _)| of(key)) {
             let error = (found[key] - value).abs() / largest;
-            assert!(error < 1e-8, "{key}: {value} in the design, {} in the run, {error:e}", found[key]);
+            assert!(
+                error < 1e-8,
+                "{key}: {value} in the design, {} in the run, {error:e}",
+                found[key]
+            );
             count += 1;
         }
         assert!(count >= 12, "{count} extremes of {quantity}");

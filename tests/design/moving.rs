@@ -24,7 +24,8 @@ fn runway() -> Value {
 fn crossing(modes: usize, dt: f64, accuracy: f64, dead: bool) -> Value {
     let mut girder = json!({"spec": "spec.json", "foundation": "influence"});
     if modes > 0 {
-        girder = json!({"spec": "spec.json", "foundation": "modal", "modes": modes, "damping": 0.01});
+        girder =
+            json!({"spec": "spec.json", "foundation": "modal", "modes": modes, "damping": 0.01});
     }
     json!({
         "format": "girderway-scene/1", "name": "crossing", "units": {"length": "m", "force": "kN", "time": "s"},
@@ -49,7 +50,11 @@ fn run(command: &str, job: &Value) -> tempfile::TempDir {
         .current_dir(folder.path())
         .output()
         .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     folder
 }
 
@@ -61,10 +66,19 @@ fn summary(folder: &Path) -> Value {
 /// Extremes of spans by span, quantity, plane and kind.
 fn extremes(folder: &Path) -> BTreeMap<String, f64> {
     let summary = summary(folder);
-    let all = summary["extremes"].as_array().expect("a list of extremes").iter();
+    let all = summary["extremes"]
+        .as_array()
+        .expect("a list of extremes")
+        .iter();
     let spans = all.filter(|entry| entry.get("span").is_some());
-    let key = |entry: &Value| ["span", "quantity", "plane", "kind"].map(|k| entry[k].to_string()).join(" ");
-    spans.map(|entry| (key(entry), entry["value"].as_f64().expect("a number"))).collect()
+    let key = |entry: &Value| {
+        ["span", "quantity", "plane", "kind"]
+            .map(|k| entry[k].to_string())
+            .join(" ")
+    };
+    spans
+        .map(|entry| (key(entry), entry["value"].as_f64().expect("a number")))
+        .collect()
 }
 
 /// Asserts that extremes agree to a fraction of the largest value of their quantity.
@@ -76,11 +90,18 @@ fn assert_alike(
 ) {
     for quantity in quantities {
         let of = |key: &&String| key.split(' ').nth(1) == Some(&format!("\"{quantity}\""));
-        let largest = known.iter().filter(|(key, _)| of(key)).fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
+        let largest = known
+            .iter()
+            .filter(|(key, _)| of(key))
+            .fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
         let mut count = 0;
         for (key, value) in found.iter().filter(|(key, _)| of(key)) {
             let error = (value - known[key]).abs() / largest;
-            assert!(error <= tolerance, "{key}: {value} instead of {}, {error:e}", known[key]);
+            assert!(
+                error <= tolerance,
+                "{key}: {value} instead of {}, {error:e}",
+                known[key]
+            );
             count += 1;
         }
         assert!(count >= 6, "{count} extremes of {quantity}");
@@ -116,7 +137,12 @@ fn dead_load_counts_as_in_the_design() {
     let mut scene = crossing(0, 0.02, 1e-4, true);
     scene["analysis"] = json!("quasi-static");
     let found = extremes(run("run", &scene).path());
-    assert_alike(&found, &extremes(run("design", &design).path()), 1e-6, &["moment", "shear"]);
+    assert_alike(
+        &found,
+        &extremes(run("design", &design).path()),
+        1e-6,
+        &["moment", "shear"],
+    );
 }
 
 /// Identity: rows of the history and the method are choices of the user, the extremes are not. As the second wheel passes a
@@ -131,11 +157,20 @@ fn extremes_do_not_depend_on_the_output_interval() {
             extremes(run("run", &scene).path())
         };
         let known = of(0.01, "radau");
-        for (dt, stepper) in [(0.01 / 7.0, "radau"), (0.00143, "radau"), (0.01, "sdirk4"), (0.0017, "sdirk4")]
-        {
+        for (dt, stepper) in [
+            (0.01 / 7.0, "radau"),
+            (0.00143, "radau"),
+            (0.01, "sdirk4"),
+            (0.0017, "sdirk4"),
+        ] {
             // each run has an error of its own
             let tolerance = if stepper == "radau" { 1e-4 } else { 2e-4 };
-            assert_alike(&of(dt, stepper), &known, tolerance, &["moment", "shear", "deflection"]);
+            assert_alike(
+                &of(dt, stepper),
+                &known,
+                tolerance,
+                &["moment", "shear", "deflection"],
+            );
         }
     }
 }
@@ -148,11 +183,19 @@ fn a_row_at_the_passage_of_a_support_has_the_forces_before_it() {
         let mut scene = crossing(modes, 1e-4, 1e-6, false);
         scene["end"] = json!({"time": 1.0005});
         let rows = table(&run("run", &scene).path().join("out"), "history.csv");
-        let at = rows.iter().position(|row| number(&row["time"]) == 1.0).expect("a row at the passage");
+        let at = rows
+            .iter()
+            .position(|row| number(&row["time"]) == 1.0)
+            .expect("a row at the passage");
         for wheel in [1, 2] {
-            let force = |row: usize| number(&rows[row][&format!("crane.truck1.wheel{wheel}.vertical")]);
+            let force =
+                |row: usize| number(&rows[row][&format!("crane.truck1.wheel{wheel}.vertical")]);
             let cubic = 4.0 * (force(at - 1) + force(at - 3)) - 6.0 * force(at - 2) - force(at - 4);
-            assert!((force(at) / cubic - 1.0).abs() < 1e-7, "{} instead of {cubic}", force(at));
+            assert!(
+                (force(at) / cubic - 1.0).abs() < 1e-7,
+                "{} instead of {cubic}",
+                force(at)
+            );
             let jump = (force(at + 1) / force(at) - 1.0).abs();
             assert_eq!(jump > 0.01, wheel == 1, "wheel {wheel}: {jump}");
         }
@@ -173,7 +216,12 @@ fn extremes_beside_a_jump_depend_neither_on_the_output_interval_nor_on_the_metho
     };
     let known = of(0.0007, "radau");
     for (dt, stepper) in [(0.014, "radau"), (0.0031, "radau"), (0.014, "sdirk4")] {
-        assert_alike(&of(dt, stepper), &known, 1e-3, &["moment", "shear", "deflection"]);
+        assert_alike(
+            &of(dt, stepper),
+            &known,
+            1e-3,
+            &["moment", "shear", "deflection"],
+        );
     }
 }
 
@@ -196,6 +244,9 @@ fn envelopes_contain_the_columns_of_sections() {
         let found = number(&rows.iter().find(is_it).expect("a row of the section")["value"]);
         let sign = if kind == "max" { 1.0 } else { -1.0 };
         let more = sign * (found - known);
-        assert!((-1e-7..=0.1).contains(&more), "{kind}: {found} beside {known}");
+        assert!(
+            (-1e-7..=0.1).contains(&more),
+            "{kind}: {found} beside {known}"
+        );
     }
 }

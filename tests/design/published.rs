@@ -25,18 +25,34 @@ impl Replay {
             .arg(folder.path().join("out"))
             .output()
             .expect("the program starts");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = std::fs::read_to_string(folder.path().join("out/summary.json")).expect("a summary");
-        Replay { summary: serde_json::from_str(&text).expect("the summary is JSON"), folder }
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let text =
+            std::fs::read_to_string(folder.path().join("out/summary.json")).expect("a summary");
+        Replay {
+            summary: serde_json::from_str(&text).expect("the summary is JSON"),
+            folder,
+        }
     }
 
     fn named(name: &str) -> Replay {
-        Replay::of(root().join("tests/design/published").join(name).join("design.json"))
+        Replay::of(
+            root()
+                .join("tests/design/published")
+                .join(name)
+                .join("design.json"),
+        )
     }
 
     fn extremes<'s>(&'s self, wanted: &Value) -> impl Iterator<Item = &'s Value> {
         let wanted = wanted.as_object().expect("keys and values").clone();
-        let all = self.summary["extremes"].as_array().expect("a list of extremes").iter();
+        let all = self.summary["extremes"]
+            .as_array()
+            .expect("a list of extremes")
+            .iter();
         all.filter(move |entry| wanted.iter().all(|(key, value)| entry[key] == *value))
     }
 
@@ -81,7 +97,10 @@ impl Replay {
 /// Asserts that a value has the digits that were published.
 #[track_caller]
 fn assert_digits(found: f64, published: f64, unit_of_last_digit: f64) {
-    assert!((found - published).abs() <= 0.51 * unit_of_last_digit, "{found} instead of {published}");
+    assert!(
+        (found - published).abs() <= 0.51 * unit_of_last_digit,
+        "{found} instead of {published}"
+    );
 }
 
 /// Published: moments under the wheels, at midspan, by lateral forces and by dead load. Their sum is published too, but
@@ -92,11 +111,19 @@ fn gantry_girder_of_6_5_m() {
     assert_digits(replay.moment(1, 1, "max"), 620.35, 0.01);
     assert_digits(replay.moment_at(1, "vertical", 3.25), 580.83, 0.01);
     assert_digits(replay.moment_at(1, "lateral", 3.25), 18.29, 0.02);
-    let lateral = json!({"case": 1, "span": 1, "plane": "lateral", "quantity": "moment", "kind": "max"});
+    let lateral =
+        json!({"case": 1, "span": 1, "plane": "lateral", "quantity": "moment", "kind": "max"});
     assert_digits(replay.value(lateral), 19.53, 0.01);
     let together = replay.moment(2, 1, "max");
-    assert_digits(replay.moment_at(2, "vertical", 3.25) - replay.moment_at(1, "vertical", 3.25), 15.06, 0.02);
-    assert!(together < 620.35 + 15.06 && together > 620.35 + 0.9 * 15.06, "{together}");
+    assert_digits(
+        replay.moment_at(2, "vertical", 3.25) - replay.moment_at(1, "vertical", 3.25),
+        15.06,
+        0.02,
+    );
+    assert!(
+        together < 620.35 + 15.06 && together > 620.35 + 0.9 * 15.06,
+        "{together}"
+    );
 }
 
 /// Published: moment and shear under the wheels, with impact, and with dead load at midspan added.
@@ -107,7 +134,10 @@ fn gantry_girder_of_8_m() {
     assert_digits(replay.shear(1, 1, "max"), 377.34, 0.01);
     assert_digits(replay.moment(2, 1, "max"), 648.56, 0.01);
     let together = replay.moment(3, 1, "max");
-    assert!(together < 676.16 && together > 676.16 - 0.1 * 27.6, "{together}");
+    assert!(
+        together < 676.16 && together > 676.16 - 0.1 * 27.6,
+        "{together}"
+    );
 }
 
 /// Published: moment under two wheels whose distance is 0.583 of the span, where two wheels govern just yet.
@@ -117,7 +147,10 @@ fn gantry_girder_of_6_m() {
     let found = replay.moment(1, 1, "max");
     assert!((found - 355.25).abs() < 0.0101, "{found}");
     let at_midspan = replay.moment_at(1, "vertical", 3.0);
-    assert!((at_midspan - 236.02 * 6.0 / 4.0).abs() < 1e-9 && at_midspan < found, "{at_midspan}");
+    assert!(
+        (at_midspan - 236.02 * 6.0 / 4.0).abs() < 1e-9 && at_midspan < found,
+        "{at_midspan}"
+    );
 }
 
 /// Published: the shear. The published moments, 168.0 and 12.37 kip ft, count the second wheel with twice its
@@ -127,10 +160,14 @@ fn runway_beam_of_25_ft() {
     let replay = Replay::named("runway_25ft");
     assert_digits(replay.shear(1, 1, "max"), 26.25, 0.01);
     for (plane, force, published) in [("vertical", 15.625, 168.0), ("lateral", 1.15, 12.37)] {
-        let keys = json!({"case": 1, "span": 1, "plane": plane, "quantity": "moment", "kind": "max"});
+        let keys =
+            json!({"case": 1, "span": 1, "plane": plane, "quantity": "moment", "kind": "max"});
         let largest = replay.value(keys);
         // Two equal wheels at a distance of 8 ft: 2 P (L/2 - a/4)^2 / L.
-        assert!((largest - 2.0 * force * (12.5_f64 - 2.0).powi(2) / 25.0).abs() < 1e-9, "{largest}");
+        assert!(
+            (largest - 2.0 * force * (12.5_f64 - 2.0).powi(2) / 25.0).abs() < 1e-9,
+            "{largest}"
+        );
         assert!((force * (6.25 + 4.5) - published).abs() < 0.04);
         assert!((replay.moment_at(1, plane, 12.5) - force * (6.25 + 0.5 * 4.5)).abs() < 1e-9);
     }
@@ -145,10 +182,19 @@ fn two_cranes_on_12_m() {
     for (found, published) in [
         (replay.moment(1, 1, "max"), 2.0 * w * x * x / l),
         (replay.shear(1, 1, "max"), w / l * (2.0 * l - c)),
-        (replay.moment(2, 1, "max"), 4.0 * w * (l / 2.0 - g / 4.0_f64).powi(2) / l - w * c),
-        (replay.shear(2, 1, "max"), w / l * (4.0 * l - 4.0 * c - 2.0 * g)),
+        (
+            replay.moment(2, 1, "max"),
+            4.0 * w * (l / 2.0 - g / 4.0_f64).powi(2) / l - w * c,
+        ),
+        (
+            replay.shear(2, 1, "max"),
+            w / l * (4.0 * l - 4.0 * c - 2.0 * g),
+        ),
     ] {
-        assert!((found - published).abs() < 1e-9 * published, "{found} instead of {published}");
+        assert!(
+            (found - published).abs() < 1e-9 * published,
+            "{found} instead of {published}"
+        );
     }
 }
 
@@ -169,12 +215,19 @@ fn line_beam_of_two_spans() {
     let replay = Replay::named("hb_10_30m");
     let largest = |span: usize, kind: &str| {
         let sign = if kind == "max" { 1.0 } else { -1.0 };
-        (1..=5).map(|case| sign * replay.moment(case, span, kind)).fold(f64::NEG_INFINITY, f64::max)
+        (1..=5)
+            .map(|case| sign * replay.moment(case, span, kind))
+            .fold(f64::NEG_INFINITY, f64::max)
     };
-    for (found, published) in
-        [(largest(1, "max"), 1120.155), (largest(1, "min"), 4785.546), (largest(2, "max"), 4816.435)]
-    {
-        assert!((-0.0005..0.002).contains(&(found - published)), "{found} instead of {published}");
+    for (found, published) in [
+        (largest(1, "max"), 1120.155),
+        (largest(1, "min"), 4785.546),
+        (largest(2, "max"), 4816.435),
+    ] {
+        assert!(
+            (-0.0005..0.002).contains(&(found - published)),
+            "{found} instead of {published}"
+        );
     }
     let shears = [
         (replay.shear(1, 1, "max"), 603.075),
@@ -183,14 +236,25 @@ fn line_beam_of_two_spans() {
         (-replay.shear(1, 2, "min"), 941.635),
     ];
     for (found, published) in shears {
-        assert!((0.0..0.13).contains(&(found - published)), "{found} instead of {published}");
+        assert!(
+            (0.0..0.13).contains(&(found - published)),
+            "{found} instead of {published}"
+        );
     }
     // Of all vehicles these two govern.
     let of = |span: usize, kind: &str| -> Vec<f64> {
         (1..=5).map(|case| replay.shear(case, span, kind)).collect()
     };
-    assert!(of(1, "max").iter().all(|v| *v <= of(1, "max")[0]), "{:?}", of(1, "max"));
-    assert!(of(1, "min").iter().all(|v| *v >= of(1, "min")[1]), "{:?}", of(1, "min"));
+    assert!(
+        of(1, "max").iter().all(|v| *v <= of(1, "max")[0]),
+        "{:?}",
+        of(1, "max")
+    );
+    assert!(
+        of(1, "min").iter().all(|v| *v >= of(1, "min")[1]),
+        "{:?}",
+        of(1, "min")
+    );
 }
 
 /// Published in the documentation of PyCBA: twelve axles on 37 m, positions 0.1 m apart and 500 sections.
@@ -204,7 +268,8 @@ fn twelve_axles_on_37_m() {
 #[test]
 fn railway_train_on_spans_of_5_to_100_m() {
     let read = |name: &str| -> Value {
-        let text = std::fs::read_to_string(root().join("tests/design/published/la300_40m").join(name));
+        let text =
+            std::fs::read_to_string(root().join("tests/design/published/la300_40m").join(name));
         serde_json::from_str(&text.expect("the file exists")).expect("it is JSON")
     };
     let published = [
@@ -228,10 +293,18 @@ fn railway_train_on_spans_of_5_to_100_m() {
         let replay = Replay::of(folder.path().join("design.json"));
         let found = replay.moment(1, 1, "max");
         // Rounding to 5, and up to 0.1 % that positions 0.1 m apart lose.
-        assert!((-2.5..=2.5 + 1e-3 * moment).contains(&(found - moment)), "{span} m: {found}, {moment}");
+        assert!(
+            (-2.5..=2.5 + 1e-3 * moment).contains(&(found - moment)),
+            "{span} m: {found}, {moment}"
+        );
         if let Some(reaction) = reaction {
-            let found = replay.reaction(1, "support1", "max").max(replay.reaction(1, "support2", "max"));
-            assert!((found - reaction).abs() <= 2.5, "{span} m: {found}, {reaction}");
+            let found = replay
+                .reaction(1, "support1", "max")
+                .max(replay.reaction(1, "support2", "max"));
+            assert!(
+                (found - reaction).abs() <= 2.5,
+                "{span} m: {found}, {reaction}"
+            );
         }
     }
 }
@@ -257,7 +330,10 @@ fn convoys_on_two_spans() {
         ("support3", "min", -47.23971016, 0.002),
     ] {
         let beyond = if kind == "max" { 1.0 } else { -1.0 } * (of(support, kind) - published);
-        assert!((-1e-8..more).contains(&beyond), "{support} {kind}: {beyond} beyond {published}");
+        assert!(
+            (-1e-8..more).contains(&beyond),
+            "{support} {kind}: {beyond} beyond {published}"
+        );
     }
     // PyCBA 1.0.2 with positions 0.1 m / 3 apart, which meet the end of the girder.
     assert!((of("support3", "max") - 700.791610129921).abs() < 1e-9);

@@ -15,7 +15,8 @@ fn root() -> PathBuf {
 }
 
 fn json(path: &Path) -> Value {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let text =
+        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
@@ -33,9 +34,22 @@ fn run(scene: &Path) -> tempfile::TempDir {
         .arg(out.path())
         .output()
         .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stdout.is_empty(), "standard output is for --json alone");
-    for file in ["history.csv", "summary.json", "report.html", "manifest.json", "timing.json"] {
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        output.stdout.is_empty(),
+        "standard output is for --json alone"
+    );
+    for file in [
+        "history.csv",
+        "summary.json",
+        "report.html",
+        "manifest.json",
+        "timing.json",
+    ] {
         assert!(out.path().join(file).is_file(), "{file} is missing");
     }
     out
@@ -48,7 +62,10 @@ fn check(name: &str) {
     let expected = json(&example.join("expected.json"));
     if let Some(most) = expected["energy_residual"].as_f64() {
         let residual = number(&json(&out.path().join("summary.json"))["energy"]["residual"]);
-        assert!(residual < most, "{name}: the energy audit leaves {residual:e}");
+        assert!(
+            residual < most,
+            "{name}: the energy audit leaves {residual:e}"
+        );
     }
     let checks = expected["checks"].as_array().expect("a list of checks");
     assert!(!checks.is_empty());
@@ -64,19 +81,31 @@ fn check(name: &str) {
                 let (key, at) = place.iter().next().expect("one place");
                 let along = history.column(key);
                 let nearest = (0..along.len())
-                    .min_by(|&a, &b| (along[a] - number(at)).abs().total_cmp(&(along[b] - number(at)).abs()))
+                    .min_by(|&a, &b| {
+                        (along[a] - number(at))
+                            .abs()
+                            .total_cmp(&(along[b] - number(at)).abs())
+                    })
                     .expect("rows");
-                assert!((along[nearest] - number(at)).abs() < 1e-9, "no row where {key} = {at}");
+                assert!(
+                    (along[nearest] - number(at)).abs() < 1e-9,
+                    "no row where {key} = {at}"
+                );
                 column[nearest]
             }
             None => column.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         };
         let (value, tolerance) = (number(&check["value"]), number(&check["tolerance"]));
         assert!(
-            check["source"].as_str().is_some_and(|source| !source.is_empty()),
+            check["source"]
+                .as_str()
+                .is_some_and(|source| !source.is_empty()),
             "every number has a source"
         );
-        assert!((found - value).abs() <= tolerance, "{name}: {check}: found {found}");
+        assert!(
+            (found - value).abs() <= tolerance,
+            "{name}: {check}: found {found}"
+        );
     }
 }
 
@@ -90,7 +119,11 @@ fn bogie_gives_its_expected_numbers() {
 fn a_bogie_at_100_ft_a_second_sinks_as_deep_as_in_other_codes() {
     let out = run(&root().join("examples/bogie/fast.json"));
     let history = History::read(&out.path().join("history.csv"));
-    let peak = history.column("bogie.deflection").iter().copied().fold(0.0, f64::max);
+    let peak = history
+        .column("bogie.deflection")
+        .iter()
+        .copied()
+        .fold(0.0, f64::max);
     assert!((peak - 0.908_68).abs() < 1e-5, "{peak}");
 }
 
@@ -139,14 +172,23 @@ fn grids_of_the_mill_girderway_are_those_of_other_codes() {
             .expect("the program starts");
         let grid: Value = serde_json::from_slice(&output.stdout).expect("a grid");
         let stations = list(&grid["rails"][0]["stations"]);
-        let index = |x: &Value| stations.iter().position(|known| known == x).expect("a station");
+        let index = |x: &Value| {
+            stations
+                .iter()
+                .position(|known| known == x)
+                .expect("a station")
+        };
         let at: Vec<usize> = list(&grids["at"]).iter().map(index).collect();
-        for entry in list(&grids["entries"]).iter().filter(|entry| entry["theory"] == theory) {
+        for entry in list(&grids["entries"])
+            .iter()
+            .filter(|entry| entry["theory"] == theory)
+        {
             let block = entry["block"].as_str().expect("a name");
             let (row, column) = block.split_once('_').unwrap_or((block, block));
             for (i, a) in at.iter().enumerate() {
                 for (j, b) in at.iter().enumerate() {
-                    let of = |block: &str, i: usize, j: usize| number(&grid["influence"][block][i][j]);
+                    let of =
+                        |block: &str, i: usize, j: usize| number(&grid["influence"][block][i][j]);
                     let scale = (of(row, *a, *a) * of(column, *b, *b)).sqrt();
                     let apart = (of(block, *a, *b) - number(&entry["value"][i][j])).abs();
                     assert!(
@@ -164,10 +206,23 @@ fn grids_of_the_mill_girderway_are_those_of_other_codes() {
 #[test]
 fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
-        let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
+        let name = entry
+            .expect("an entry")
+            .file_name()
+            .into_string()
+            .expect("a plain name");
         assert!(
-            ["bogie", "bridge_crane", "mill_girderway", "monorail", "runway", "ties", "wheel", "yang_yau"]
-                .contains(&name.as_str()),
+            [
+                "bogie",
+                "bridge_crane",
+                "mill_girderway",
+                "monorail",
+                "runway",
+                "ties",
+                "wheel",
+                "yang_yau"
+            ]
+            .contains(&name.as_str()),
             "examples/{name} has no test"
         );
         for file in ["scene.json", "README.md", "expected.json"] {
@@ -181,8 +236,8 @@ fn every_example_is_checked() {
 
 #[test]
 fn equal_runs_give_equal_bytes() {
-    let folders =
-        [tempfile::tempdir(), tempfile::tempdir()].map(|folder| folder.expect("a temporary folder"));
+    let folders = [tempfile::tempdir(), tempfile::tempdir()]
+        .map(|folder| folder.expect("a temporary folder"));
     for (folder, threads) in folders.iter().zip(["1", "2"]) {
         let status = Command::new(env!("CARGO_BIN_EXE_girderway"))
             .args(["run", "--quiet", "--threads", threads])

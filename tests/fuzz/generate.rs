@@ -51,7 +51,11 @@ fn units() -> Value {
 /// A beam spec in one of the two forms.
 pub fn spec(bytes: &[u8]) -> String {
     let mut draw = Draw(bytes);
-    let spec = if draw.below(2) == 0 { girder(&mut draw) } else { frame(&mut draw) };
+    let spec = if draw.below(2) == 0 {
+        girder(&mut draw)
+    } else {
+        frame(&mut draw)
+    };
     spec.to_string()
 }
 
@@ -66,7 +70,11 @@ fn girder(draw: &mut Draw<'_>) -> Value {
     for _ in 0..=draw.below(3) {
         spans.push(draw.size(0.1, 0.1 * extreme));
     }
-    let overhangs = if draw.rarely(3) { [draw.size(1e-3, 10.0), draw.size(1e-3, 10.0)] } else { [0.0; 2] };
+    let overhangs = if draw.rarely(3) {
+        [draw.size(1e-3, 10.0), draw.size(1e-3, 10.0)]
+    } else {
+        [0.0; 2]
+    };
     let end = spans.iter().sum::<f64>() + overhangs[1];
     let count = 2 + draw.below(4);
     let station = |k: usize| -overhangs[0] + (end + overhangs[0]) * k as f64 / (count - 1) as f64;
@@ -74,8 +82,7 @@ fn girder(draw: &mut Draw<'_>) -> Value {
     if let Some(last) = stations.last_mut() {
         *last = end;
     }
-    let mut girder =
-        json!({ "spans": spans, "overhangs": overhangs, "E": draw.size(1e4, 1e4 * extreme * extreme) });
+    let mut girder = json!({ "spans": spans, "overhangs": overhangs, "E": draw.size(1e4, 1e4 * extreme * extreme) });
     let members = [
         ("G", 1e3, 1e9),
         ("A", 1e-4, 1e1),
@@ -147,7 +154,8 @@ fn frame(draw: &mut Draw<'_>) -> Value {
     });
     if draw.rarely(3) {
         let k = draw.size(1e-3, 1e12);
-        spec["springs"] = json!([{ "point": draw.below(points.len()), "dof": draw.one(&dofs), "k": k }]);
+        spec["springs"] =
+            json!([{ "point": draw.below(points.len()), "dof": draw.one(&dofs), "k": k }]);
     }
     spec
 }
@@ -200,15 +208,18 @@ pub fn scene(bytes: &[u8]) -> (String, String) {
     }
     if draw.rarely(3) {
         let k = draw.size(1.0, 1e6);
-        scene["stops"] =
-            json!([{ "rail": "girder.rail", "x": draw.between(0.0, length), "k": k, "side": "before" }]);
+        scene["stops"] = json!([{ "rail": "girder.rail", "x": draw.between(0.0, length), "k": k, "side": "before" }]);
     }
     if draw.rarely(3) {
         let value = draw.between(-50.0, 50.0);
         scene["loads"] = json!([{ "body": "car", "dof": draw.one(&["x", "y", "pitch"]), "value": [[0, 0], [end, value]] }]);
     }
     if draw.rarely(4) {
-        let when = format!("car.{} >= {}", draw.one(&["x", "y", "pitch"]), draw.between(-1.0, 4.0));
+        let when = format!(
+            "car.{} >= {}",
+            draw.one(&["x", "y", "pitch"]),
+            draw.between(-1.0, 4.0)
+        );
         scene["events"] = json!([{ "when": when, "do": { "end": true } }]);
     }
     (spec.to_string(), scene.to_string())

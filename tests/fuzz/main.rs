@@ -36,7 +36,10 @@ const CORPUS: usize = 400;
 fn setting<T: std::str::FromStr>(name: &str) -> Option<T> {
     let text = env::var(name).ok()?;
     let value = text.parse().ok();
-    assert!(value.is_some(), "{name} must be a number or a name, got {text:?}");
+    assert!(
+        value.is_some(),
+        "{name} must be a number or a name, got {text:?}"
+    );
     value
 }
 
@@ -48,21 +51,29 @@ fn seeds(target: &Target) -> Vec<Vec<u8>> {
         .map(|file| fs::read(root().join(file)).expect("a file of the repository"))
         .collect();
     if target.name == "arrays" {
-        let archives = ["plain", "packed", "oblong"].map(|name| format!("tests/tables/data/{name}.npz"));
+        let archives =
+            ["plain", "packed", "oblong"].map(|name| format!("tests/tables/data/{name}.npz"));
         let read = |file: String| fs::read(root().join(file)).expect("a file of the repository");
         seeds.extend(archives.map(|file| unpacked(&read(file))));
     }
     if let Some(ending) = target.name.strip_prefix("tables_") {
-        let units = Units { length: Length::Foot, force: Force::Pound };
-        let text =
-            fs::read(root().join("tests/malformed/base/tables.adm")).expect("a file of the repository");
+        let units = Units {
+            length: Length::Foot,
+            force: Force::Pound,
+        };
+        let text = fs::read(root().join("tests/malformed/base/tables.adm"))
+            .expect("a file of the repository");
         let set = read("tables.adm", &text, Some(units)).expect("tables without faults");
         let format = TableFormat::of(&format!("a.{ending}")).expect("a format of the program");
         seeds.push(write(&set, format).expect("tables that can be written"));
     }
     if seeds.is_empty() {
         seeds = (0..8u8)
-            .map(|k| (0..120u8).map(|byte| byte.wrapping_mul(29 + 2 * k).wrapping_add(k)).collect())
+            .map(|k| {
+                (0..120u8)
+                    .map(|byte| byte.wrapping_mul(29 + 2 * k).wrapping_add(k))
+                    .collect()
+            })
             .collect();
     }
     seeds
@@ -75,7 +86,9 @@ fn unpacked(bytes: &[u8]) -> Vec<u8> {
     for index in 0..archive.len() {
         let mut member = archive.by_index(index).expect("a member");
         let mut contents = Vec::new();
-        member.read_to_end(&mut contents).expect("a member that is right");
+        member
+            .read_to_end(&mut contents)
+            .expect("a member that is right");
         let length = u32::try_from(contents.len()).expect("a small member");
         out.extend(member.name().expect("a plain name").bytes());
         out.push(b'\n');
@@ -89,7 +102,11 @@ fn unpacked(bytes: &[u8]) -> Vec<u8> {
 fn words(target: &Target, corpus: &[Vec<u8>]) -> Vec<Vec<u8>> {
     let mut words = BTreeSet::new();
     for seed in corpus {
-        words.extend(mutate::tokens(seed).into_iter().map(|(from, to)| seed[from..to].to_vec()));
+        words.extend(
+            mutate::tokens(seed)
+                .into_iter()
+                .map(|(from, to)| seed[from..to].to_vec()),
+        );
     }
     let schema = match target.name {
         "scene" => Some(formats::schema::scene()),
@@ -100,8 +117,13 @@ fn words(target: &Target, corpus: &[Vec<u8>]) -> Vec<Vec<u8>> {
     };
     if let Some(schema) = schema {
         let text = schema.to_string();
-        let keys = mutate::tokens(text.as_bytes()).into_iter().map(|(from, to)| &text.as_bytes()[from..to]);
-        words.extend(keys.filter(|word| word.starts_with(b"\"")).map(<[u8]>::to_vec));
+        let keys = mutate::tokens(text.as_bytes())
+            .into_iter()
+            .map(|(from, to)| &text.as_bytes()[from..to]);
+        words.extend(
+            keys.filter(|word| word.starts_with(b"\""))
+                .map(<[u8]>::to_vec),
+        );
     }
     words.into_iter().filter(|word| word.len() < 40).collect()
 }
@@ -123,7 +145,10 @@ struct Current {
 impl Current {
     fn new(target: &Target) -> Current {
         let path = store().join(format!("{}-{}", target.name, std::process::id()));
-        Current { file: File::create(&path).expect("a writable folder"), path }
+        Current {
+            file: File::create(&path).expect("a writable folder"),
+            path,
+        }
     }
 
     fn set(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -169,9 +194,18 @@ fn campaign(target: &Target, seconds: f64, most: u64, seed: u64) -> Tally {
     let mut known = BTreeSet::new();
     let mut current = Current::new(target);
     let executions = Arc::new(AtomicU64::new(0));
-    watch(Arc::clone(&executions), current.path.clone(), target.name.to_owned());
+    watch(
+        Arc::clone(&executions),
+        current.path.clone(),
+        target.name.to_owned(),
+    );
     let start = Instant::now();
-    let mut tally = Tally { executions: 0, seconds: 0.0, slowest: 0.0, corpus: 0 };
+    let mut tally = Tally {
+        executions: 0,
+        seconds: 0.0,
+        slowest: 0.0,
+        corpus: 0,
+    };
     let first = corpus.len();
     while tally.executions < most
         && (tally.executions < first as u64 || start.elapsed().as_secs_f64() < seconds)
@@ -187,7 +221,11 @@ fn campaign(target: &Target, seconds: f64, most: u64, seed: u64) -> Tally {
         let begun = Instant::now();
         let result = panic::catch_unwind(AssertUnwindSafe(|| (target.run)(&input)));
         let Ok(signature) = result else {
-            panic!("{} fails (seed {seed}, execution {index}) for {}", target.name, current.path.display());
+            panic!(
+                "{} fails (seed {seed}, execution {index}) for {}",
+                target.name,
+                current.path.display()
+            );
         };
         tally.slowest = tally.slowest.max(begun.elapsed().as_secs_f64());
         tally.executions += 1;
@@ -206,8 +244,10 @@ fn campaign(target: &Target, seconds: f64, most: u64, seed: u64) -> Tally {
 #[test]
 fn no_input_makes_a_target_fail() {
     let chosen: Option<String> = setting("GIRDERWAY_FUZZ_TARGET");
-    let targets: Vec<&Target> =
-        TARGETS.iter().filter(|target| chosen.as_ref().is_none_or(|name| name == target.name)).collect();
+    let targets: Vec<&Target> = TARGETS
+        .iter()
+        .filter(|target| chosen.as_ref().is_none_or(|name| name == target.name))
+        .collect();
     assert!(!targets.is_empty(), "there is no target {chosen:?}");
     let runs: Option<u64> = setting("GIRDERWAY_FUZZ_RUNS");
     let seconds = setting("GIRDERWAY_FUZZ_SECONDS").unwrap_or(SECONDS) / targets.len() as f64;
@@ -215,9 +255,17 @@ fn no_input_makes_a_target_fail() {
     let seed = setting("GIRDERWAY_FUZZ_SEED").unwrap_or(1);
     let mut table = String::from("target | executions | per second | slowest, s | corpus\n");
     for target in targets {
-        let Tally { executions, seconds, slowest, corpus } = campaign(target, seconds, most, seed);
+        let Tally {
+            executions,
+            seconds,
+            slowest,
+            corpus,
+        } = campaign(target, seconds, most, seed);
         let rate = executions as f64 / seconds.max(1e-9);
-        table.push_str(&format!("{} | {executions} | {rate:.0} | {slowest:.3} | {corpus}\n", target.name));
+        table.push_str(&format!(
+            "{} | {executions} | {rate:.0} | {slowest:.3} | {corpus}\n",
+            target.name
+        ));
     }
     let mut stderr = io::stderr();
     let _ = stderr.write_all(table.as_bytes());
@@ -241,7 +289,9 @@ fn inputs_that_failed_once_do_not_fail_again() {
 
 /// The name of a file up to its first dash.
 fn stem_before_dash(path: &Path) -> String {
-    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let name = path
+        .file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     name.split('-').next().unwrap_or_default().to_owned()
 }
 
@@ -250,9 +300,13 @@ fn stem_before_dash(path: &Path) -> String {
 fn most_generated_inputs_are_taken() {
     let mut dice = Rng::with_seed(5);
     let mut bytes = || (0..200).map(|_| dice.u8(..)).collect::<Vec<u8>>();
-    let of = |text: String| formats::text::source::Source { name: "spec.json".to_owned(), text };
-    let specs =
-        (0..200).filter(|_| formats::spec::Spec::read(&of(generate::spec(&bytes())), None).is_ok()).count();
+    let of = |text: String| formats::text::source::Source {
+        name: "spec.json".to_owned(),
+        text,
+    };
+    let specs = (0..200)
+        .filter(|_| formats::spec::Spec::read(&of(generate::spec(&bytes())), None).is_ok())
+        .count();
     assert!(specs > 100, "only {specs} of 200 generated specs are taken");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("scene.json");
@@ -267,5 +321,8 @@ fn most_generated_inputs_are_taken() {
             Err(wrong) => told.push_str(&format!("{}\n", wrong[0])),
         }
     }
-    assert!(taken > 80, "only {taken} of 200 generated scenes are taken\n{told}");
+    assert!(
+        taken > 80,
+        "only {taken} of 200 generated scenes are taken\n{told}"
+    );
 }

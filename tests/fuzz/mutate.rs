@@ -108,7 +108,8 @@ fn change(bytes: &mut Vec<u8>, other: &[u8], words: &[Vec<u8>], dice: &mut Rng) 
 
 /// Byte ranges of words, numbers and marks.
 pub fn tokens(bytes: &[u8]) -> Vec<(usize, usize)> {
-    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'-' | b'+' | b'_' | b'"');
+    let is_word =
+        |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'-' | b'+' | b'_' | b'"');
     let mut found = Vec::new();
     let mut start = 0;
     while start < bytes.len() {

@@ -44,16 +44,31 @@ fn read_all() -> Vec<Crate> {
 }
 
 fn read(folder: PathBuf) -> Crate {
-    let name = folder.file_name().expect("a folder has a name").to_string_lossy();
-    let name = if name == "pipeline" { "girderway".to_owned() } else { name.into_owned() };
+    let name = folder
+        .file_name()
+        .expect("a folder has a name")
+        .to_string_lossy();
+    let name = if name == "pipeline" {
+        "girderway".to_owned()
+    } else {
+        name.into_owned()
+    };
     let mut modules = BTreeMap::new();
     collect(&folder.join("src"), &mut Vec::new(), &mut modules);
-    Crate { name, folder, modules }
+    Crate {
+        name,
+        folder,
+        modules,
+    }
 }
 
 fn collect(folder: &Path, path: &mut Vec<String>, modules: &mut BTreeMap<Vec<String>, Module>) {
     for entry in entries(folder) {
-        let stem = entry.file_stem().expect("an entry has a name").to_string_lossy().into_owned();
+        let stem = entry
+            .file_stem()
+            .expect("an entry has a name")
+            .to_string_lossy()
+            .into_owned();
         if stem == "tests" {
             continue;
         }
@@ -76,7 +91,9 @@ fn collect(folder: &Path, path: &mut Vec<String>, modules: &mut BTreeMap<Vec<Str
 
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let listed = fs::read_dir(folder).expect("a folder of the workspace");
-    let mut paths: Vec<PathBuf> = listed.map(|entry| entry.expect("a readable folder").path()).collect();
+    let mut paths: Vec<PathBuf> = listed
+        .map(|entry| entry.expect("a readable folder").path())
+        .collect();
     paths.sort();
     paths
 }
@@ -84,18 +101,24 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
 impl Crate {
     /// Names under `[dependencies]` of its Cargo.toml.
     pub fn dependencies(&self) -> Vec<String> {
-        let text = fs::read_to_string(self.folder.join("Cargo.toml")).expect("a readable Cargo.toml");
+        let text =
+            fs::read_to_string(self.folder.join("Cargo.toml")).expect("a readable Cargo.toml");
         let mut names = Vec::new();
         let mut inside = false;
         for line in text.lines().map(str::trim) {
             if let Some(section) = line.strip_prefix('[') {
                 inside = section.starts_with("dependencies]");
                 names.extend(
-                    section.strip_prefix("dependencies.").map(|name| name.trim_end_matches(']').to_owned()),
+                    section
+                        .strip_prefix("dependencies.")
+                        .map(|name| name.trim_end_matches(']').to_owned()),
                 );
             } else if inside && !line.starts_with('#') {
                 names.extend(
-                    line.split(['.', '=', ' ']).next().filter(|name| !name.is_empty()).map(str::to_owned),
+                    line.split(['.', '=', ' '])
+                        .next()
+                        .filter(|name| !name.is_empty())
+                        .map(str::to_owned),
                 );
             }
         }

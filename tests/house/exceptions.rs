@@ -21,18 +21,35 @@ pub fn hold(kind: &str, found: &BTreeSet<String>) {
     let text = fs::read_to_string(path()).expect("tests/house/exceptions.txt");
     let fields = |line: &str| -> Option<String> {
         let mut fields = line.split('\t');
-        (fields.next() == Some(kind))
-            .then(|| fields.next().expect("kind, name, reason, between tabs").to_owned())
+        (fields.next() == Some(kind)).then(|| {
+            fields
+                .next()
+                .expect("kind, name, reason, between tabs")
+                .to_owned()
+        })
     };
     let listed: BTreeSet<String> = text.lines().filter_map(fields).collect();
-    for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        assert_eq!(line.split('\t').count(), 3, "exceptions.txt: kind, name, reason, between tabs: {line}");
+    for line in text
+        .lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+    {
+        assert_eq!(
+            line.split('\t').count(),
+            3,
+            "exceptions.txt: kind, name, reason, between tabs: {line}"
+        );
     }
     let fresh: Vec<&String> = found.difference(&listed).collect();
-    assert!(fresh.is_empty(), "{kind}: not allowed, and not in exceptions.txt:\n{}", lines(&fresh));
+    assert!(
+        fresh.is_empty(),
+        "{kind}: not allowed, and not in exceptions.txt:\n{}",
+        lines(&fresh)
+    );
     let stale: Vec<&String> = listed.difference(found).collect();
     if std::env::var("HOUSE").is_ok_and(|word| word == "tidy") && !stale.is_empty() {
-        let kept = text.lines().filter(|line| fields(line).is_none_or(|name| found.contains(&name)));
+        let kept = text
+            .lines()
+            .filter(|line| fields(line).is_none_or(|name| found.contains(&name)));
         let kept: String = kept.map(|line| format!("{line}\n")).collect();
         fs::write(path(), kept).expect("a writable exceptions.txt");
         return;

@@ -25,18 +25,24 @@ struct Use {
 /// Imports between the files of a crate.
 pub fn arrows(krate: &Crate) -> Arrows {
     let mut exports: BTreeMap<(Path, String), Path> = BTreeMap::new();
-    let uses: BTreeMap<&Path, Vec<Use>> =
-        krate.modules.iter().map(|(module, file)| (module, uses(&file.tokens))).collect();
+    let uses: BTreeMap<&Path, Vec<Use>> = krate
+        .modules
+        .iter()
+        .map(|(module, file)| (module, uses(&file.tokens)))
+        .collect();
     for (module, uses) in &uses {
         for leaf in uses.iter().filter(|leaf| leaf.public) {
-            let path =
-                absolute(module, &leaf.path).unwrap_or_else(|| [module.as_slice(), &leaf.path].concat());
+            let path = absolute(module, &leaf.path)
+                .unwrap_or_else(|| [module.as_slice(), &leaf.path].concat());
             exports.insert(((*module).clone(), leaf.name.clone()), path);
         }
     }
     let mut arrows = Arrows::new();
     for (module, file) in &krate.modules {
-        let written = uses[module].iter().map(|leaf| leaf.path.clone()).chain(paths(&file.tokens));
+        let written = uses[module]
+            .iter()
+            .map(|leaf| leaf.path.clone())
+            .chain(paths(&file.tokens));
         for path in written.filter_map(|path| absolute(module, &path)) {
             let target = file_of(krate, &defined(krate, &exports, path));
             if !target.is_empty() && target != *module {
@@ -52,7 +58,10 @@ pub fn top_level(arrows: &Arrows) -> Arrows {
     let mut between = Arrows::new();
     for (from, targets) in arrows.iter().filter(|(from, _)| !from.is_empty()) {
         for to in targets.iter().filter(|to| to[0] != from[0]) {
-            between.entry(from[..1].to_vec()).or_default().insert(to[..1].to_vec());
+            between
+                .entry(from[..1].to_vec())
+                .or_default()
+                .insert(to[..1].to_vec());
         }
     }
     between
@@ -64,7 +73,10 @@ fn absolute(module: &Path, path: &[String]) -> Option<Path> {
         "crate" => Some(path[1..].to_vec()),
         "self" => Some([module.as_slice(), &path[1..]].concat()),
         "super" => {
-            let ups = path.iter().take_while(|segment| *segment == "super").count();
+            let ups = path
+                .iter()
+                .take_while(|segment| *segment == "super")
+                .count();
             let base = &module[..module.len().saturating_sub(ups)];
             Some([base, &path[ups..]].concat())
         }
@@ -85,8 +97,12 @@ fn file_of(krate: &Crate, path: &[String]) -> Path {
 fn defined(krate: &Crate, exports: &BTreeMap<(Path, String), Path>, mut path: Path) -> Path {
     for _ in 0..6 {
         let module = file_of(krate, &path);
-        let Some(name) = path.get(module.len()) else { break };
-        let Some(origin) = exports.get(&(module.clone(), name.clone())) else { break };
+        let Some(name) = path.get(module.len()) else {
+            break;
+        };
+        let Some(origin) = exports.get(&(module.clone(), name.clone())) else {
+            break;
+        };
         let next = [origin.as_slice(), &path[module.len() + 1..]].concat();
         if next == path {
             break;
@@ -100,12 +116,16 @@ fn defined(krate: &Crate, exports: &BTreeMap<(Path, String), Path>, mut path: Pa
 fn uses(tokens: &[Token]) -> Vec<Use> {
     let mut leaves = Vec::new();
     for (i, token) in tokens.iter().enumerate() {
-        let begins = i == 0 || matches!(tokens[i - 1].as_str(), ";" | "{" | "}" | "]" | "pub" | ")");
+        let begins =
+            i == 0 || matches!(tokens[i - 1].as_str(), ";" | "{" | "}" | "]" | "pub" | ")");
         if token != "use" || !begins {
             continue;
         }
         let public = i > 0 && matches!(tokens[i - 1].as_str(), "pub" | ")");
-        let length = tokens[i..].iter().position(|token| token == ";").unwrap_or(tokens.len() - i);
+        let length = tokens[i..]
+            .iter()
+            .position(|token| token == ";")
+            .unwrap_or(tokens.len() - i);
         expand(&tokens[i + 1..i + length], &[], public, &mut leaves);
     }
     leaves
@@ -116,7 +136,11 @@ fn expand(tree: &[Token], before: &[String], public: bool, leaves: &mut Vec<Use>
     let group = tree.iter().position(|token| token == "{");
     let head = &tree[..group.unwrap_or(tree.len())];
     let mut words = head.iter().filter(|token| *token != "::").cloned();
-    let path: Path = before.iter().cloned().chain(words.by_ref().take_while(|word| word != "as")).collect();
+    let path: Path = before
+        .iter()
+        .cloned()
+        .chain(words.by_ref().take_while(|word| word != "as"))
+        .collect();
     let Some(open) = group else {
         if let Some(last) = path.last().cloned() {
             let name = words.next().unwrap_or(last);
@@ -124,7 +148,10 @@ fn expand(tree: &[Token], before: &[String], public: bool, leaves: &mut Vec<Use>
         }
         return;
     };
-    let close = tree.iter().rposition(|token| token == "}").unwrap_or(tree.len());
+    let close = tree
+        .iter()
+        .rposition(|token| token == "}")
+        .unwrap_or(tree.len());
     let (mut start, mut depth) = (open + 1, 0);
     for i in open + 1..=close.min(tree.len() - 1) {
         match tree[i].as_str() {
@@ -172,8 +199,13 @@ fn is_word(token: &str) -> bool {
 
 /// Sets of modules that import each other in a loop (Tarjan's strongly connected components of two and more).
 pub fn circles(arrows: &Arrows) -> Vec<BTreeSet<Path>> {
-    let mut search =
-        Search { arrows, number: BTreeMap::new(), low: BTreeMap::new(), open: Vec::new(), found: Vec::new() };
+    let mut search = Search {
+        arrows,
+        number: BTreeMap::new(),
+        low: BTreeMap::new(),
+        open: Vec::new(),
+        found: Vec::new(),
+    };
     for module in arrows.keys() {
         if !search.number.contains_key(module) {
             search.visit(module);
@@ -201,9 +233,11 @@ impl<'a> Search<'a> {
         for next in self.arrows.get(module).into_iter().flatten() {
             if !self.number.contains_key(next) {
                 self.visit(next);
-                self.low.insert(module, self.low[module].min(self.low[next]));
+                self.low
+                    .insert(module, self.low[module].min(self.low[next]));
             } else if self.open.contains(&next) {
-                self.low.insert(module, self.low[module].min(self.number[next]));
+                self.low
+                    .insert(module, self.low[module].min(self.number[next]));
             }
         }
         if self.low[module] == number {
@@ -222,15 +256,27 @@ impl<'a> Search<'a> {
 
 #[test]
 fn a_tree_of_imports_is_taken_apart() {
-    let text = "pub use crate::a::{self, b::{C, D as E}, f}; use super::g::H; fn x() { crate::y::z(); }";
+    let text =
+        "pub use crate::a::{self, b::{C, D as E}, f}; use super::g::H; fn x() { crate::y::z(); }";
     let tokens = super::tokens::tokens(text);
-    let leaves: Vec<String> =
-        uses(&tokens).iter().map(|l| format!("{}={}", l.path.join("::"), l.name)).collect();
+    let leaves: Vec<String> = uses(&tokens)
+        .iter()
+        .map(|l| format!("{}={}", l.path.join("::"), l.name))
+        .collect();
     assert_eq!(
         leaves,
-        ["crate::a::self=self", "crate::a::b::C=C", "crate::a::b::D=E", "crate::a::f=f", "super::g::H=H"]
+        [
+            "crate::a::self=self",
+            "crate::a::b::C=C",
+            "crate::a::b::D=E",
+            "crate::a::f=f",
+            "super::g::H=H"
+        ]
     );
-    assert_eq!(paths(&tokens).last().expect("a path").join("::"), "crate::y::z");
+    assert_eq!(
+        paths(&tokens).last().expect("a path").join("::"),
+        "crate::y::z"
+    );
 }
 
 #[test]

@@ -23,15 +23,43 @@ const DEPENDENCIES: [(&str, &[&str]); 19] = [
     ("fea", &["splines"]),
     ("sim", &["splines"]),
     ("trains", &["fea", "splines"]),
-    ("formats", &["adams", "fea", "practice", "sections", "sim", "splines"]),
+    (
+        "formats",
+        &["adams", "fea", "practice", "sections", "sim", "splines"],
+    ),
     ("import", &["formats", "fea"]),
-    ("design", &["formats", "trains", "practice", "fea", "splines"]),
+    (
+        "design",
+        &["formats", "trains", "practice", "fea", "splines"],
+    ),
     ("foundations", &["formats", "fea", "sim", "splines"]),
     (
         "results",
-        &["foundations", "design", "trains", "practice", "formats", "fea", "sim", "splines", "adams"],
+        &[
+            "foundations",
+            "design",
+            "trains",
+            "practice",
+            "formats",
+            "fea",
+            "sim",
+            "splines",
+            "adams",
+        ],
     ),
-    ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
+    (
+        "deck",
+        &[
+            "results",
+            "adams",
+            "foundations",
+            "practice",
+            "formats",
+            "fea",
+            "sim",
+            "splines",
+        ],
+    ),
     ("sweep", &["results", "design", "foundations", "formats"]),
     (
         "report",
@@ -49,12 +77,46 @@ const DEPENDENCIES: [(&str, &[&str]); 19] = [
             "adams",
         ],
     ),
-    ("outputs", &["report", "sweep", "results", "design", "foundations", "formats", "adams"]),
+    (
+        "outputs",
+        &[
+            "report",
+            "sweep",
+            "results",
+            "design",
+            "foundations",
+            "formats",
+            "adams",
+        ],
+    ),
     (
         "python",
-        &["outputs", "results", "foundations", "import", "design", "formats", "fea", "sim", "splines"],
+        &[
+            "outputs",
+            "results",
+            "foundations",
+            "import",
+            "design",
+            "formats",
+            "fea",
+            "sim",
+            "splines",
+        ],
     ),
-    ("study", &["results", "report", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
+    (
+        "study",
+        &[
+            "results",
+            "report",
+            "foundations",
+            "practice",
+            "formats",
+            "fea",
+            "sim",
+            "splines",
+            "adams",
+        ],
+    ),
     (
         "girderway",
         &[
@@ -88,7 +150,11 @@ const FILES: [&str; 2] = ["formats", "outputs"];
 const MANY_FILES: usize = 13;
 
 fn dotted(path: &[String]) -> String {
-    if path.is_empty() { "lib".to_owned() } else { path.join("::") }
+    if path.is_empty() {
+        "lib".to_owned()
+    } else {
+        path.join("::")
+    }
 }
 
 #[test]
@@ -99,7 +165,12 @@ fn imports_run_one_way() {
         let arrows = imports::arrows(krate);
         let named = |path: &Vec<String>| format!("{} {}", krate.name, dotted(path));
         files.extend(imports::circles(&arrows).iter().flatten().map(named));
-        modules.extend(imports::circles(&imports::top_level(&arrows)).iter().flatten().map(named));
+        modules.extend(
+            imports::circles(&imports::top_level(&arrows))
+                .iter()
+                .flatten()
+                .map(named),
+        );
     }
     exceptions::hold("file in a circle", &files);
     exceptions::hold("module in a circle", &modules);
@@ -117,13 +188,22 @@ fn lower_wings_import_no_higher_one() {
             continue;
         };
         for name in wings.missing(krate) {
-            faults.insert(format!("{}: {name} is not among the wings of lib.rs", krate.name));
+            faults.insert(format!(
+                "{}: {name} is not among the wings of lib.rs",
+                krate.name
+            ));
         }
         for name in wings.absent(krate) {
-            faults.insert(format!("{}: lib.rs names a wing {name} that does not exist", krate.name));
+            faults.insert(format!(
+                "{}: lib.rs names a wing {name} that does not exist",
+                krate.name
+            ));
         }
         for (from, targets) in &imports::arrows(krate) {
-            for to in targets.iter().filter(|to| wings.height(to) > wings.height(from)) {
+            for to in targets
+                .iter()
+                .filter(|to| wings.height(to) > wings.height(from))
+            {
                 faults.insert(format!(
                     "{}: {} imports {} of a higher wing",
                     krate.name,
@@ -140,14 +220,24 @@ fn lower_wings_import_no_higher_one() {
 #[test]
 fn crates_depend_in_one_direction() {
     let table: BTreeMap<&str, &[&str]> = DEPENDENCIES.into_iter().collect();
-    let ours: BTreeSet<&str> = crates::all().iter().map(|krate| krate.name.as_str()).collect();
+    let ours: BTreeSet<&str> = crates::all()
+        .iter()
+        .map(|krate| krate.name.as_str())
+        .collect();
     let mut faults = BTreeSet::new();
     for krate in crates::all() {
         let Some(allowed) = table.get(krate.name.as_str()) else {
-            faults.insert(format!("{} is not in the table of tests/house/main.rs", krate.name));
+            faults.insert(format!(
+                "{} is not in the table of tests/house/main.rs",
+                krate.name
+            ));
             continue;
         };
-        for name in krate.dependencies().iter().filter(|name| ours.contains(name.as_str())) {
+        for name in krate
+            .dependencies()
+            .iter()
+            .filter(|name| ours.contains(name.as_str()))
+        {
             if !allowed.contains(&name.as_str()) {
                 faults.insert(format!("{} depends on {name}", krate.name));
             }
@@ -160,7 +250,9 @@ fn crates_depend_in_one_direction() {
 fn the_table_of_dependencies_has_no_circle() {
     for (place, (name, allowed)) in DEPENDENCIES.iter().enumerate() {
         for below in *allowed {
-            let known = DEPENDENCIES[..place].iter().any(|(earlier, _)| earlier == below);
+            let known = DEPENDENCIES[..place]
+                .iter()
+                .any(|(earlier, _)| earlier == below);
             assert!(known, "{name} may depend on {below}, which stands after it");
         }
     }
@@ -169,11 +261,18 @@ fn the_table_of_dependencies_has_no_circle() {
 #[test]
 fn libraries_read_no_files_print_nothing_and_start_no_threads() {
     let mut faults = BTreeSet::new();
-    for krate in crates::all().iter().filter(|krate| !FREE.contains(&krate.name.as_str())) {
+    for krate in crates::all()
+        .iter()
+        .filter(|krate| !FREE.contains(&krate.name.as_str()))
+    {
         let with_threads = effects(krate, &mut faults);
         let allowed = usize::from(krate.name == "results");
         if with_threads.len() > allowed {
-            faults.insert(format!("{}: threads in {}", krate.name, with_threads.join(", ")));
+            faults.insert(format!(
+                "{}: threads in {}",
+                krate.name,
+                with_threads.join(", ")
+            ));
         }
     }
     exceptions::hold("effect", &faults);
@@ -197,8 +296,9 @@ fn effects(krate: &Crate, faults: &mut BTreeSet<String>) -> Vec<String> {
                 fault("prints");
             }
         }
-        let reads =
-            follows("fs", &["::"]) || follows("std", &["::", "fs"]) || follows("File", &["::", "open"]);
+        let reads = follows("fs", &["::"])
+            || follows("std", &["::", "fs"])
+            || follows("File", &["::", "open"]);
         if !FILES.contains(&krate.name.as_str()) && reads {
             fault("reads files");
         }
@@ -218,11 +318,18 @@ fn a_public_name_has_one_meaning() {
     for krate in crates::all() {
         for (module, file) in &krate.modules {
             for name in names::public_types(&file.tokens) {
-                places.entry(name).or_default().insert(format!("{}::{}", krate.name, dotted(module)));
+                places.entry(name).or_default().insert(format!(
+                    "{}::{}",
+                    krate.name,
+                    dotted(module)
+                ));
             }
         }
     }
-    let double: BTreeSet<String> =
-        places.iter().filter(|(_, places)| places.len() > 1).map(|(name, _)| name.clone()).collect();
+    let double: BTreeSet<String> = places
+        .iter()
+        .filter(|(_, places)| places.len() > 1)
+        .map(|(name, _)| name.clone())
+        .collect();
     exceptions::hold("name", &double);
 }

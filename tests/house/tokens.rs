@@ -29,7 +29,9 @@ fn words(text: &str) -> Vec<Token> {
             tokens.push("\"\"".to_owned());
             i += length;
         } else if byte == b'_' || byte.is_ascii_alphanumeric() {
-            let length = rest.find(|c: char| c != '_' && !c.is_alphanumeric()).unwrap_or(rest.len());
+            let length = rest
+                .find(|c: char| c != '_' && !c.is_alphanumeric())
+                .unwrap_or(rest.len());
             tokens.push(rest[..length].to_owned());
             i += length;
         } else {
@@ -60,16 +62,23 @@ fn block_comment(text: &str) -> usize {
 
 /// Bytes of the string or character that a text begins with; lifetimes are none.
 fn string(text: &str) -> Option<usize> {
-    let prefix = text.find(|c| !matches!(c, 'b' | 'c' | 'r' | '#')).unwrap_or(text.len());
+    let prefix = text
+        .find(|c| !matches!(c, 'b' | 'c' | 'r' | '#'))
+        .unwrap_or(text.len());
     let (marks, rest) = text.split_at(prefix);
     if let Some(after) = rest.strip_prefix('"') {
         if marks.contains('r') {
             let end = format!("\"{}", "#".repeat(marks.matches('#').count()));
             return Some(prefix + 1 + after.find(&end).map_or(after.len(), |at| at + end.len()));
         }
-        return marks.chars().all(|c| c != '#').then(|| prefix + 1 + closing(after, '"'));
+        return marks
+            .chars()
+            .all(|c| c != '#')
+            .then(|| prefix + 1 + closing(after, '"'));
     }
-    let after = text.strip_prefix("b'").or_else(|| text.strip_prefix('\''))?;
+    let after = text
+        .strip_prefix("b'")
+        .or_else(|| text.strip_prefix('\''))?;
     let start = text.len() - after.len();
     let mut characters = after.chars();
     let first = characters.next()?;
@@ -94,13 +103,26 @@ fn without_tests(tokens: &[Token]) -> Vec<Token> {
     let mut kept = Vec::new();
     let mut i = 0;
     while i < tokens.len() {
-        let marked = tokens[i..].iter().zip(MARK).filter(|(token, mark)| token == mark).count() == MARK.len();
-        if marked && tokens.get(i + MARK.len()).is_some_and(|token| token == "mod") {
+        let marked = tokens[i..]
+            .iter()
+            .zip(MARK)
+            .filter(|(token, mark)| token == mark)
+            .count()
+            == MARK.len();
+        if marked
+            && tokens
+                .get(i + MARK.len())
+                .is_some_and(|token| token == "mod")
+        {
             i += MARK.len();
             while i < tokens.len() && tokens[i] != "{" && tokens[i] != ";" {
                 i += 1;
             }
-            i = if tokens.get(i).is_some_and(|token| token == "{") { after_braces(tokens, i) } else { i + 1 };
+            i = if tokens.get(i).is_some_and(|token| token == "{") {
+                after_braces(tokens, i)
+            } else {
+                i + 1
+            };
         } else {
             kept.push(tokens[i].clone());
             i += 1;
@@ -136,5 +158,8 @@ fn strings_comments_and_unit_tests_are_left_out() {
         use crate::f;
     "##;
     let words = tokens(text).join(" ");
-    assert_eq!(words, "fn f < ' a > ( x : & ' a str ) { g ( \"\" , \"\" , \"\" , \"\" ) } use crate :: f ;");
+    assert_eq!(
+        words,
+        "fn f < ' a > ( x : & ' a str ) { g ( \"\" , \"\" , \"\" , \"\" ) } use crate :: f ;"
+    );
 }

@@ -29,7 +29,9 @@ impl Wings {
 
     /// Height of the wing a module belongs to; `error` is the lowest, the root the highest.
     pub fn height(&self, module: &[String]) -> usize {
-        let Some(top) = module.first() else { return usize::MAX };
+        let Some(top) = module.first() else {
+            return usize::MAX;
+        };
         match self.0.iter().position(|wing| wing == top) {
             Some(place) => place + 1,
             None if top == "error" => 0,
@@ -40,18 +42,29 @@ impl Wings {
     /// Top-level modules that the line does not name.
     pub fn missing(&self, krate: &Crate) -> Vec<String> {
         let listed = |name: &String| name == "error" || self.0.contains(name);
-        top_level(krate).into_iter().filter(|name| !listed(name)).collect()
+        top_level(krate)
+            .into_iter()
+            .filter(|name| !listed(name))
+            .collect()
     }
 
     /// Wings that are no module.
     pub fn absent(&self, krate: &Crate) -> Vec<String> {
         let modules = top_level(krate);
-        self.0.iter().filter(|name| !modules.contains(*name)).cloned().collect()
+        self.0
+            .iter()
+            .filter(|name| !modules.contains(*name))
+            .cloned()
+            .collect()
     }
 }
 
 fn top_level(krate: &Crate) -> BTreeSet<String> {
-    krate.modules.keys().filter_map(|module| module.first().cloned()).collect()
+    krate
+        .modules
+        .keys()
+        .filter_map(|module| module.first().cloned())
+        .collect()
 }
 
 #[test]
@@ -59,7 +72,8 @@ fn the_line_of_wings_is_read() {
     let text = "//! A crate.\n//!\n//! Wings, lowest first: scene, mechanics,\n//! contact, run. More.\nmod scene;\n";
     let wings = Wings::read(text).expect("the line is there");
     assert_eq!(wings.0, ["scene", "mechanics", "contact", "run"]);
-    let height = |path: &[&str]| wings.height(&path.iter().map(|&s| s.to_owned()).collect::<Vec<_>>());
+    let height =
+        |path: &[&str]| wings.height(&path.iter().map(|&s| s.to_owned()).collect::<Vec<_>>());
     assert!(height(&["error"]) < height(&["scene", "body"]));
     assert!(height(&["scene", "body"]) < height(&["contact"]));
     assert!(height(&["run"]) < height(&[]));

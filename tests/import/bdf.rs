@@ -11,12 +11,19 @@ use serde_json::json as value;
 use super::{deck, displacements, frame, from_memory, json, plain, text, told};
 
 fn with_rail(rail: &str, up: [f64; 3]) -> ImportOptions {
-    ImportOptions { up: Some(up), rails: vec![rail.parse().expect("a rail")], ..plain() }
+    ImportOptions {
+        up: Some(up),
+        rails: vec![rail.parse().expect("a rail")],
+        ..plain()
+    }
 }
 
 /// Options in metres and newtons, with the mass along members.
 fn distributed() -> ImportOptions {
-    ImportOptions { mass: Some(MassDistribution::Distributed), ..plain() }
+    ImportOptions {
+        mass: Some(MassDistribution::Distributed),
+        ..plain()
+    }
 }
 
 fn compare(found: &[f64], expected: &[f64]) {
@@ -30,8 +37,8 @@ const OFFSET: [f64; 6] = [0.04, 0.12, 0.26, -0.03, -0.03, 0.019];
 
 /// The same of BAR-PINFLAG: grids 103 (under the load), 102 and 104.
 const PINFLAG: [f64; 18] = [
-    0.0002, 0.008, 0.008, 0.0, -0.006, 0.006, 0.0001, 0.0025, 0.0025, 0.0, -0.0045, 0.0045, 0.0001, 0.0, 0.0,
-    0.0, 0.0, 0.0,
+    0.0002, 0.008, 0.008, 0.0, -0.006, 0.006, 0.0001, 0.0025, 0.0025, 0.0, -0.0045, 0.0045, 0.0001,
+    0.0, 0.0, 0.0, 0.0, 0.0,
 ];
 
 /// The load of both decks: 100 times (2, 3, 6).
@@ -39,14 +46,22 @@ const LOAD: [f64; 6] = [200.0, 300.0, 600.0, 0.0, 0.0, 0.0];
 
 #[test]
 fn offset_bars_move_as_published() {
-    let imported = deck(&text("decks/offset.bdf"), &with_rail("r=1", [0.0, 1.0, 0.0])).expect("a deck");
+    let imported = deck(
+        &text("decks/offset.bdf"),
+        &with_rail("r=1", [0.0, 1.0, 0.0]),
+    )
+    .expect("a deck");
     let found = displacements(&frame(&imported), &["GRID 20"], LOAD);
     compare(found.as_slice(), &OFFSET);
 }
 
 #[test]
 fn pinned_bars_move_as_published() {
-    let imported = deck(&text("decks/pinned.bdf"), &with_rail("r=1-4", [0.0, 1.0, 0.0])).expect("a deck");
+    let imported = deck(
+        &text("decks/pinned.bdf"),
+        &with_rail("r=1-4", [0.0, 1.0, 0.0]),
+    )
+    .expect("a deck");
     let found = displacements(&frame(&imported), &["GRID 3", "GRID 2", "GRID 4"], LOAD);
     compare(found.as_slice(), &PINFLAG);
 }
@@ -54,12 +69,18 @@ fn pinned_bars_move_as_published() {
 /// MYSTRAN's own decks stand beside the repository where one has them, or in the folder GIRDERWAY_DECKS.
 #[test]
 fn decks_of_mystran_give_their_published_displacements() {
-    let beside = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/bdf");
+    let beside =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/bdf");
     let folder = std::env::var_os("GIRDERWAY_DECKS").map_or(beside, Into::into);
     let mut checked = 0;
     for (name, rail, points, expected) in [
         ("BAR-OFFSET.DAT", "r=12", &["GRID 102"][..], &OFFSET[..]),
-        ("BAR-PINFLAG.DAT", "r=12-45", &["GRID 103", "GRID 102", "GRID 104"], &PINFLAG),
+        (
+            "BAR-PINFLAG.DAT",
+            "r=12-45",
+            &["GRID 103", "GRID 102", "GRID 104"],
+            &PINFLAG,
+        ),
     ] {
         let Ok(text) = std::fs::read_to_string(folder.join(name)) else {
             // the terms of the decks keep them out of this repository
@@ -67,8 +88,17 @@ fn decks_of_mystran_give_their_published_displacements() {
             continue;
         };
         let imported = deck(&text, &with_rail(rail, [0.0, 1.0, 0.0])).expect("a deck");
-        assert!(imported.warnings.iter().any(|warning| warning.path == "PARAM"), "PARAM is named");
-        compare(displacements(&frame(&imported), points, LOAD).as_slice(), expected);
+        assert!(
+            imported
+                .warnings
+                .iter()
+                .any(|warning| warning.path == "PARAM"),
+            "PARAM is named"
+        );
+        compare(
+            displacements(&frame(&imported), points, LOAD).as_slice(),
+            expected,
+        );
         checked += 1;
     }
     eprintln!("{checked} decks of MYSTRAN checked");
@@ -76,12 +106,15 @@ fn decks_of_mystran_give_their_published_displacements() {
 
 #[test]
 fn every_card_becomes_what_it_says() {
-    let imported =
-        deck(&text("decks/mill.bdf"), &distributed()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let imported = deck(&text("decks/mill.bdf"), &distributed())
+        .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let spec = json(&imported);
     assert_eq!(spec["format"], "girderway-beam/1");
     assert_eq!(spec["name"], "deck");
-    assert_eq!(spec["units"], value!({ "length": "m", "force": "N", "time": "s" }));
+    assert_eq!(
+        spec["units"],
+        value!({ "length": "m", "force": "N", "time": "s" })
+    );
     // grid 5 is given in a system one up, and grid 90 only shows a direction
     let points = value!([
         [0.0, 0.0, 0.0],
@@ -94,9 +127,15 @@ fn every_card_becomes_what_it_says() {
         [0.0, 0.0, 4.5]
     ]);
     assert_eq!(spec["points"], points);
-    assert_eq!(spec["cells"][0]["data"], value!([[0, 1], [2, 3], [1, 4], [4, 3], [7, 6], [4, 5], [0, 5]]));
+    assert_eq!(
+        spec["cells"][0]["data"],
+        value!([[0, 1], [2, 3], [1, 4], [4, 3], [7, 6], [4, 5], [0, 5]])
+    );
     let data = &spec["cell_data"];
-    assert_eq!(data["kind"], value!([["beam", "beam", "beam", "beam", "beam", "truss", "truss"]]));
+    assert_eq!(
+        data["kind"],
+        value!([["beam", "beam", "beam", "beam", "beam", "truss", "truss"]])
+    );
     assert_eq!(data["section"], value!([[0, 0, 1, 1, 2, 3, 4]]));
     let orientation = &data["orientation"][0];
     assert_eq!(orientation[0], value!([1.0, 0.0, 0.0]));
@@ -118,7 +157,10 @@ fn every_card_becomes_what_it_says() {
         value!({ "name": "PBEAM 22", "material": "MAT1 31", "A": 0.02, "Iy": 2e-5, "Iz": 4e-4, "J": 2e-6,
                  "Asz": 0.5 * 0.02 })
     );
-    assert_eq!(spec["sections"][3], value!({ "name": "PROD 23", "material": "MAT1 31", "A": 0.002 }));
+    assert_eq!(
+        spec["sections"][3],
+        value!({ "name": "PROD 23", "material": "MAT1 31", "A": 0.002 })
+    );
     assert_eq!(
         spec["materials"],
         value!([
@@ -128,7 +170,10 @@ fn every_card_becomes_what_it_says() {
             { "name": "MAT1 30 and NSM of CONROD 107", "E": 2.1e11, "G": 2.1e11 / 2.6, "density": 0.5 * 7850.0 + 1.0 / 0.001 }
         ])
     );
-    assert_eq!(spec["links"], value!([{ "from": 3, "to": 6 }, { "from": 1, "to": 7 }]));
+    assert_eq!(
+        spec["links"],
+        value!([{ "from": 3, "to": 6 }, { "from": 1, "to": 7 }])
+    );
     assert_eq!(
         spec["masses"],
         value!([{ "point": 4, "mass": 50.0, "inertia": [1.5, 2.0, 2.5], "offset": [0.0, 0.0, -0.5] }])
@@ -146,17 +191,28 @@ fn every_card_becomes_what_it_says() {
             { "point": 5, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"] }
         ])
     );
-    let warned: Vec<&str> = imported.warnings.iter().map(|warning| warning.path.as_str()).collect();
+    let warned: Vec<&str> = imported
+        .warnings
+        .iter()
+        .map(|warning| warning.path.as_str())
+        .collect();
     assert_eq!(warned, ["PARAM", "SPC set 8", "FORCE", ""]);
 }
 
 #[test]
 fn local_axes_are_those_of_nastran() {
-    let imported = deck(&text("decks/mill.bdf"), &with_rail("top=103,104", [0.0, 0.0, 1.0])).expect("a deck");
+    let imported = deck(
+        &text("decks/mill.bdf"),
+        &with_rail("top=103,104", [0.0, 0.0, 1.0]),
+    )
+    .expect("a deck");
     let frame = frame(&imported);
     let column = frame.model.members[0];
     // plane 1 of the columns is x-z of the building: I1 = 2.5e-4 resists sway along the girder
-    assert_eq!((column.kind, column.orientation), (MemberKind::Beam, [1.0, 0.0, 0.0]));
+    assert_eq!(
+        (column.kind, column.orientation),
+        (MemberKind::Beam, [1.0, 0.0, 0.0])
+    );
     let section = frame.model.sections[column.section];
     assert_eq!((section.iz, section.iy), (2.5e-4, 8.5e-5));
 }
@@ -168,8 +224,12 @@ fn fields() -> Vec<Vec<String>> {
     let (bulk, _) = bulk.split_once("ENDDATA").expect("an end");
     let mut cards: Vec<Vec<String>> = Vec::new();
     for line in bulk.lines().filter(|line| !line.starts_with('$')) {
-        let field =
-            |k: usize| line.get(8 * k..(8 * k + 8).min(line.len())).unwrap_or_default().trim().to_owned();
+        let field = |k: usize| {
+            line.get(8 * k..(8 * k + 8).min(line.len()))
+                .unwrap_or_default()
+                .trim()
+                .to_owned()
+        };
         let row: Vec<String> = (1..9).map(field).collect();
         match (field(0).as_str(), cards.last_mut()) {
             ("" | "+" | "+A" | "+P" | "+Q", Some(card)) => card.extend(row),
@@ -209,7 +269,11 @@ fn written(card: &[String], format: Format, mark: usize, number: usize) -> Strin
             (_, true) if mark == 0 => "*".to_owned(),
             _ => label(k),
         };
-        let tail = if k + 1 < rows.len() { label(k + 1) } else { String::new() };
+        let tail = if k + 1 < rows.len() {
+            label(k + 1)
+        } else {
+            String::new()
+        };
         let width = if large { 16 } else { 8 };
         let count = if large { 4 } else { 8 };
         let blank = String::new();
@@ -221,48 +285,87 @@ fn written(card: &[String], format: Format, mark: usize, number: usize) -> Strin
             }
             Format::Free | Format::FreeLarge => {
                 let cells: Vec<String> = cells.iter().map(|cell| cell.to_string()).collect();
-                let last = if tail.is_empty() { String::new() } else { format!(",{tail}") };
+                let last = if tail.is_empty() {
+                    String::new()
+                } else {
+                    format!(",{tail}")
+                };
                 format!("{head},{}{last}", cells.join(","))
             }
         });
     }
     // a blank continuation in fixed fields would be a blank line
-    if rows.is_empty() { card[0].clone() } else { lines.join("\n") }
+    if rows.is_empty() {
+        card[0].clone()
+    } else {
+        lines.join("\n")
+    }
 }
 
 const CONTROL: &str = "CEND\nSPC = 7\nBEGIN BULK\n";
 
 #[test]
 fn every_format_gives_the_same_spec() {
-    let wanted = deck(&text("decks/mill.bdf"), &plain()).expect("a deck").text;
+    let wanted = deck(&text("decks/mill.bdf"), &plain())
+        .expect("a deck")
+        .text;
     let cards = fields();
     assert_eq!(cards.len(), 37);
-    let formats = [Format::Small, Format::Large, Format::Free, Format::FreeLarge];
+    let formats = [
+        Format::Small,
+        Format::Large,
+        Format::Free,
+        Format::FreeLarge,
+    ];
     // a row of blanks alone needs its marker
     for mark in 1..3 {
         for format in formats {
-            let lines: Vec<String> =
-                cards.iter().enumerate().map(|(k, card)| written(card, format, mark, k)).collect();
+            let lines: Vec<String> = cards
+                .iter()
+                .enumerate()
+                .map(|(k, card)| written(card, format, mark, k))
+                .collect();
             let text = format!("{CONTROL}{}\n", lines.join("\n"));
-            let same = deck(&text, &plain()).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)));
+            let same =
+                deck(&text, &plain()).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)));
             assert_eq!(same.text, wanted, "{text}");
-            let lower =
-                deck(&text.to_lowercase(), &plain()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+            let lower = deck(&text.to_lowercase(), &plain())
+                .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
             assert_eq!(lower.text, wanted);
         }
     }
     // all formats in one deck, the cards in another order, lines of Windows
-    let mut lines: Vec<String> =
-        cards.iter().enumerate().map(|(k, card)| written(card, formats[k % 4], 1 + k % 2, k)).collect();
+    let mut lines: Vec<String> = cards
+        .iter()
+        .enumerate()
+        .map(|(k, card)| written(card, formats[k % 4], 1 + k % 2, k))
+        .collect();
     lines.reverse();
-    let order = lines.iter().position(|line| line.starts_with("RBAR")).expect("a link");
-    let other = lines.iter().position(|line| line.starts_with("RBE2")).expect("a link");
+    let order = lines
+        .iter()
+        .position(|line| line.starts_with("RBAR"))
+        .expect("a link");
+    let other = lines
+        .iter()
+        .position(|line| line.starts_with("RBE2"))
+        .expect("a link");
     lines.swap(order, other);
-    let order = lines.iter().position(|line| line.starts_with("CELAS1")).expect("a spring");
-    let other = lines.iter().position(|line| line.starts_with("CELAS2")).expect("a spring");
+    let order = lines
+        .iter()
+        .position(|line| line.starts_with("CELAS1"))
+        .expect("a spring");
+    let other = lines
+        .iter()
+        .position(|line| line.starts_with("CELAS2"))
+        .expect("a spring");
     lines.swap(order, other);
     let text = format!("{CONTROL}{}\n", lines.join("\n$ a comment \n")).replace('\n', "\r\n");
-    assert_eq!(deck(&text, &plain()).unwrap_or_else(|wrong| panic!("{}", told(&wrong))).text, wanted);
+    assert_eq!(
+        deck(&text, &plain())
+            .unwrap_or_else(|wrong| panic!("{}", told(&wrong)))
+            .text,
+        wanted
+    );
 }
 
 #[test]
@@ -271,44 +374,88 @@ fn decks_that_pynastran_writes_give_the_same_spec() {
     let wanted = json(&deck(&text("decks/mill.bdf"), &plain()).expect("a deck"));
     for name in ["mill_small", "mill_large", "mill_double"] {
         let found = deck(&text(&format!("decks/{name}.bdf")), &plain());
-        assert_eq!(json(&found.unwrap_or_else(|wrong| panic!("{name}: {}", told(&wrong)))), wanted, "{name}");
+        assert_eq!(
+            json(&found.unwrap_or_else(|wrong| panic!("{name}: {}", told(&wrong)))),
+            wanted,
+            "{name}"
+        );
     }
 }
 
 #[test]
 fn exponents_may_be_written_in_many_ways() {
-    let wanted = deck(&text("decks/offset.bdf"), &plain()).expect("a deck").text;
-    for number in ["1.+7", "1.E7", "1.0E+7", "1.D+7", "1.d7", "10.+6", "10000000.", ".1+8", "+1.+07", "1e7"] {
+    let wanted = deck(&text("decks/offset.bdf"), &plain())
+        .expect("a deck")
+        .text;
+    for number in [
+        "1.+7",
+        "1.E7",
+        "1.0E+7",
+        "1.D+7",
+        "1.d7",
+        "10.+6",
+        "10000000.",
+        ".1+8",
+        "+1.+07",
+        "1e7",
+    ] {
         let text = text("decks/offset.bdf").replacen("1.+7", number, 1);
-        assert_eq!(deck(&text, &plain()).expect("a deck").text, wanted, "{number}");
+        assert_eq!(
+            deck(&text, &plain()).expect("a deck").text,
+            wanted,
+            "{number}"
+        );
     }
 }
 
 #[test]
 fn included_files_stand_in_their_places() {
     let deck_text = text("decks/pinned.bdf");
-    let wanted = from_memory("d/deck.bdf", &[("d/deck.bdf", &deck_text)], &plain()).expect("a deck").text;
+    let wanted = from_memory("d/deck.bdf", &[("d/deck.bdf", &deck_text)], &plain())
+        .expect("a deck")
+        .text;
     let cut = deck_text.find("PBAR").expect("a property");
     let main = format!("{}include 'sub/rest.inc'\n", &deck_text[..cut]);
     let (rest, last) = deck_text[cut..].split_once("MAT1").expect("a material");
     let rest = format!("{rest}INCLUDE more.inc $ relative to this file\n");
     let last = format!("MAT1{last}");
-    let files = [("d/deck.bdf", main.as_str()), ("d/sub/rest.inc", &rest), ("d/sub/more.inc", &last)];
-    let found =
-        from_memory("d/deck.bdf", &files, &plain()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let files = [
+        ("d/deck.bdf", main.as_str()),
+        ("d/sub/rest.inc", &rest),
+        ("d/sub/more.inc", &last),
+    ];
+    let found = from_memory("d/deck.bdf", &files, &plain())
+        .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     assert_eq!(found.text, wanted);
     // a fault in an included file is told there
     let broken = last.replacen("1.+7", "1.+x", 1);
-    let files = [("d/deck.bdf", main.as_str()), ("d/sub/rest.inc", &rest), ("d/sub/more.inc", &broken)];
+    let files = [
+        ("d/deck.bdf", main.as_str()),
+        ("d/sub/rest.inc", &rest),
+        ("d/sub/more.inc", &broken),
+    ];
     let wrong = from_memory("d/deck.bdf", &files, &plain()).expect_err("a fault");
-    assert_eq!((wrong[0].file.as_str(), wrong[0].line), ("d/sub/more.inc", Some(1)));
+    assert_eq!(
+        (wrong[0].file.as_str(), wrong[0].line),
+        ("d/sub/more.inc", Some(1))
+    );
     // loops are refused
-    let files = [("d/deck.bdf", main.as_str()), ("d/sub/rest.inc", "INCLUDE '../deck.bdf'\n")];
+    let files = [
+        ("d/deck.bdf", main.as_str()),
+        ("d/sub/rest.inc", "INCLUDE '../deck.bdf'\n"),
+    ];
     let wrong = from_memory("d/deck.bdf", &files, &plain()).expect_err("a loop");
-    assert!(wrong.iter().any(|wrong| wrong.path == "INCLUDE"), "{}", told(&wrong));
-    let wrong = from_memory("deck.bdf", &[("deck.bdf", "INCLUDE deck.bdf\n")], &plain()).expect_err("a loop");
     assert!(
-        wrong[0].expected.starts_with("must not include a file that is already being read"),
+        wrong.iter().any(|wrong| wrong.path == "INCLUDE"),
+        "{}",
+        told(&wrong)
+    );
+    let wrong = from_memory("deck.bdf", &[("deck.bdf", "INCLUDE deck.bdf\n")], &plain())
+        .expect_err("a loop");
+    assert!(
+        wrong[0]
+            .expected
+            .starts_with("must not include a file that is already being read"),
         "{}",
         told(&wrong)
     );
@@ -324,7 +471,10 @@ fn numbers_keep_their_bits() {
         deck_text.push_str(&format!(
             "GRID,{},,{x:.20},0.,{}\n",
             k + 1,
-            format_args!("{:e}", x * 1e-7).to_string().replace('e', ".E").replacen(".E", "E", 1)
+            format_args!("{:e}", x * 1e-7)
+                .to_string()
+                .replace('e', ".E")
+                .replacen(".E", "E", 1)
         ));
         wanted.push([x, 0.0, x * 1e-7]);
         if k > 0 {
@@ -333,13 +483,27 @@ fn numbers_keep_their_bits() {
     }
     let imported = deck(&deck_text, &plain()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let spec = json(&imported);
-    for (point, wanted) in spec["points"].as_array().expect("points").iter().zip(&wanted) {
+    for (point, wanted) in spec["points"]
+        .as_array()
+        .expect("points")
+        .iter()
+        .zip(&wanted)
+    {
         for axis in 0..3 {
-            assert_eq!(point[axis].as_f64().expect("a number").to_bits(), wanted[axis].to_bits());
+            assert_eq!(
+                point[axis].as_f64().expect("a number").to_bits(),
+                wanted[axis].to_bits()
+            );
         }
     }
-    assert_eq!(spec["materials"][0]["E"].as_f64(), ".1234567890123456789e6".parse().ok());
-    assert_eq!(spec["sections"][0]["J"].as_f64(), Some(2.220446049250313e-3));
+    assert_eq!(
+        spec["materials"][0]["E"].as_f64(),
+        ".1234567890123456789e6".parse().ok()
+    );
+    assert_eq!(
+        spec["sections"][0]["J"].as_f64(),
+        Some(2.220446049250313e-3)
+    );
 }
 
 #[test]
@@ -349,54 +513,115 @@ fn what_has_no_stiffness_gets_none() {
     let bars = "CBAR,1,5,1,2,0.,1.,0.\nCBAR,2,5,2,3,0.,1.,0.\nPROD,6,1,.01,.001\nCROD,3,6,3,4\n";
     let options = with_rail("r=1,2", [0.0, 1.0, 0.0]);
     let of = |j: &str| {
-        let imported =
-            deck(&format!("{common}{bars}PBAR,5,1,.02,1.-4,2.-4,{j}\n"), &options).expect("a deck");
-        (displacements(&frame(&imported), &["GRID 3"], [0.0, 1e5, 2e5, 0.0, 0.0, 0.0]), imported)
+        let imported = deck(
+            &format!("{common}{bars}PBAR,5,1,.02,1.-4,2.-4,{j}\n"),
+            &options,
+        )
+        .expect("a deck");
+        (
+            displacements(
+                &frame(&imported),
+                &["GRID 3"],
+                [0.0, 1e5, 2e5, 0.0, 0.0, 0.0],
+            ),
+            imported,
+        )
     };
     let (stiff, _) = of("1.-3");
     let (soft, imported) = of("");
     // nothing here twists the bars: bending is the same, whatever J
     for freedom in [0, 1, 2, 5] {
-        assert!((stiff[freedom] - soft[freedom]).abs() <= 1e-12 * stiff.amax(), "{freedom}");
+        assert!(
+            (stiff[freedom] - soft[freedom]).abs() <= 1e-12 * stiff.amax(),
+            "{freedom}"
+        );
     }
     let data = &json(&imported)["cell_data"];
     assert_eq!(data["kind"], value!([["beam", "beam", "rod"]]));
-    assert_eq!((&data["release_a"], &data["release_b"]), (&value!(null), &value!(null)));
+    assert_eq!(
+        (&data["release_a"], &data["release_b"]),
+        (&value!(null), &value!(null))
+    );
     let sections = &json(&imported)["sections"];
     assert_eq!(
         sections[0],
         value!({ "name": "PBAR 5", "material": "MAT1 1", "A": 0.02, "Iy": 2e-4, "Iz": 1e-4, "J": 0.0 })
     );
-    assert_eq!(sections[1], value!({ "name": "PROD 6", "material": "MAT1 1", "A": 0.01, "J": 0.001 }));
-    let warned: Vec<&str> = imported.warnings.iter().map(|warning| warning.path.as_str()).collect();
+    assert_eq!(
+        sections[1],
+        value!({ "name": "PROD 6", "material": "MAT1 1", "A": 0.01, "J": 0.001 })
+    );
+    let warned: Vec<&str> = imported
+        .warnings
+        .iter()
+        .map(|warning| warning.path.as_str())
+        .collect();
     assert_eq!(warned, ["PBAR 5"]);
     // the rod resists rotation about its axis with G J / L
-    let turned = displacements(&frame(&of("1.-3").1), &["GRID 3"], [0.0, 0.0, 0.0, 0.0, 1e3, 0.0]);
+    let turned = displacements(
+        &frame(&of("1.-3").1),
+        &["GRID 3"],
+        [0.0, 0.0, 0.0, 0.0, 1e3, 0.0],
+    );
     let (ei, gj, length) = (2e11 * 2e-4, 8e10 * 1e-3, 4.0f64);
     // about y at the tip of the cantilever: EI_2/L in series with nothing, beside the rod's own twist
     let spring = ei / length + gj / 1.0;
     let lateral_free = 1e3 / spring;
-    assert!((turned[4] / lateral_free - 1.0).abs() < 1e-9, "{} {lateral_free}", turned[4]);
+    assert!(
+        (turned[4] / lateral_free - 1.0).abs() < 1e-9,
+        "{} {lateral_free}",
+        turned[4]
+    );
 }
 
 #[test]
 fn supports_are_those_chosen() {
     let common = "MAT1,1,2.+11,,.25\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBAR,1,5,1,2,0.,1.,0.\n";
     let sets = "SPC1,1,123,1\nSPC,2,1,456,0.,2,3,0.\nSPCADD,3,1,2\n";
-    let held =
-        |text: &str, options: &ImportOptions| json(&deck(text, options).expect("a deck"))["supports"].clone();
+    let held = |text: &str, options: &ImportOptions| {
+        json(&deck(text, options).expect("a deck"))["supports"].clone()
+    };
     let one = value!([{ "point": 0, "fix": ["ux", "uy", "uz"] }]);
-    assert_eq!(held(&format!("{common}SPC1,1,123,1\n"), &plain()), one, "the only one");
+    assert_eq!(
+        held(&format!("{common}SPC1,1,123,1\n"), &plain()),
+        one,
+        "the only one"
+    );
     let bulk = format!("{common}{sets}");
-    assert_eq!(held(&format!("CEND\n spc=1\nBEGIN BULK\n{bulk}"), &plain()), one, "case control");
-    assert_eq!(held(&bulk, &ImportOptions { spc: Some(1), ..plain() }), one, "the user");
-    let all =
-        value!([{ "point": 0, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"] }, { "point": 1, "fix": ["uz"] }]);
+    assert_eq!(
+        held(&format!("CEND\n spc=1\nBEGIN BULK\n{bulk}"), &plain()),
+        one,
+        "case control"
+    );
+    assert_eq!(
+        held(
+            &bulk,
+            &ImportOptions {
+                spc: Some(1),
+                ..plain()
+            }
+        ),
+        one,
+        "the user"
+    );
+    let all = value!([{ "point": 0, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"] }, { "point": 1, "fix": ["uz"] }]);
     assert_eq!(held(&bulk, &plain()), all, "the only sum");
-    let wrong = deck(&format!("{common}SPC1,1,123,1\nSPC1,2,456,1\n"), &plain()).expect_err("two sets");
+    let wrong =
+        deck(&format!("{common}SPC1,1,123,1\nSPC1,2,456,1\n"), &plain()).expect_err("two sets");
     assert!(told(&wrong).contains("--spc N"), "{}", told(&wrong));
-    let wrong = deck(&bulk, &ImportOptions { spc: Some(9), ..plain() }).expect_err("no such set");
-    assert!(told(&wrong).contains("known sets: 1, 2, 3"), "{}", told(&wrong));
+    let wrong = deck(
+        &bulk,
+        &ImportOptions {
+            spc: Some(9),
+            ..plain()
+        },
+    )
+    .expect_err("no such set");
+    assert!(
+        told(&wrong).contains("known sets: 1, 2, 3"),
+        "{}",
+        told(&wrong)
+    );
 }
 
 #[test]
@@ -404,11 +629,21 @@ fn units_are_never_guessed() {
     let text = text("decks/pinned.bdf");
     for options in [
         ImportOptions::default(),
-        ImportOptions { length: Some(Length::Foot), ..ImportOptions::default() },
-        ImportOptions { force: Some(Force::Kip), ..ImportOptions::default() },
+        ImportOptions {
+            length: Some(Length::Foot),
+            ..ImportOptions::default()
+        },
+        ImportOptions {
+            force: Some(Force::Kip),
+            ..ImportOptions::default()
+        },
     ] {
         let wrong = deck(&text, &options).expect_err("no units");
-        assert!(told(&wrong).contains("--length and --force"), "{}", told(&wrong));
+        assert!(
+            told(&wrong).contains("--length and --force"),
+            "{}",
+            told(&wrong)
+        );
     }
 }
 
@@ -423,13 +658,20 @@ fn uniform_beams_are_taken_and_other_stations_refused() {
         "PBEAM,5,1,.02,1.-4,2.-4,,1.-4\n+,NO,.5,,,,,\n+,NO,1.0,.02",
     ] {
         assert_eq!(
-            of(property).unwrap_or_else(|wrong| panic!("{property}: {}", told(&wrong))).text,
+            of(property)
+                .unwrap_or_else(|wrong| panic!("{property}: {}", told(&wrong)))
+                .text,
             plain_one,
             "{property}"
         );
     }
     let shaped = of("PBEAML,5,1,,BAR\n+,.1,.2").expect("uniform").text;
-    assert_eq!(of("PBEAML,5,1,,BAR\n+,.1,.2,,YES,1.,.1,.2").expect("uniform").text, shaped);
+    assert_eq!(
+        of("PBEAML,5,1,,BAR\n+,.1,.2,,YES,1.,.1,.2")
+            .expect("uniform")
+            .text,
+        shaped
+    );
     for property in [
         "PBEAM,5,1,.02,1.-4,2.-4,,1.-4\n+\n+,YES,.5,.01",
         "PBEAM,5,1,.02,1.-4,2.-4,,1.-4,3.\n+\n+,YES,1.,.01",
@@ -445,23 +687,39 @@ fn uniform_beams_are_taken_and_other_stations_refused() {
 fn tapered_beams_bend_as_their_closed_form() {
     // second moments go linearly from I to r I: the tip of a cantilever sinks by
     // P L^3/(E I s^3) (r^2 ln r - 2 r s + (r^2 - 1)/2), s = r - 1
-    let common = "MAT1,1,2.+11,,.25\nGRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.\nCBEAM,1,5,1,2,0.,1.,0.\n";
-    let bulk =
-        format!("{common}PBEAM,5,1,.02,1.-4,2.-4,,1.-4\n+\n+,YES,1.,.01,5.-5,1.-4,,5.-5\n+\n+,0.,0.\n");
-    let imported =
-        deck(&bulk, &with_rail("r=1", [0.0, 1.0, 0.0])).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let common =
+        "MAT1,1,2.+11,,.25\nGRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.\nCBEAM,1,5,1,2,0.,1.,0.\n";
+    let bulk = format!(
+        "{common}PBEAM,5,1,.02,1.-4,2.-4,,1.-4\n+\n+,YES,1.,.01,5.-5,1.-4,,5.-5\n+\n+,0.,0.\n"
+    );
+    let imported = deck(&bulk, &with_rail("r=1", [0.0, 1.0, 0.0]))
+        .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let spec = json(&imported);
-    assert_eq!((&spec["parts"], &spec["cell_data"]["section_b"]), (&value!(32), &value!([[1]])));
+    assert_eq!(
+        (&spec["parts"], &spec["cell_data"]["section_b"]),
+        (&value!(32), &value!([[1]]))
+    );
     assert_eq!(spec["cell_sets"], value!({ "PBEAM 5": [[0]] }));
-    let found = displacements(&frame(&imported), &["GRID 2"], [0.0, 1e4, 1e4, 0.0, 0.0, 0.0]);
+    let found = displacements(
+        &frame(&imported),
+        &["GRID 2"],
+        [0.0, 1e4, 1e4, 0.0, 0.0, 0.0],
+    );
     let (r, s) = (0.5f64, -0.5f64);
     let shape = (r * r * r.ln() - 2.0 * r * s + (r * r - 1.0) / 2.0) / s.powi(3);
     for (freedom, i) in [(1, 1e-4), (2, 2e-4)] {
         let exact = 1e4 * 8.0 / (2e11 * i) * shape;
-        assert!((found[freedom] / exact - 1.0).abs() < 2e-4, "{freedom}: {} {exact}", found[freedom]);
+        assert!(
+            (found[freedom] / exact - 1.0).abs() < 2e-4,
+            "{freedom}: {} {exact}",
+            found[freedom]
+        );
     }
     assert!(
-        imported.warnings.iter().any(|warning| warning.path == "PBEAM 5"),
+        imported
+            .warnings
+            .iter()
+            .any(|warning| warning.path == "PBEAM 5"),
         "{}",
         told(&imported.warnings)
     );
@@ -469,9 +727,11 @@ fn tapered_beams_bend_as_their_closed_form() {
 
 #[test]
 fn rails_lie_on_the_elements_named() {
-    let imported =
-        deck(&text("decks/mill.bdf"), &with_rail("top=103,104/offset=0,0,0.5/axis=1,0,0", [0.0, 0.0, 1.0]))
-            .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let imported = deck(
+        &text("decks/mill.bdf"),
+        &with_rail("top=103,104/offset=0,0,0.5/axis=1,0,0", [0.0, 0.0, 1.0]),
+    )
+    .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let rail = &json(&imported)["rails"]["top"];
     assert_eq!(rail["axis"], value!([1.0, 0.0, 0.0]));
     assert_eq!(rail["origin"], value!([0.0, 0.0, 4.0]));
@@ -482,14 +742,34 @@ fn rails_lie_on_the_elements_named() {
     // the last point lies beyond the flexible end, and so does its station not
     assert_eq!(rail["stations"], value!([0.0, 3.0, 5.75]));
     for (rail, up, part) in [
-        ("top=103,999", Some([0.0, 0.0, 1.0]), "refers to element 999"),
-        ("top=girder", Some([0.0, 0.0, 1.0]), "refers to the set girder"),
+        (
+            "top=103,999",
+            Some([0.0, 0.0, 1.0]),
+            "refers to element 999",
+        ),
+        (
+            "top=girder",
+            Some([0.0, 0.0, 1.0]),
+            "refers to the set girder",
+        ),
         ("top=101", Some([0.0, 0.0, 1.0]), "not parallel to up"),
-        ("top=103,101", Some([0.0, 0.0, 1.0]), "is perpendicular to it"),
-        ("top=103,101/axis=1,0,0", Some([0.0, 0.0, 1.0]), "is perpendicular to it"),
+        (
+            "top=103,101",
+            Some([0.0, 0.0, 1.0]),
+            "is perpendicular to it",
+        ),
+        (
+            "top=103,101/axis=1,0,0",
+            Some([0.0, 0.0, 1.0]),
+            "is perpendicular to it",
+        ),
         ("top=103", None, "needs --up"),
     ] {
-        let options = ImportOptions { up, rails: vec![rail.parse().expect("a rail")], ..plain() };
+        let options = ImportOptions {
+            up,
+            rails: vec![rail.parse().expect("a rail")],
+            ..plain()
+        };
         let wrong = deck(&text("decks/mill.bdf"), &options).expect_err("no rail can lie there");
         assert!(told(&wrong).contains(part), "{rail}: {}", told(&wrong));
     }
@@ -499,8 +779,14 @@ fn rails_lie_on_the_elements_named() {
 fn frequencies(deck_text: &str, rail: &str, count: usize) -> Vec<f64> {
     let imported = deck(deck_text, &with_rail(rail, [0.0, 0.0, 1.0])).expect("a deck");
     let frame = frame(&imported);
-    let found = fea::refined_modes(&frame.model, &[], count, 1e-3).expect("solvable").modes.modes;
-    found.iter().map(|mode| mode.omega / std::f64::consts::TAU).collect()
+    let found = fea::refined_modes(&frame.model, &[], count, 1e-3)
+        .expect("solvable")
+        .modes
+        .modes;
+    found
+        .iter()
+        .map(|mode| mode.omega / std::f64::consts::TAU)
+        .collect()
 }
 
 #[test]
@@ -512,9 +798,10 @@ fn rods_with_and_without_j_have_the_same_frequencies() {
     let hung = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,6.,0.,0.\nGRID,3,,12.,0.,0.,,23456\n\
         GRID,4,,6.,0.,6.,,123456\nCBAR,1,2,1,2,0.,0.,1.\nCBAR,2,2,2,3,0.,0.,1.\nCROD,3,1,2,4\n\
         PBAR,2,1,.02,4.-4,1.-4,1.-5\nMAT1,1,2.1+11,,.3,7850.\nPARAM,COUPMASS,1\n";
-    for (cards, rail, lowest, tolerance) in
-        [(tripod, "r=2/axis=-1,0,0", rod_tripod(), 1e-12), (hung, "r=1,2", 8.95, 1e-2)]
-    {
+    for (cards, rail, lowest, tolerance) in [
+        (tripod, "r=2/axis=-1,0,0", rod_tripod(), 1e-12),
+        (hung, "r=1,2", 8.95, 1e-2),
+    ] {
         let with = frequencies(&format!("{cards}PROD,1,1,.001,1.-7\n"), rail, 3);
         let without = frequencies(&format!("{cards}PROD,1,1,.001\n"), rail, 3);
         assert!((with[0] / lowest - 1.0).abs() < 1e-3, "{with:?}");
@@ -548,20 +835,35 @@ fn modes_of_imported_rods_need_no_rail_that_carries_wheels() {
         let import = "import rods.bdf --length m --force N --up 0,0,1 -o rods.json --rail";
         let refused = program(&format!("{import} r=1,2"));
         assert_eq!(refused.status.code(), Some(2));
-        assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out elements along which no wheel"));
+        assert!(
+            String::from_utf8_lossy(&refused.stderr)
+                .contains("leave out elements along which no wheel")
+        );
         assert!(program(&format!("{import} r=2")).status.success());
-        assert_eq!(program("fea rods.json").status.code(), Some(3), "no direction has a grid");
+        assert_eq!(
+            program("fea rods.json").status.code(),
+            Some(3),
+            "no direction has a grid"
+        );
         let found = program("fea rods.json --modes 3 -o grid.json");
         let words = String::from_utf8_lossy(&found.stderr);
         assert!(found.status.success(), "{words}");
-        assert!(words.contains("modes: 20.") && words.contains("no vertical grids"), "{name} J: {words}");
+        assert!(
+            words.contains("modes: 20.") && words.contains("no vertical grids"),
+            "{name} J: {words}"
+        );
         let grid: serde_json::Value =
             serde_json::from_slice(&std::fs::read(path("grid.json")).expect("the file written"))
                 .expect("JSON");
         let lowest = grid["modes"]["modes"][0]["hz"].as_f64().expect("a number");
         assert!((lowest - rod_tripod()).abs() < 1e-9 * lowest, "{lowest}");
         let read = program("splines grid.json -o tables.adm");
-        assert_eq!(read.status.code(), Some(2), "{}", String::from_utf8_lossy(&read.stderr));
+        assert_eq!(
+            read.status.code(),
+            Some(2),
+            "{}",
+            String::from_utf8_lossy(&read.stderr)
+        );
     }
 }
 
@@ -585,13 +887,22 @@ fn rod_tripod() -> f64 {
 #[test]
 fn bars_without_j_deflect_alike_along_an_axis_and_at_45_degrees() {
     let of = |points: [[f64; 2]; 3]| {
-        let grids: String =
-            (1..=3).zip(points).map(|(id, [x, y])| format!("GRID,{id},,{x:?},{y:?},0.\n")).collect();
+        let grids: String = (1..=3)
+            .zip(points)
+            .map(|(id, [x, y])| format!("GRID,{id},,{x:?},{y:?},0.\n"))
+            .collect();
         let cards = "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,1,2,3,0.,0.,1.\nPBAR,1,1,.01,1.-4,2.-4\n\
             MAT1,1,2.1+11,,.3,7850.\nSPC1,1,123456,1,3\n";
-        let imported =
-            deck(&format!("{grids}{cards}"), &with_rail("r=1,2", [0.0, 0.0, 1.0])).expect("a deck");
-        displacements(&frame(&imported), &["GRID 2"], [0.0, 0.0, 1.0, 0.0, 0.0, 0.0])[2]
+        let imported = deck(
+            &format!("{grids}{cards}"),
+            &with_rail("r=1,2", [0.0, 0.0, 1.0]),
+        )
+        .expect("a deck");
+        displacements(
+            &frame(&imported),
+            &["GRID 2"],
+            [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        )[2]
     };
     let side = 50.0f64.sqrt();
     let along = of([[0.0, 0.0], [side, 0.0], [2.0 * side, 0.0]]);

@@ -16,14 +16,22 @@ fn refused(text: &str) -> String {
 
 /// Displacements of grids under a load on the first of them.
 fn moved(text: &str, grids: &[&str], load: [f64; 6]) -> Vec<f64> {
-    let options =
-        ImportOptions { up: Some([0.0, 1.0, 0.0]), rails: vec!["r=1".parse().expect("a rail")], ..plain() };
+    let options = ImportOptions {
+        up: Some([0.0, 1.0, 0.0]),
+        rails: vec!["r=1".parse().expect("a rail")],
+        ..plain()
+    };
     let imported = deck(text, &options).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)));
-    displacements(&frame(&imported), grids, load).as_slice().to_vec()
+    displacements(&frame(&imported), grids, load)
+        .as_slice()
+        .to_vec()
 }
 
 fn close(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-10 * expected.abs().max(1e-9), "{found} {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-10 * expected.abs().max(1e-9),
+        "{found} {expected}"
+    );
 }
 
 const STEEL: &str = "MAT1,1,2.+11,,.25,8000.\n";
@@ -31,13 +39,22 @@ const LINE: &str = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.\n";
 
 #[test]
 fn systems_of_every_kind_are_read_where_grids_refer_to_them() {
-    let common =
-        format!("{STEEL}PBAR,5,1,.02,1.-4,2.-4,1.-4\nCBAR,1,5,1,2,0.,0.,1.\nGRID,1,,0.,0.,0.,,123456\n");
+    let common = format!(
+        "{STEEL}PBAR,5,1,.02,1.-4,2.-4,1.-4\nCBAR,1,5,1,2,0.,0.,1.\nGRID,1,,0.,0.,0.,,123456\n"
+    );
     let cylinder = "CORD2C,7,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\n";
     let sphere = "CORD2S,8,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n";
     for (systems, grid, place) in [
-        (cylinder.to_owned(), "GRID,2,7,2.,90.,3.", value!([1.0, 2.0, 3.0])),
-        (sphere.to_owned(), "GRID,2,8,2.,90.,180.", value!([-2.0, 0.0, 0.0])),
+        (
+            cylinder.to_owned(),
+            "GRID,2,7,2.,90.,3.",
+            value!([1.0, 2.0, 3.0]),
+        ),
+        (
+            sphere.to_owned(),
+            "GRID,2,8,2.,90.,180.",
+            value!([-2.0, 0.0, 0.0]),
+        ),
         // a system on grids of another system, in a system of a system
         (
             format!(
@@ -54,10 +71,19 @@ fn systems_of_every_kind_are_read_where_grids_refer_to_them() {
     let idle = "CORD2C,9,77,0.,0.,0.,0.,0.,0.\n,0.,0.,0.\nCORD1S,10,1,1,1\n";
     assert!(deck(&format!("{common}{idle}GRID,2,,2.,0.,0.\n"), &plain()).is_ok());
     for (card, part) in [
-        ("CORD2R,4,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,4,2.,0.,0.\n", "do not depend on it"),
+        (
+            "CORD2R,4,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,4,2.,0.,0.\n",
+            "do not depend on it",
+        ),
         ("CORD1R,4,1,2,2\nGRID,2,4,2.,0.,0.\n", "do not depend on it"),
-        ("CORD2R,4,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,2,4,2.,0.,0.\n", "must not lie on one line"),
-        ("GRID,2,99,2.,0.,0.\n", "0 or the number of a coordinate system"),
+        (
+            "CORD2R,4,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,2,4,2.,0.,0.\n",
+            "must not lie on one line",
+        ),
+        (
+            "GRID,2,99,2.,0.,0.\n",
+            "0 or the number of a coordinate system",
+        ),
     ] {
         let wrong = refused(&format!("{common}{card}"));
         assert!(wrong.contains(part), "{card}: {wrong}");
@@ -69,19 +95,38 @@ fn supports_offsets_and_orientations_follow_the_displacement_system() {
     let common = format!("{STEEL}PBAR,5,1,.02,1.-4,2.-4,1.-4\nGRID,1,,0.,0.,0.,,123456\n");
     // at 90 degrees r is along y and theta along -x
     let system = "CORD2C,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,7,2.,90.,0.,7\n";
-    let spec = json(&good(&format!("{common}{system}CBAR,1,5,2,1,0.,1.,0.\nSPC1,3,13,2\n")));
-    assert_eq!(spec["supports"][1], value!({ "point": 1, "fix": ["uy", "uz"] }));
-    assert_eq!(spec["cell_data"]["orientation"], value!([[[-1.0, 0.0, 0.0]]]));
-    let spec = json(&good(&format!("{common}{system}CBAR,1,5,2,1,1.,0.,0.,BGG\n,,,.5,0.,.1\n")));
-    assert_eq!(spec["cell_data"]["orientation"], value!([[[1.0, 0.0, 0.0]]]));
+    let spec = json(&good(&format!(
+        "{common}{system}CBAR,1,5,2,1,0.,1.,0.\nSPC1,3,13,2\n"
+    )));
+    assert_eq!(
+        spec["supports"][1],
+        value!({ "point": 1, "fix": ["uy", "uz"] })
+    );
+    assert_eq!(
+        spec["cell_data"]["orientation"],
+        value!([[[-1.0, 0.0, 0.0]]])
+    );
+    let spec = json(&good(&format!(
+        "{common}{system}CBAR,1,5,2,1,1.,0.,0.,BGG\n,,,.5,0.,.1\n"
+    )));
+    assert_eq!(
+        spec["cell_data"]["orientation"],
+        value!([[[1.0, 0.0, 0.0]]])
+    );
     assert_eq!(spec["cell_data"]["offset_a"], value!([[[0.0, 0.5, 0.1]]]));
     // the same offset in the axes of the element: x from 2 to 1 is -y, y is x
-    let spec = json(&good(&format!("{common}{system}CBAR,1,5,2,1,1.,0.,0.,BOO\n,,,-.5,0.,.1\n")));
+    let spec = json(&good(&format!(
+        "{common}{system}CBAR,1,5,2,1,1.,0.,0.,BOO\n,,,-.5,0.,.1\n"
+    )));
     assert_eq!(spec["cell_data"]["offset_a"], value!([[[0.0, 0.5, 0.1]]]));
     // at 45 degrees pairs of directions may be restrained, single ones not
-    let skew = "CORD2C,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,7,2.,45.,0.,7\nCBAR,1,5,2,1,0.,0.,1.\n";
+    let skew =
+        "CORD2C,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,7,2.,45.,0.,7\nCBAR,1,5,2,1,0.,0.,1.\n";
     let spec = json(&good(&format!("{common}{skew}SPC1,3,12456,2\n")));
-    assert_eq!(spec["supports"][1], value!({ "point": 1, "fix": ["ux", "uy", "rx", "ry", "rz"] }));
+    assert_eq!(
+        spec["supports"][1],
+        value!({ "point": 1, "fix": ["ux", "uy", "rx", "ry", "rz"] })
+    );
     assert!(refused(&format!("{common}{skew}SPC1,3,1,2\n")).contains("along the global axes"));
 }
 
@@ -91,19 +136,26 @@ fn products_of_inertia_turn_the_principal_axes() {
     let (i1, i2, i12) = (1e-4, 2e-4, 5e-5);
     let det = i1 * i2 - i12 * i12;
     let unit = 1e4 * 8.0 / (3.0 * 2e11);
-    for property in
-        ["PBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-5\n", "PBEAM,5,1,.02,1.-4,2.-4,5.-5,1.-4\n,\n,0.,0.\n"]
-    {
-        let kind = if property.starts_with("PBAR") { "CBAR" } else { "CBEAM" };
+    for property in [
+        "PBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-5\n",
+        "PBEAM,5,1,.02,1.-4,2.-4,5.-5,1.-4\n,\n,0.,0.\n",
+    ] {
+        let kind = if property.starts_with("PBAR") {
+            "CBAR"
+        } else {
+            "CBEAM"
+        };
         let text = format!("{STEEL}{LINE}{kind},1,5,1,2,0.,1.,0.\n{property}");
         let found = moved(&text, &["GRID 2"], [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
         close(found[1], unit * i2 / det);
         close(found[2], -unit * i12 / det);
     }
-    let pinned =
-        format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\n,,5\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-5\n");
+    let pinned = format!(
+        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\n,,5\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-5\n"
+    );
     assert!(refused(&pinned).contains("pinned in both planes or none"));
-    let large = format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-4\n");
+    let large =
+        format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,,,5.-4\n");
     assert!(refused(&large).contains("below the root"));
 }
 
@@ -115,13 +167,22 @@ fn neutral_axes_are_off_the_shear_centre_by_their_offset() {
     let grids = ["GRID 2"];
     // an axial force at the shear centre bends about the neutral axis; a torque or shear force there does not
     let axial = moved(&text, &grids, [1e5, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    close(axial[0], 1e5 * 2.0 / 2e11 * (1.0 / 0.02 + 0.01 / 1e-4 + 0.04 / 2e-4));
+    close(
+        axial[0],
+        1e5 * 2.0 / 2e11 * (1.0 / 0.02 + 0.01 / 1e-4 + 0.04 / 2e-4),
+    );
     let torque = moved(&text, &grids, [0.0, 0.0, 0.0, 1e3, 0.0, 0.0]);
     close(torque[3], 1e3 * 2.0 / (8e10 * 1e-4));
-    assert!(torque[1].abs() < 1e-12 * torque[3] && torque[2].abs() < 1e-12 * torque[3], "{torque:?}");
+    assert!(
+        torque[1].abs() < 1e-12 * torque[3] && torque[2].abs() < 1e-12 * torque[3],
+        "{torque:?}"
+    );
     let side = moved(&text, &grids, [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
     close(side[1], 1e4 * 8.0 / (3.0 * 2e11 * 1e-4));
-    assert!(refused(&text.replace(",.1,.2", ",.1,.2,.3,.2")).contains("must be equal to the value at end A"));
+    assert!(
+        refused(&text.replace(",.1,.2", ",.1,.2,.3,.2"))
+            .contains("must be equal to the value at end A")
+    );
     assert!(refused(&text.replace("0.,1.,0.\n", "0.,1.,0.\n,56\n")).contains("must not be pinned"));
 }
 
@@ -134,15 +195,25 @@ fn partial_links_become_hinges_and_supports() {
     let linked = format!("{common}{other}CBAR,2,5,3,4,0.,1.,0.\nRBE2,9,2,123,3\n");
     let pinned = format!("{common}GRID,4,,5.,0.,0.,,123456\nCBAR,2,5,2,4,0.,1.,0.\n,456\n");
     let load = [1e4, 1e4, 1e4, 1e3, 1e3, 1e3];
-    let (a, b) = (moved(&linked, &["GRID 2"], load), moved(&pinned, &["GRID 2"], load));
+    let (a, b) = (
+        moved(&linked, &["GRID 2"], load),
+        moved(&pinned, &["GRID 2"], load),
+    );
     a.iter().zip(&b).for_each(|(a, b)| close(*a, *b));
     // the independent grid is fixed: a support
     let held = format!("{common}GRID,3,,2.,0.,1.,,123456\nRBE2,9,3,2,2\n");
-    assert_eq!(json(&good(&held))["supports"][1], value!({ "point": 1, "fix": ["uy"] }));
+    assert_eq!(
+        json(&good(&held))["supports"][1],
+        value!({ "point": 1, "fix": ["uy"] })
+    );
     // rods do not turn their ends
-    let rods =
-        format!("{common}GRID,3,,2.,1.,0.\nGRID,4,,5.,1.,0.,,123456\nCONROD,2,3,4,1,.01\nRBE2,9,2,123,3\n");
-    assert_eq!(json(&good(&rods))["links"], value!([{ "from": 1, "to": 2 }]));
+    let rods = format!(
+        "{common}GRID,3,,2.,1.,0.\nGRID,4,,5.,1.,0.,,123456\nCONROD,2,3,4,1,.01\nRBE2,9,2,123,3\n"
+    );
+    assert_eq!(
+        json(&good(&rods))["links"],
+        value!([{ "from": 1, "to": 2 }])
+    );
     // two beams at the dependent grid share its rotation
     let two = format!("{linked}GRID,5,,2.,0.,3.,,123456\nCBAR,3,5,3,5,0.,1.,0.\n");
     assert!(refused(&two).contains("replaceable by a hinge or a support"));
@@ -157,12 +228,18 @@ fn mass_may_be_lumped_at_the_ends_of_all_members() {
         "{STEEL}GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,0.,4.\nCBAR,1,5,1,2,0.,1.,0.\nCBEAM,2,6,2,3,0.,1.,0.\n\
          ,,,0.,0.,0.,0.,0.,-1.\nPBAR,5,1,.02,1.-4,2.-4,1.-4,40.\nPBEAM,6,1,.01,1.-4,2.-4,,1.-4\nPARAM,WTMASS,.5\n"
     );
-    let lumped = ImportOptions { mass: Some(MassDistribution::Lumped), ..plain() };
+    let lumped = ImportOptions {
+        mass: Some(MassDistribution::Lumped),
+        ..plain()
+    };
     let spec = json(&deck(&text, &lumped).expect("a deck"));
     assert!(spec["materials"][0].get("density").is_none());
     // half of (8000 A + NSM) L at each end, and rho (I1 + I2) L in twist for CBEAM
-    let (bar, beam, twist) =
-        (0.5 * 0.5 * 200.0 * 2.0, 0.5 * 0.5 * 80.0 * 3.0, 0.5 * 0.5 * 8000.0 * 3e-4 * 3.0);
+    let (bar, beam, twist) = (
+        0.5 * 0.5 * 200.0 * 2.0,
+        0.5 * 0.5 * 80.0 * 3.0,
+        0.5 * 0.5 * 8000.0 * 3e-4 * 3.0,
+    );
     let masses = spec["masses"].as_array().expect("masses");
     let found: Vec<[f64; 3]> = masses
         .iter()
@@ -171,12 +248,19 @@ fn mass_may_be_lumped_at_the_ends_of_all_members() {
                 .map(|value| value.as_f64().expect("a number"))
         })
         .collect();
-    let wanted = [[0.0, bar, 0.0], [1.0, bar + beam, twist], [2.0, beam, twist]];
+    let wanted = [
+        [0.0, bar, 0.0],
+        [1.0, bar + beam, twist],
+        [2.0, beam, twist],
+    ];
     for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
         close(*found, *wanted);
     }
     assert_eq!(masses[2]["offset"], value!([0.0, 0.0, -1.0]));
-    let asked = ImportOptions { mass: Some(MassDistribution::Distributed), ..plain() };
+    let asked = ImportOptions {
+        mass: Some(MassDistribution::Distributed),
+        ..plain()
+    };
     let consistent = good(&format!("{text}PARAM,COUPMASS,1\n"));
     assert_eq!(consistent.text, deck(&text, &asked).expect("a deck").text);
     assert!(json(&consistent).get("masses").is_none());
@@ -190,17 +274,22 @@ fn mass_may_be_lumped_at_the_ends_of_all_members() {
 
 #[test]
 fn masses_may_be_stated_in_turned_systems() {
-    let common =
-        format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nPARAM,COUPMASS,1\n");
+    let common = format!(
+        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nPARAM,COUPMASS,1\n"
+    );
     // x of the system is y, y is -x
-    let turned = "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\nCONM2,9,2,3,10.,1.,0.,0.\n,4.,0.,5.,,,6.\n";
+    let turned =
+        "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\nCONM2,9,2,3,10.,1.,0.,0.\n,4.,0.,5.,,,6.\n";
     assert_eq!(
         json(&good(&format!("{common}{turned}")))["masses"],
         value!([{ "point": 1, "mass": 10.0, "inertia": [5.0, 4.0, 6.0], "offset": [0.0, 1.0, 0.0] }])
     );
     let products = format!("{common}CONM2,9,2,,10.\n,4.,1.,5.,,,6.\n");
     assert!(refused(&products).contains("--skip-unused"));
-    let unused = ImportOptions { skip_unused: true, ..plain() };
+    let unused = ImportOptions {
+        skip_unused: true,
+        ..plain()
+    };
     let taken = deck(&products, &unused).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     assert!(told(&taken.warnings).contains("products of inertia cannot change the stiffness"));
 }
@@ -208,14 +297,21 @@ fn masses_may_be_stated_in_turned_systems() {
 #[test]
 fn rods_may_be_two_on_a_card_and_tubes_are_rods() {
     let common = format!("{STEEL}{LINE}GRID,3,,2.,3.,0.,,123456\n");
-    let two = json(&good(&format!("{common}CROD,1,5,1,2,2,5,2,3\nPROD,5,1,.01,.001\n")));
-    let one = json(&good(&format!("{common}CROD,1,5,1,2\nCROD,2,5,2,3\nPROD,5,1,.01,.001\n")));
+    let two = json(&good(&format!(
+        "{common}CROD,1,5,1,2,2,5,2,3\nPROD,5,1,.01,.001\n"
+    )));
+    let one = json(&good(&format!(
+        "{common}CROD,1,5,1,2\nCROD,2,5,2,3\nPROD,5,1,.01,.001\n"
+    )));
     assert_eq!(two, one);
     let tube = json(&good(&format!("{common}CTUBE,1,5,1,2\nPTUBE,5,1,.2,.01\n")));
     let section = &tube["sections"][0];
     let pi = std::f64::consts::PI;
     close(section["A"].as_f64().expect("A"), pi * (0.01 - 0.0081));
-    close(section["J"].as_f64().expect("J"), pi / 2.0 * (1e-4 - 0.6561e-4));
+    close(
+        section["J"].as_f64().expect("J"),
+        pi / 2.0 * (1e-4 - 0.6561e-4),
+    );
     assert_eq!(tube["cell_data"]["kind"], value!([["rod"]]));
 }
 
@@ -226,27 +322,52 @@ fn cards_that_cannot_change_statics_are_left_out_on_request_and_listed() {
          SUPORT,2,1\nAERO,,1.,1.,1.\nSPLINE1,1,1,1,1,1\nCDAMP2,3,1.,2,1\nMDLPRM,HDF5,0\nSPC,1,2,3,.5\n"
     );
     let wrong = refused(&deck_text);
-    for part in
-        ["DESVAR: is not supported, 2 cards", "MAT4", "SUPORT", "--skip-unused leaves it out", "SPC 1: D"]
-    {
+    for part in [
+        "DESVAR: is not supported, 2 cards",
+        "MAT4",
+        "SUPORT",
+        "--skip-unused leaves it out",
+        "SPC 1: D",
+    ] {
         assert!(wrong.contains(part), "{part}: {wrong}");
     }
     assert!(!wrong.contains("MDLPRM"), "a request for output: {wrong}");
-    let unused = ImportOptions { skip_unused: true, ..plain() };
+    let unused = ImportOptions {
+        skip_unused: true,
+        ..plain()
+    };
     let taken = deck(&deck_text, &unused).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let warned = told(&taken.warnings);
-    for part in ["DESVAR: is left out, 2 cards; it cannot change the stiffness", "AERO", "SPLINE1", "CDAMP2"]
-    {
+    for part in [
+        "DESVAR: is left out, 2 cards; it cannot change the stiffness",
+        "AERO",
+        "SPLINE1",
+        "CDAMP2",
+    ] {
         assert!(warned.contains(part), "{part}: {warned}");
     }
-    assert_eq!(json(&taken)["supports"][1], value!({ "point": 1, "fix": ["uz"] }));
+    assert_eq!(
+        json(&taken)["supports"][1],
+        value!({ "point": 1, "fix": ["uz"] })
+    );
     // stiffness is never left out by this flag
-    for card in ["CSHEAR,7,1,1,2,3,4", "CBUSH,7,1,1,2", "MPC,1,1,1,1.,2,1,1.", "DMIG,A,0,6,1"] {
-        assert!(deck(&format!("{deck_text}{card}\n"), &unused).is_err(), "{card}");
+    for card in [
+        "CSHEAR,7,1,1,2,3,4",
+        "CBUSH,7,1,1,2",
+        "MPC,1,1,1,1.,2,1,1.",
+        "DMIG,A,0,6,1",
+    ] {
+        assert!(
+            deck(&format!("{deck_text}{card}\n"), &unused).is_err(),
+            "{card}"
+        );
     }
     // equations that case control does not select have no effect
     let selected = |control: &str| {
-        deck(&format!("CEND\n{control}BEGIN BULK\n{deck_text}MPC,1,1,1,1.,2,1,1.\n"), &unused)
+        deck(
+            &format!("CEND\n{control}BEGIN BULK\n{deck_text}MPC,1,1,1,1.,2,1,1.\n"),
+            &unused,
+        )
     };
     assert!(selected("").is_ok() && selected("MPC=1\n").is_err());
 }
@@ -259,15 +380,36 @@ fn errors_of_one_kind_are_counted_and_defaults_are_blamed_once() {
     }
     let wrong = deck(&bars, &plain()).expect_err("no orientation");
     assert_eq!(wrong.len(), 1, "{}", told(&wrong));
-    assert!(wrong[0].expected.contains("50 CBAR: X1 alike, the last in line 53"), "{}", told(&wrong));
+    assert!(
+        wrong[0]
+            .expected
+            .contains("50 CBAR: X1 alike, the last in line 53"),
+        "{}",
+        told(&wrong)
+    );
     for (default, part) in [
-        ("BAROR,,7,,,0.,1.,0.", "deck.bdf:54:1: BAROR: refers to a property that does not exist"),
-        ("BAROR,,5,,,1.,0.,0.", "deck.bdf:54:1: BAROR: X1: must not be zero or along an element"),
-        ("BAROR,,5,,,99", "deck.bdf:54:1: BAROR: G0: refers to a grid that does not exist"),
-        ("BAROR,,5,,,0.,1.,0.,GXX", "BAROR: OFFT: must be three letters"),
+        (
+            "BAROR,,7,,,0.,1.,0.",
+            "deck.bdf:54:1: BAROR: refers to a property that does not exist",
+        ),
+        (
+            "BAROR,,5,,,1.,0.,0.",
+            "deck.bdf:54:1: BAROR: X1: must not be zero or along an element",
+        ),
+        (
+            "BAROR,,5,,,99",
+            "deck.bdf:54:1: BAROR: G0: refers to a grid that does not exist",
+        ),
+        (
+            "BAROR,,5,,,0.,1.,0.,GXX",
+            "BAROR: OFFT: must be three letters",
+        ),
     ] {
-        let wrong =
-            deck(&format!("{bars}{default}\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n"), &plain()).expect_err(default);
+        let wrong = deck(
+            &format!("{bars}{default}\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n"),
+            &plain(),
+        )
+        .expect_err(default);
         assert_eq!(wrong.len(), 1, "{default}: {}", told(&wrong));
         assert!(told(&wrong).contains(part), "{default}: {}", told(&wrong));
     }

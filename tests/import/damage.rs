@@ -74,9 +74,16 @@ fn taken(
 ) -> bool {
     match result {
         Ok(imported) => {
-            let source = Source { name: "spec.json".to_owned(), text: imported.text };
+            let source = Source {
+                name: "spec.json".to_owned(),
+                text: imported.text,
+            };
             if let Err(wrong) = Spec::read(&source, None) {
-                assert!(wrong.iter().all(|wrong| wrong.path == "rails"), "{}{damaged}", told(&wrong));
+                assert!(
+                    wrong.iter().all(|wrong| wrong.path == "rails"),
+                    "{}{damaged}",
+                    told(&wrong)
+                );
             }
             true
         }
@@ -84,7 +91,9 @@ fn taken(
             assert!(!wrong.is_empty(), "{damaged}");
             // a fault that only the reader of specs found has no place in the model
             assert!(
-                wrong.iter().all(|wrong| !wrong.file.contains("as a beam spec")),
+                wrong
+                    .iter()
+                    .all(|wrong| !wrong.file.contains("as a beam spec")),
                 "{}{damaged}",
                 told(&wrong)
             );
@@ -96,8 +105,11 @@ fn taken(
 #[test]
 fn damaged_decks_are_refused_or_taken() {
     let mut dice = fastrand::Rng::with_seed(11);
-    let rails =
-        ImportOptions { up: Some([0.0, 1.0, 0.0]), rails: vec!["r=1-4".parse().expect("a rail")], ..plain() };
+    let rails = ImportOptions {
+        up: Some([0.0, 1.0, 0.0]),
+        rails: vec!["r=1-4".parse().expect("a rail")],
+        ..plain()
+    };
     let mut counts = [0; 2];
     for (name, options, rounds) in [
         ("decks/mill.bdf", plain(), 6000),
@@ -144,7 +156,11 @@ fn damaged_meshes_are_refused_or_taken() {
             up: Some([0.0, 0.0, 1.0]),
             sections: Some(Source {
                 name: "sections.json".to_owned(),
-                text: if round % 4 == 0 { both[1].clone() } else { sections.clone() },
+                text: if round % 4 == 0 {
+                    both[1].clone()
+                } else {
+                    sections.clone()
+                },
             }),
             ..ImportOptions::default()
         };

@@ -33,7 +33,9 @@ fn tip(text: &str, load: [f64; 6]) -> Vec<f64> {
         ..plain()
     };
     let imported = input(text, &options).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)));
-    displacements(&frame(&imported), &["node 2"], load).as_slice().to_vec()
+    displacements(&frame(&imported), &["node 2"], load)
+        .as_slice()
+        .to_vec()
 }
 
 fn close(found: f64, expected: f64) {
@@ -51,22 +53,31 @@ fn sections_have_their_dimensions_along_the_axes_of_the_guide() {
     close(found[2], bend(0.3 * 0.001 / 12.0));
     // B31 deforms in shear too, with k = 0.85 for rectangles
     let found = tip(&cantilever("B31", rect), [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
-    close(found[1], bend(0.1 * 0.027 / 12.0) + 1e4 * 2.0 / (0.85 * g * a));
+    close(
+        found[1],
+        bend(0.1 * 0.027 / 12.0) + 1e4 * 2.0 / (0.85 * g * a),
+    );
     // transverse shear stiffnesses in place of k G A: K23 along the 2-axis
     let shear = format!("{rect}*Transverse Shear Stiffness\n1.e8, 2.e8\n");
     let found = tip(&cantilever("B31", &shear), [0.0, 1e4, 1e4, 0.0, 0.0, 0.0]);
     close(found[1], bend(0.1 * 0.027 / 12.0) + 2e4 / 1e8);
     close(found[2], bend(0.3 * 0.001 / 12.0) + 2e4 / 2e8);
     // an I section bends about its 1-axis with its web along the 2-axis
-    let flanged =
-        "*Beam Section, elset=beam, material=steel, section=I\n0.15, 0.3, 0.2, 0.2, 0.02, 0.02, 0.01\n\n";
+    let flanged = "*Beam Section, elset=beam, material=steel, section=I\n0.15, 0.3, 0.2, 0.2, 0.02, 0.02, 0.01\n\n";
     let found = tip(&cantilever("B33", flanged), [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
-    close(found[1], bend((0.2 * 0.027 - 0.19 * 0.26f64.powi(3)) / 12.0));
-    for (section, area) in
-        [("CIRC\n0.1\n", 0.01 * std::f64::consts::PI), ("BOX\n0.1,0.2,0.01,0.02,0.01,0.02\n", 0.0072)]
-    {
+    close(
+        found[1],
+        bend((0.2 * 0.027 - 0.19 * 0.26f64.powi(3)) / 12.0),
+    );
+    for (section, area) in [
+        ("CIRC\n0.1\n", 0.01 * std::f64::consts::PI),
+        ("BOX\n0.1,0.2,0.01,0.02,0.01,0.02\n", 0.0072),
+    ] {
         let of = format!("*BEAM SECTION, ELSET=BEAM, MATERIAL=STEEL, SECTION={section}");
-        close(tip(&cantilever("B33", &of), [1e4, 0.0, 0.0, 0.0, 0.0, 0.0])[0], 1e4 * 2.0 / (e * area));
+        close(
+            tip(&cantilever("B33", &of), [1e4, 0.0, 0.0, 0.0, 0.0, 0.0])[0],
+            1e4 * 2.0 / (e * area),
+        );
     }
 }
 
@@ -83,7 +94,11 @@ fn general_sections_bend_about_their_principal_axes() {
     close(found[2], unit * i12 / det);
     let spec = json(&good(&text));
     assert_eq!(spec["materials"][0]["density"], value!(7850.0));
-    assert_eq!(spec["sections"][0].get("Asy"), None, "B33 is rigid in shear");
+    assert_eq!(
+        spec["sections"][0].get("Asy"),
+        None,
+        "B33 is rigid in shear"
+    );
 }
 
 #[test]
@@ -96,9 +111,18 @@ fn supports_springs_masses_and_links_become_what_they_say() {
         *MPC\nBEAM, 4, 3\n*RELEASE\n2, S2, M1-T\n*BOUNDARY\nends, 1, 3\n1, 4\n*STEP\n*STATIC\n*CLOAD\n4, 2, -1.\n*END STEP\n";
     let imported = good(text);
     let spec = json(&imported);
-    assert_eq!(spec["cell_data"]["kind"], value!([["beam", "beam", "truss"]]));
-    assert_eq!(spec["cell_data"]["release_b"], value!([[[], ["rx", "ry"], []]]));
-    assert_eq!(spec["springs"], value!([{ "point": 1, "dof": "uy", "k": 5e6 }]));
+    assert_eq!(
+        spec["cell_data"]["kind"],
+        value!([["beam", "beam", "truss"]])
+    );
+    assert_eq!(
+        spec["cell_data"]["release_b"],
+        value!([[[], ["rx", "ry"], []]])
+    );
+    assert_eq!(
+        spec["springs"],
+        value!([{ "point": 1, "dof": "uy", "k": 5e6 }])
+    );
     assert_eq!(
         spec["masses"],
         value!([{ "point": 2, "mass": 120.0, "inertia": [0.0, 0.0, 0.0], "offset": [0.0, 0.0, 0.0] }])
@@ -110,7 +134,10 @@ fn supports_springs_masses_and_links_become_what_they_say() {
     );
     assert_eq!(spec["point_sets"]["ends"], value!([0, 4]));
     let warned = told(&imported.warnings);
-    assert!(warned.contains("*CLOAD: is left out, once") && warned.contains("*STATIC"), "{warned}");
+    assert!(
+        warned.contains("*CLOAD: is left out, once") && warned.contains("*STATIC"),
+        "{warned}"
+    );
 }
 
 #[test]
@@ -124,16 +151,31 @@ fn parts_are_read_in_the_flat_form_and_files_are_included() {
     for key in ["points", "cells", "supports", "materials"] {
         assert_eq!(parts[key], flat[key], "{key}");
     }
-    assert_eq!(parts["sections"][0]["name"], "P-1.beam 1", "names of a part have that of its instance");
-    assert_eq!(json(&good(&body.replace("\nfoot, enc", "\nP-1.1, enc")))["supports"], flat["supports"]);
+    assert_eq!(
+        parts["sections"][0]["name"], "P-1.beam 1",
+        "names of a part have that of its instance"
+    );
+    assert_eq!(
+        json(&good(&body.replace("\nfoot, enc", "\nP-1.1, enc")))["supports"],
+        flat["supports"]
+    );
     let moved = body.replace("part=P\n*End", "part=P\n1., 0., 0.\n*End");
     assert!(told(&input(&moved, &plain()).expect_err("moved")).contains("must not be moved"));
     let text = cantilever("B31", beam);
     let (head, tail) = text.split_once("*Material").expect("a material");
-    let (main, rest) = (format!("{head}*INCLUDE, INPUT=sub/rest.inc\n"), format!("*Material{tail}"));
+    let (main, rest) = (
+        format!("{head}*INCLUDE, INPUT=sub/rest.inc\n"),
+        format!("*Material{tail}"),
+    );
     let files = [("m/model.inp", main.as_str()), ("m/sub/rest.inc", &rest)];
-    assert_eq!(json(&from_memory("m/model.inp", &files, &plain()).expect("a model")), flat);
-    let files = [("m/model.inp", main.as_str()), ("m/sub/rest.inc", "*INCLUDE, INPUT=../model.inp\n")];
+    assert_eq!(
+        json(&from_memory("m/model.inp", &files, &plain()).expect("a model")),
+        flat
+    );
+    let files = [
+        ("m/model.inp", main.as_str()),
+        ("m/sub/rest.inc", "*INCLUDE, INPUT=../model.inp\n"),
+    ];
     let wrong = told(&from_memory("m/model.inp", &files, &plain()).expect_err("a loop"));
     assert!(wrong.contains("*INCLUDE"), "{wrong}");
 }
@@ -149,12 +191,23 @@ fn a_name_within_a_part_differs_from_the_same_name_outside() {
     let held = |text: &str| {
         let spec = json(&good(text));
         let supports = spec["supports"].as_array().expect("supports").iter();
-        supports.filter_map(|support| support["point"].as_u64()).collect::<Vec<u64>>()
+        supports
+            .filter_map(|support| support["point"].as_u64())
+            .collect::<Vec<u64>>()
     };
     assert_eq!(held(text), [0, 2]);
-    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-1")), [0, 1, 2]);
-    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPART-1-1.2")), [1]);
-    let wrong = input(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-2"), &plain());
+    assert_eq!(
+        held(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-1")),
+        [0, 1, 2]
+    );
+    assert_eq!(
+        held(&text.replace("Boundary\nSet-1", "Boundary\nPART-1-1.2")),
+        [1]
+    );
+    let wrong = input(
+        &text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-2"),
+        &plain(),
+    );
     assert!(told(&wrong.expect_err("no such set")).contains("does not exist"));
 }
 
@@ -164,11 +217,20 @@ fn what_is_not_understood_is_refused_by_name_and_left_out_where_it_cannot_matter
     let model = cantilever("B31", beam);
     for (more, part) in [
         ("*EQUATION\n2\n", "*EQUATION: is not supported, once"),
-        ("*ELEMENT, TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n", "S4: is not supported, 2 times"),
+        (
+            "*ELEMENT, TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n",
+            "S4: is not supported, 2 times",
+        ),
         ("*ELEMENT, TYPE=B31OS\n7,1,2\n", "B31OS: is not supported"),
         ("*BOUNDARY\n2, 1, 1, 0.1\n", "can only be 0"),
-        ("*NSET, NSET=a\nb\n", "the name of a set that is defined before"),
-        ("*BOUNDARY\nnowhere, 1\n", "refers to a set or number that does not exist"),
+        (
+            "*NSET, NSET=a\nb\n",
+            "the name of a set that is defined before",
+        ),
+        (
+            "*BOUNDARY\nnowhere, 1\n",
+            "refers to a set or number that does not exist",
+        ),
         ("*PLASTIC\n2.e8, 0.\n", "--skip-unused leaves it out"),
         ("*NODE\n2, 0, 0, 0\n", "occurs twice"),
         ("*NODE\n3, 0, zero, 0\n", "model.inp:"),
@@ -176,22 +238,50 @@ fn what_is_not_understood_is_refused_by_name_and_left_out_where_it_cannot_matter
         let wrong = told(&input(&format!("{model}{more}"), &plain()).expect_err(more));
         assert!(wrong.contains(part), "{more}: {wrong}");
     }
-    let unused = ImportOptions { skip_unused: true, ..plain() };
+    let unused = ImportOptions {
+        skip_unused: true,
+        ..plain()
+    };
     let more = "*PLASTIC\n2.e8, 0.\n*BOUNDARY\n2, 1, 1, 0.1\n";
-    let taken = input(&format!("{model}{more}"), &unused).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let taken = input(&format!("{model}{more}"), &unused)
+        .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let warned = told(&taken.warnings);
-    assert!(warned.contains("*PLASTIC") && warned.contains("kept at rest"), "{warned}");
-    let shells = ImportOptions { skip: vec!["S4".to_owned(), "EQUATION".to_owned()], ..plain() };
-    assert!(input(&format!("{model}*ELEMENT, TYPE=S4\n7,1,2,3,4\n*EQUATION\n2\n"), &shells).is_ok());
+    assert!(
+        warned.contains("*PLASTIC") && warned.contains("kept at rest"),
+        "{warned}"
+    );
+    let shells = ImportOptions {
+        skip: vec!["S4".to_owned(), "EQUATION".to_owned()],
+        ..plain()
+    };
+    assert!(
+        input(
+            &format!("{model}*ELEMENT, TYPE=S4\n7,1,2,3,4\n*EQUATION\n2\n"),
+            &shells
+        )
+        .is_ok()
+    );
     for (section, part) in [
-        ("*Beam Section, elset=beam, material=steel, section=L\n.1,.1,.01,.01\n", "is not supported, got L"),
+        (
+            "*Beam Section, elset=beam, material=steel, section=L\n.1,.1,.01,.01\n",
+            "is not supported, got L",
+        ),
         (
             "*Beam Section, elset=beam, material=steel, section=I\n.1,.3,.2,.2,.02,.02,.01\n",
             "height of the centroid, 0.15",
         ),
-        ("*Beam Section, elset=beam, material=wood, section=RECT\n.1,.3\n", "the name of a *MATERIAL"),
-        ("*Beam Section, elset=beam, material=steel, section=RECT\n.1,-.3\n", "must be positive"),
-        ("*Beam Section, elset=beam, material=steel, section=RECT\n.1,.3\n1,0,0\n", "n1 direction"),
+        (
+            "*Beam Section, elset=beam, material=wood, section=RECT\n.1,.3\n",
+            "the name of a *MATERIAL",
+        ),
+        (
+            "*Beam Section, elset=beam, material=steel, section=RECT\n.1,-.3\n",
+            "must be positive",
+        ),
+        (
+            "*Beam Section, elset=beam, material=steel, section=RECT\n.1,.3\n1,0,0\n",
+            "n1 direction",
+        ),
         ("", "must have a section"),
     ] {
         let wrong = told(&input(&cantilever("B31", section), &plain()).expect_err(section));
@@ -213,26 +303,38 @@ fn files_of_gmsh_and_meshio_need_sections_by_the_names_of_their_sets() {
         }),
         ..ImportOptions::default()
     };
-    for (file, girder, feet) in
-        [("gmsh.inp", "runway_girder", "support_feet"), ("meshio.inp", "girder", "feet")]
-    {
+    for (file, girder, feet) in [
+        ("gmsh.inp", "runway_girder", "support_feet"),
+        ("meshio.inp", "girder", "feet"),
+    ] {
         let bytes = text(&format!("meshes/{file}"));
         let read = |options: &ImportOptions| from_memory(file, &[(file, &bytes)], options);
         let asked = ImportOptions {
-            fix: vec![format!("{feet}=ux,uy,uz,rx,ry,rz").parse().expect("a support")],
+            fix: vec![
+                format!("{feet}=ux,uy,uz,rx,ry,rz")
+                    .parse()
+                    .expect("a support"),
+            ],
             rails: vec![format!("crane={girder}").parse().expect("a rail")],
             ..options(girder)
         };
         let imported = read(&asked).unwrap_or_else(|wrong| panic!("{file}: {}", told(&wrong)));
         let spec = json(&imported);
         assert_eq!(spec["points"].as_array().map(Vec::len), Some(15), "{file}");
-        assert_eq!(spec["cells"][0]["data"].as_array().map(Vec::len), Some(15), "{file}");
+        assert_eq!(
+            spec["cells"][0]["data"].as_array().map(Vec::len),
+            Some(15),
+            "{file}"
+        );
         assert_eq!(spec["cell_sets"]["brace"], value!([[14]]), "{file}");
         assert_eq!(spec["supports"].as_array().map(Vec::len), Some(3), "{file}");
         let model = frame(&imported).model;
         assert_eq!(model.members[14].kind, fea::MemberKind::Truss, "{file}");
         let wrong = told(&read(&options("other")).expect_err("a set without a section"));
-        assert!(wrong.contains("must be in one set of elements that is a section"), "{file}: {wrong}");
+        assert!(
+            wrong.contains("must be in one set of elements that is a section"),
+            "{file}: {wrong}"
+        );
         let wrong = told(&read(&plain()).expect_err("no sections"));
         assert!(wrong.contains("--sections"), "{file}: {wrong}");
     }

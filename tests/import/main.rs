@@ -29,7 +29,11 @@ fn text(name: &str) -> String {
 
 /// Options in metres and newtons.
 fn plain() -> ImportOptions {
-    ImportOptions { length: Some(Length::Metre), force: Some(Force::Newton), ..ImportOptions::default() }
+    ImportOptions {
+        length: Some(Length::Metre),
+        force: Some(Force::Newton),
+        ..ImportOptions::default()
+    }
 }
 
 /// Files in memory, read by name.
@@ -38,9 +42,15 @@ fn from_memory(
     files: &[(&str, &str)],
     options: &ImportOptions,
 ) -> Result<Imported, Vec<Diagnostic>> {
-    let files: BTreeMap<&Path, &str> = files.iter().map(|(name, text)| (Path::new(*name), *text)).collect();
+    let files: BTreeMap<&Path, &str> = files
+        .iter()
+        .map(|(name, text)| (Path::new(*name), *text))
+        .collect();
     let open = |path: &Path| {
-        files.get(path).map(|text| text.as_bytes().to_vec()).ok_or_else(|| io::ErrorKind::NotFound.into())
+        files
+            .get(path)
+            .map(|text| text.as_bytes().to_vec())
+            .ok_or_else(|| io::ErrorKind::NotFound.into())
     };
     import(Path::new(main), &open, options)
 }
@@ -60,7 +70,10 @@ fn told(wrong: &[Diagnostic]) -> String {
 
 /// The frame of the spec that was written, as `girderway fea` reads it.
 fn frame(imported: &Imported) -> FrameSpec {
-    let source = Source { name: "spec.json".to_owned(), text: imported.text.clone() };
+    let source = Source {
+        name: "spec.json".to_owned(),
+        text: imported.text.clone(),
+    };
     let spec = Spec::read(&source, None).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     match spec.form {
         Form::Frame(frame) => frame,
@@ -71,10 +84,15 @@ fn frame(imported: &Imported) -> FrameSpec {
 /// Displacements of points under a load on the first of them; points by the names of their sets.
 fn displacements(frame: &FrameSpec, points: &[&str], load: [f64; 6]) -> DVector<f64> {
     let index = |name: &&str| {
-        let set = frame.point_sets.iter().find(|(known, _)| known == name).expect("a set");
+        let set = frame
+            .point_sets
+            .iter()
+            .find(|(known, _)| known == name)
+            .expect("a set");
         set.1[0]
     };
     let points: Vec<usize> = points.iter().map(index).collect();
-    let (compliance, _) = fea::point_compliance(&frame.model, &points).expect("a structure that stands");
+    let (compliance, _) =
+        fea::point_compliance(&frame.model, &points).expect("a structure that stands");
     compliance.columns(0, 6) * DVector::from_row_slice(&load)
 }

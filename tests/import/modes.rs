@@ -12,7 +12,11 @@ use super::{deck, frame, plain, told};
 fn frequencies(imported: &Imported, count: usize) -> (Vec<f64>, f64) {
     let model = frame(imported).model;
     let found = fea::refined_modes(&model, &[], count, 1e-3).expect("solvable");
-    let all = found.modes.modes.iter().map(|mode| mode.omega / std::f64::consts::TAU);
+    let all = found
+        .modes
+        .modes
+        .iter()
+        .map(|mode| mode.omega / std::f64::consts::TAU);
     (all.collect(), found.error.expect("an estimate"))
 }
 
@@ -35,10 +39,14 @@ fn lumped_bars_vibrate_as_masses_on_springs() {
     let (stiffness, mass) = (3.0 * 2e11 * 1e-4 / 8.0, 0.5 * 8000.0 * 0.02 * 2.0);
     let (found, error) = of(common, "r=1", 1);
     let exact = f64::sqrt(stiffness / mass) / std::f64::consts::TAU;
-    assert!((found[0] / exact - 1.0).abs() < 1e-10 && error == 0.0, "{found:?} {exact} {error}");
+    assert!(
+        (found[0] / exact - 1.0).abs() < 1e-10 && error == 0.0,
+        "{found:?} {exact} {error}"
+    );
     // consistent mass: the cantilever of the textbook, with k L = 1.875104; rotary inertia lowers it by 0.3 %
     let (found, _) = of(&format!("{common}PARAM,COUPMASS,1\n"), "r=1", 1);
-    let exact = (1.875_104_f64 / 2.0).powi(2) * f64::sqrt(2e11 * 1e-4 / 160.0) / std::f64::consts::TAU;
+    let exact =
+        (1.875_104_f64 / 2.0).powi(2) * f64::sqrt(2e11 * 1e-4 / 160.0) / std::f64::consts::TAU;
     assert!((found[0] / exact - 1.0).abs() < 5e-3, "{found:?} {exact}");
 }
 
@@ -49,11 +57,14 @@ fn the_error_of_trusses_is_that_of_their_axial_motion() {
         PARAM,COUPMASS,1\n";
     let (found, error) = of(text, "r=1", 1);
     let speed = f64::sqrt(2e11 / 8000.0);
-    let [one, exact] =
-        [3.0_f64.sqrt(), std::f64::consts::FRAC_PI_2].map(|k| k * speed / 2.0 / std::f64::consts::TAU);
+    let [one, exact] = [3.0_f64.sqrt(), std::f64::consts::FRAC_PI_2]
+        .map(|k| k * speed / 2.0 / std::f64::consts::TAU);
     assert!((found[0] / one - 1.0).abs() < 1e-12);
     let actual = one / exact - 1.0;
-    assert!(error > actual && error < 1.5 * actual, "{error} for {actual}");
+    assert!(
+        error > actual && error < 1.5 * actual,
+        "{error} for {actual}"
+    );
 }
 
 /// Decks of NASTRAN_CoFE with the frequencies of NASTRAN beside them (`modes.f06`). They are read where the folder
@@ -66,9 +77,21 @@ fn published_decks_have_their_published_frequencies() {
     };
     let folder = folder.join("NASTRAN_CoFE/testing/system_verification");
     for (name, rail, published) in [
-        ("004_72_bar_truss", "r=49", [25.45570, 25.45570, 38.94089, 68.55535, 73.70520, 73.70520]),
-        ("003_svanberg_bar", "r=1", [46.46440, 146.9333, 279.0229, 752.9903, 815.3514, 882.3479]),
-        ("002_svanberg_beam", "r=1", [46.46440, 146.9333, 279.0229, 752.9903, 815.3514, 882.3479]),
+        (
+            "004_72_bar_truss",
+            "r=49",
+            [25.45570, 25.45570, 38.94089, 68.55535, 73.70520, 73.70520],
+        ),
+        (
+            "003_svanberg_bar",
+            "r=1",
+            [46.46440, 146.9333, 279.0229, 752.9903, 815.3514, 882.3479],
+        ),
+        (
+            "002_svanberg_beam",
+            "r=1",
+            [46.46440, 146.9333, 279.0229, 752.9903, 815.3514, 882.3479],
+        ),
     ] {
         let path = folder.join(name).join("nastran_runs/modes.dat");
         if !path.exists() {
@@ -86,9 +109,15 @@ fn published_decks_have_their_published_frequencies() {
             ..ImportOptions::default()
         };
         let imported = import(&path, &|path| std::fs::read(path), &options);
-        let (found, _) = frequencies(&imported.unwrap_or_else(|wrong| panic!("{}", told(&wrong))), 6);
+        let (found, _) = frequencies(
+            &imported.unwrap_or_else(|wrong| panic!("{}", told(&wrong))),
+            6,
+        );
         for (found, published) in found.iter().zip(published) {
-            assert!((found / published - 1.0).abs() < 1e-5, "{name}: {found} {published}");
+            assert!(
+                (found / published - 1.0).abs() < 1e-5,
+                "{name}: {found} {published}"
+            );
         }
         eprintln!("{name}: checked");
     }

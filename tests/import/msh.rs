@@ -16,18 +16,29 @@ fn options(sections: &str) -> ImportOptions {
     ImportOptions {
         length: Some(Length::Millimetre),
         up: Some([0.0, 0.0, 1.0]),
-        sections: Some(Source { text: text(&name), name }),
+        sections: Some(Source {
+            text: text(&name),
+            name,
+        }),
         ..ImportOptions::default()
     }
 }
 
 fn mesh(name: &str, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
-    import(&folder().join("meshes").join(name), &|path| std::fs::read(path), options)
+    import(
+        &folder().join("meshes").join(name),
+        &|path| std::fs::read(path),
+        options,
+    )
 }
 
 fn portal() -> ImportOptions {
     ImportOptions {
-        rails: vec!["crane=runway girder/offset=0,0,0.2".parse().expect("a rail")],
+        rails: vec![
+            "crane=runway girder/offset=0,0,0.2"
+                .parse()
+                .expect("a rail"),
+        ],
         fix: vec!["support feet=ux,uy,uz,rx,ry,rz".parse().expect("a support")],
         ..options("portal.json")
     }
@@ -39,17 +50,26 @@ fn physical_names_become_sections_and_sets() {
     assert!(imported.warnings.is_empty(), "{}", told(&imported.warnings));
     let spec = json(&imported);
     // the mesh is in mm, its sections in m: so is the spec
-    assert_eq!(spec["units"], value!({ "length": "m", "force": "kN", "time": "s" }));
+    assert_eq!(
+        spec["units"],
+        value!({ "length": "m", "force": "kN", "time": "s" })
+    );
     assert_eq!(spec["points"].as_array().map(Vec::len), Some(15));
     assert_eq!(spec["points"][4], value!([6.0, 0.0, 4.0]));
-    assert_eq!(spec["point_sets"], value!({ "middle": [4], "support feet": [0, 1, 2] }));
+    assert_eq!(
+        spec["point_sets"],
+        value!({ "middle": [4], "support feet": [0, 1, 2] })
+    );
     assert_eq!(
         spec["cell_sets"],
         value!({ "brace": [[14]], "column": [[0, 1, 2, 3, 4, 5]], "runway girder": [[6, 7, 8, 9, 10, 11, 12, 13]] })
     );
     let frame = frame(&imported);
     let [column, girder, brace] = [0, 6, 14].map(|index| frame.model.members[index]);
-    assert_eq!((column.kind, column.section, column.orientation), (MemberKind::Beam, 0, [1.0, 0.0, 0.0]));
+    assert_eq!(
+        (column.kind, column.section, column.orientation),
+        (MemberKind::Beam, 0, [1.0, 0.0, 0.0])
+    );
     assert_eq!((girder.section, girder.orientation), (1, [0.0, 0.0, 1.0]));
     assert_eq!((brace.kind, brace.section), (MemberKind::Truss, 2));
     assert_eq!(frame.model.supports.len(), 3);
@@ -57,17 +77,21 @@ fn physical_names_become_sections_and_sets() {
     assert_eq!(rail.axis, [1.0, 0.0, 0.0]);
     assert_eq!((rail.stations.len(), frame.ranges[0]), (9, [0.0, 12.0]));
     // it can be solved
-    let solved =
-        fea::FactoredFrame::new(&frame.model, std::slice::from_ref(rail)).expect("a structure that stands");
+    let solved = fea::FactoredFrame::new(&frame.model, std::slice::from_ref(rail))
+        .expect("a structure that stands");
     assert!(solved.certificate().error_bound < 1e-6);
 }
 
 #[test]
 fn a_mesh_that_saves_everything_is_the_same() {
-    let wanted = mesh("portal.msh", &portal()).expect("a mesh").text.replace("\"portal\"", "");
+    let wanted = mesh("portal.msh", &portal())
+        .expect("a mesh")
+        .text
+        .replace("\"portal\"", "");
     let all = mesh("portal_all.msh", &portal()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let [all, wanted] = [all.text.replace("\"portal_all\"", ""), wanted].map(|text| {
-        let value: serde_json::Value = serde_json::from_str(&text.replace("\"name\": ,", "")).expect("JSON");
+        let value: serde_json::Value =
+            serde_json::from_str(&text.replace("\"name\": ,", "")).expect("JSON");
         value
     });
     // element numbers shift, nothing else
@@ -97,10 +121,14 @@ fn every_format_of_a_mesh_gives_the_same_spec() {
     };
     drop_numbers(&mut wanted);
     for name in ["portal_22.msh", "portal_binary.msh", "portal_22_binary.msh"] {
-        let found = mesh(name, &portal()).unwrap_or_else(|wrong| panic!("{name}: {}", told(&wrong)));
+        let found =
+            mesh(name, &portal()).unwrap_or_else(|wrong| panic!("{name}: {}", told(&wrong)));
         let mut found = without_name(&found);
         for (found, wanted) in numbers(&found).iter().zip(&places) {
-            assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{name}: {found} {wanted}");
+            assert!(
+                (found - wanted).abs() < 1e-14 * wanted.abs().max(1.0),
+                "{name}: {found} {wanted}"
+            );
         }
         drop_numbers(&mut found);
         assert_eq!(found, wanted, "{name}");
@@ -132,7 +160,10 @@ fn a_binary_mesh_that_is_cut_off_is_refused() {
 
 #[test]
 fn elements_that_are_no_lines_are_left_out_by_name() {
-    let options = ImportOptions { length: Some(Length::Metre), ..options("plate.json") };
+    let options = ImportOptions {
+        length: Some(Length::Metre),
+        ..options("plate.json")
+    };
     let imported = mesh("plate.msh", &options).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let warned = told(&imported.warnings);
     assert!(warned.contains("triangles are left out"), "{warned}");
@@ -148,7 +179,10 @@ fn other_versions_are_refused_with_the_way_to_convert_them() {
         ("portal_order_2.msh", "lines of more than two nodes"),
     ] {
         let wrong = told(&mesh(name, &portal()).expect_err("another format"));
-        assert!(wrong.contains(part) && wrong.contains("hint"), "{name}: {wrong}");
+        assert!(
+            wrong.contains(part) && wrong.contains("hint"),
+            "{name}: {wrong}"
+        );
     }
 }
 
@@ -156,8 +190,15 @@ fn other_versions_are_refused_with_the_way_to_convert_them() {
 fn units_and_sections_are_never_guessed() {
     let wrong = mesh("portal.msh", &ImportOptions::default()).expect_err("nothing said");
     let wrong = told(&wrong);
-    assert!(wrong.contains("--length must state") && wrong.contains("--sections must name"), "{wrong}");
-    let no_up = ImportOptions { up: None, rails: Vec::new(), ..portal() };
+    assert!(
+        wrong.contains("--length must state") && wrong.contains("--sections must name"),
+        "{wrong}"
+    );
+    let no_up = ImportOptions {
+        up: None,
+        rails: Vec::new(),
+        ..portal()
+    };
     let wrong = told(&mesh("portal.msh", &no_up).expect_err("no orientation"));
     assert!(wrong.contains("orientation"), "{wrong}");
 }

@@ -56,7 +56,9 @@ fn bytes(text: &str) -> Vec<u8> {
                 after
             }
             None => {
-                let (count, after) = after.split_once('(').expect("a count and a part in parentheses");
+                let (count, after) = after
+                    .split_once('(')
+                    .expect("a count and a part in parentheses");
                 let (part, after) = after.split_once(')').expect("the end of the part");
                 let count: usize = count.parse().expect("a count");
                 (1..=count).for_each(|k| out.extend(part.replace('#', &k.to_string()).as_bytes()));
@@ -69,9 +71,17 @@ fn bytes(text: &str) -> Vec<u8> {
 }
 
 fn edit(file: &[u8], old: &[u8], new: &[u8], case: &str) -> Vec<u8> {
-    let mut places = file.windows(old.len()).enumerate().filter(|(_, window)| *window == old);
-    let (place, _) = places.next().unwrap_or_else(|| panic!("{case}: the old text is not in the file"));
-    assert!(places.next().is_none(), "{case}: the old text stands there twice");
+    let mut places = file
+        .windows(old.len())
+        .enumerate()
+        .filter(|(_, window)| *window == old);
+    let (place, _) = places
+        .next()
+        .unwrap_or_else(|| panic!("{case}: the old text is not in the file"));
+    assert!(
+        places.next().is_none(),
+        "{case}: the old text stands there twice"
+    );
     [&file[..place], new, &file[place + old.len()..]].concat()
 }
 
@@ -95,7 +105,12 @@ fn parse(block: &str) -> Case {
             case.files.insert(file.to_owned(), bytes(text.trim_start()));
         } else if let Some((edited, new)) = line.split_once(" =>") {
             let (file, old) = edited.split_once(": ").expect("file: old text => new text");
-            let text = edit(&case.files[file], &bytes(old), &bytes(new.trim_start()), &case.claim);
+            let text = edit(
+                &case.files[file],
+                &bytes(old),
+                &bytes(new.trim_start()),
+                &case.claim,
+            );
             case.files.insert(file.to_owned(), text);
         } else {
             assert!(case.arguments.is_empty(), "{}: two commands", case.claim);
@@ -131,7 +146,11 @@ fn refused(case: &Case) -> Result<(), String> {
         return Err(format!("told\n{told}instead of\n{}", case.expected));
     }
     if run.status.code() != Some(case.status) {
-        return Err(format!("status {:?} instead of {}", run.status.code(), case.status));
+        return Err(format!(
+            "status {:?} instead of {}",
+            run.status.code(),
+            case.status
+        ));
     }
     if !run.stdout.is_empty() {
         return Err(format!("standard output has {} bytes", run.stdout.len()));
@@ -155,7 +174,12 @@ fn all_refused(topic: &str) {
             wrong.push(format!("{topic}: {}: {why}", case.claim));
         }
     }
-    assert!(count > 0 && wrong.is_empty(), "{} of {count} cases\n{}", wrong.len(), wrong.join("\n"));
+    assert!(
+        count > 0 && wrong.is_empty(),
+        "{} of {count} cases\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
 }
 
 #[test]
@@ -199,12 +223,20 @@ fn the_base_files_themselves_are_taken() {
     for (name, text) in base() {
         fs::write(folder.path().join(name), text).expect("a writable folder");
     }
-    for arguments in [["fea", "spec.json"], ["fea", "frame.json"], ["splines", "grid.json"]] {
+    for arguments in [
+        ["fea", "spec.json"],
+        ["fea", "frame.json"],
+        ["splines", "grid.json"],
+    ] {
         let run = Command::new(env!("CARGO_BIN_EXE_girderway"))
             .args(arguments)
             .current_dir(folder.path())
             .output()
             .expect("the program starts");
-        assert_eq!((run.status.code(), run.stderr), (Some(0), Vec::new()), "{arguments:?}");
+        assert_eq!(
+            (run.status.code(), run.stderr),
+            (Some(0), Vec::new()),
+            "{arguments:?}"
+        );
     }
 }

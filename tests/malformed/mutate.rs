@@ -12,8 +12,8 @@ use formats::text::source::Source;
 use super::base;
 
 const PIECES: [&str; 20] = [
-    "0", "-1", "1e308", "1e-308", "1e999", "7", "null", "true", "\"x\"", "[]", "{}", "[[]]", "\"\"", ",",
-    "}", "]", "1.5", "1000000", "\"uy\"", "-0.0",
+    "0", "-1", "1e308", "1e-308", "1e999", "7", "null", "true", "\"x\"", "[]", "{}", "[[]]",
+    "\"\"", ",", "}", "]", "1.5", "1000000", "\"uy\"", "-0.0",
 ];
 
 /// One to three edits: a token replaced, a stretch cut out or doubled.
@@ -60,7 +60,10 @@ fn tokens(text: &str) -> Vec<(usize, usize)> {
 }
 
 fn source(name: &str, text: String) -> Source {
-    Source { name: name.to_owned(), text }
+    Source {
+        name: name.to_owned(),
+        text,
+    }
 }
 
 fn text_of(name: &str) -> String {
@@ -75,27 +78,34 @@ fn damaged_specs_are_refused_or_give_finite_grids() {
         let text = text_of(name);
         for _ in 0..5000 {
             let damaged = source(name, damaged(&text, &mut dice));
-            let Ok(spec) = Spec::read(&damaged, None) else { continue };
+            let Ok(spec) = Spec::read(&damaged, None) else {
+                continue;
+            };
             let grid = spec
                 .model()
                 .and_then(|(model, rails)| FactoredFrame::new(&model, &rails))
                 .and_then(|frame| StationGrid::of(&spec, &frame));
             match grid {
                 Ok(grid) => {
-                    let finite =
-                        grid.blocks.iter().all(|(_, block)| block.iter().all(|value| value.is_finite()));
+                    let finite = grid
+                        .blocks
+                        .iter()
+                        .all(|(_, block)| block.iter().all(|value| value.is_finite()));
                     assert!(finite, "{}", damaged.text);
                     solved += 1;
                 }
                 Err(error) => {
-                    let told =
-                        girderway::exit::Failure::from(spec.locate_error(&damaged, &error)).report(false);
+                    let told = girderway::exit::Failure::from(spec.locate_error(&damaged, &error))
+                        .report(false);
                     assert!(told.contains(name), "{told}");
                 }
             }
         }
     }
-    assert!(solved > 100, "only {solved} of the damaged specs could be solved");
+    assert!(
+        solved > 100,
+        "only {solved} of the damaged specs could be solved"
+    );
 }
 
 #[test]

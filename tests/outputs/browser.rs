@@ -11,15 +11,29 @@ use serde_json::{Value, json};
 const PROBE: &str = include_str!("browser.js");
 
 fn chromium() -> Option<PathBuf> {
-    let places = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
-    places.into_iter().map(PathBuf::from).find(|path| path.exists())
+    let places = [
+        "/usr/bin/chromium",
+        "/usr/bin/chromium-browser",
+        "/usr/bin/google-chrome",
+    ];
+    places
+        .into_iter()
+        .map(PathBuf::from)
+        .find(|path| path.exists())
 }
 
 /// Runs the program in a folder.
 fn girderway(folder: &Path, arguments: &[&str]) {
-    let run = Command::new(env!("CARGO_BIN_EXE_girderway")).args(arguments).current_dir(folder).output();
+    let run = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(arguments)
+        .current_dir(folder)
+        .output();
     let run = run.expect("the program starts");
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
 }
 
 /// How a page is seen.
@@ -34,8 +48,13 @@ enum Medium {
 }
 
 impl Medium {
-    const ALL: [Medium; 5] =
-        [Medium::Desktop, Medium::DarkDesktop, Medium::Phone, Medium::DarkPhone, Medium::Paper];
+    const ALL: [Medium; 5] = [
+        Medium::Desktop,
+        Medium::DarkDesktop,
+        Medium::Phone,
+        Medium::DarkPhone,
+        Medium::Paper,
+    ];
 
     /// Width of the page, pixels.
     const fn width(self) -> u32 {
@@ -48,7 +67,11 @@ impl Medium {
 
     /// Size of the smallest letters in pictures, pixels: on paper four points and more.
     const fn least_letters(self) -> f64 {
-        if matches!(self, Medium::Paper) { 5.6 } else { 6.5 }
+        if matches!(self, Medium::Paper) {
+            5.6
+        } else {
+            6.5
+        }
     }
 
     const fn is_dark(self) -> bool {
@@ -92,13 +115,23 @@ fn probe(browser: &Path, page: &Path, medium: Medium) -> Value {
         "--disable-background-networking",
         "--dump-dom",
     ]);
-    command.args(["--disable-sync", "--no-first-run", "--virtual-time-budget=5000"]);
-    command.arg(format!("--user-data-dir={}", page.with_file_name("profile").display()));
+    command.args([
+        "--disable-sync",
+        "--no-first-run",
+        "--virtual-time-budget=5000",
+    ]);
+    command.arg(format!(
+        "--user-data-dir={}",
+        page.with_file_name("profile").display()
+    ));
     command.arg("--window-size=1500,1000");
     if medium.is_dark() {
         command.arg("--blink-settings=preferredColorScheme=0");
     }
-    let shown = command.arg(format!("file://{}", framed.display())).output().expect("Chromium starts");
+    let shown = command
+        .arg(format!("file://{}", framed.display()))
+        .output()
+        .expect("Chromium starts");
     let dom = String::from_utf8_lossy(&shown.stdout);
     let found = dom
         .rsplit("FOUND")
@@ -106,7 +139,11 @@ fn probe(browser: &Path, page: &Path, medium: Medium) -> Value {
         .filter(|_| dom.contains("FOUND{"))
         .unwrap_or_else(|| panic!("the probe has not run: {dom:.300}"));
     serde_json::from_str(
-        &found.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&"),
+        &found
+            .replace("&quot;", "\"")
+            .replace("&lt;", "<")
+            .replace("&gt;", ">")
+            .replace("&amp;", "&"),
     )
     .expect("JSON of the probe")
 }
@@ -139,24 +176,59 @@ fn reports_are_whole_in_a_browser() {
             println!("{name} {medium:?}: {found}");
             assert_eq!(found["failed"], json!([]), "{name} {medium:?}: scripts");
             assert_eq!(found["overlaps"], json!([]), "{name} {medium:?}: texts");
-            assert_eq!(found["beyond"], json!([]), "{name} {medium:?}: wider than the page");
-            assert_eq!(found["scrolls"], false, "{name} {medium:?}: goes on to the right");
-            assert_eq!(found["sideways"], json!([]), "{name} {medium:?}: pictures that go on to the right");
-            assert_eq!(found["letters"], json!([]), "{name} {medium:?}: sizes of letters");
-            assert_eq!(found["unlabelled"], 0, "{name} {medium:?}: pictures without a label");
-            assert_eq!(found["faint"], json!([]), "{name} {medium:?}: contrast below 4.5");
+            assert_eq!(
+                found["beyond"],
+                json!([]),
+                "{name} {medium:?}: wider than the page"
+            );
+            assert_eq!(
+                found["scrolls"], false,
+                "{name} {medium:?}: goes on to the right"
+            );
+            assert_eq!(
+                found["sideways"],
+                json!([]),
+                "{name} {medium:?}: pictures that go on to the right"
+            );
+            assert_eq!(
+                found["letters"],
+                json!([]),
+                "{name} {medium:?}: sizes of letters"
+            );
+            assert_eq!(
+                found["unlabelled"], 0,
+                "{name} {medium:?}: pictures without a label"
+            );
+            assert_eq!(
+                found["faint"],
+                json!([]),
+                "{name} {medium:?}: contrast below 4.5"
+            );
             assert!(found["pictures"].as_u64().expect("a number") > 0);
             let parts = found["parts"].as_u64().expect("a number");
             let folded = if medium.is_phone() { parts - OPEN } else { 0 };
-            assert_eq!(found["folded"].as_u64(), Some(folded), "{name} {medium:?}: parts that are folded");
-            assert_eq!(found["opens"], true, "{name} {medium:?}: a part to which the contents lead");
+            assert_eq!(
+                found["folded"].as_u64(),
+                Some(folded),
+                "{name} {medium:?}: parts that are folded"
+            );
+            assert_eq!(
+                found["opens"], true,
+                "{name} {medium:?}: a part to which the contents lead"
+            );
             let height = found["height"].as_u64().expect("a number");
-            assert!(!medium.is_phone() || height < LONGEST, "{name} {medium:?}: {height} pixels");
+            assert!(
+                !medium.is_phone() || height < LONGEST,
+                "{name} {medium:?}: {height} pixels"
+            );
             if name == "runway" && medium != Medium::Paper {
                 assert_eq!(found["zooms"], true, "{found}");
             }
             assert_eq!(found["dark"], medium.is_dark());
-            assert_eq!(found["keys"], true, "{name} {medium:?}: colours of the keys");
+            assert_eq!(
+                found["keys"], true,
+                "{name} {medium:?}: colours of the keys"
+            );
         }
     }
 }

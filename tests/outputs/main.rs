@@ -1,6 +1,9 @@
 //! Reactions, internal forces, envelopes and sag of whole runs against statics, equilibrium and closed forms.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 use formats::scene::Document;
 use foundations::{BuiltFoundation, ModeCache, MotionBasis, solve};
@@ -55,8 +58,8 @@ fn run(scene: &Value, spec: &Value) -> Ran {
     for (name, value) in [("scene.json", scene), ("spec.json", spec)] {
         std::fs::write(folder.path().join(name), value.to_string()).expect("a file in it");
     }
-    let document =
-        Document::open(&folder.path().join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let document = Document::open(&folder.path().join("scene.json"))
+        .unwrap_or_else(|wrong| panic!("{wrong:?}"));
     ran(document)
 }
 
@@ -69,7 +72,11 @@ fn ran(document: Document) -> Ran {
         })
         .collect();
     let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
-    Ran { document, known, outcomes }
+    Ran {
+        document,
+        known,
+        outcomes,
+    }
 }
 
 impl Ran {
@@ -89,7 +96,9 @@ impl Ran {
             .map(|column| &column.values)
             .collect();
         assert!(!own.is_empty(), "no column ends with {ending}");
-        (0..own[0].len()).map(|i| own.iter().map(|values| values[i]).sum()).collect()
+        (0..own[0].len())
+            .map(|i| own.iter().map(|values| values[i]).sum())
+            .collect()
     }
 
     /// The foundation of the one structure of a case, laid again.
@@ -106,5 +115,7 @@ impl Ran {
 }
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most, value| most.max(value.abs()))
+    values
+        .into_iter()
+        .fold(0.0, |most, value| most.max(value.abs()))
 }

@@ -12,18 +12,25 @@ const GAUSS: [[f64; 2]; 4] = [
 
 /// Integral of m phi_k along the girder for each freedom: momentum per unit speed, from the shapes alone.
 pub(super) fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
-    let Some(structure) = &laid.foundation.structure else { return Vec::new() };
+    let Some(structure) = &laid.foundation.structure else {
+        return Vec::new();
+    };
     let n = laid.foundation.dofs();
     if let Some(MotionBasis::Parts(parts)) = &laid.basis {
         let of = |k: usize| {
             let each = parts.ends.windows(2).enumerate();
-            each.map(|(j, ends)| mass * (ends[1] - ends[0]) * parts.basis[(6 * j + 1, k)]).sum()
+            each.map(|(j, ends)| mass * (ends[1] - ends[0]) * parts.basis[(6 * j + 1, k)])
+                .sum()
         };
         return (0..n).map(of).collect();
     }
     let extent = &laid.foundation.rails[0];
-    let mut cuts: Vec<f64> =
-        extent.range.into_iter().flatten().chain(extent.breaks.iter().copied()).collect();
+    let mut cuts: Vec<f64> = extent
+        .range
+        .into_iter()
+        .flatten()
+        .chain(extent.breaks.iter().copied())
+        .collect();
     // shapes are cubics between the joints of the members as they are cut
     if let Some(MotionBasis::Modes { refined, .. }) = &laid.basis {
         cuts.extend(refined.frame.line().expect("a rail").breaks(0));
@@ -35,9 +42,18 @@ pub(super) fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     for cut in cuts.windows(2) {
         let half = 0.5 * (cut[1] - cut[0]);
         for [place, weight] in GAUSS {
-            let at = Probe { rail: 0, x: cut[0] + half * (1.0 + place), axis: Axis::Vertical };
-            structure.shapes.row(at, &mut value, &mut slope).expect("a place on the rail");
-            sum.iter_mut().zip(&value).for_each(|(sum, phi)| *sum += mass * half * weight * phi);
+            let at = Probe {
+                rail: 0,
+                x: cut[0] + half * (1.0 + place),
+                axis: Axis::Vertical,
+            };
+            structure
+                .shapes
+                .row(at, &mut value, &mut slope)
+                .expect("a place on the rail");
+            sum.iter_mut()
+                .zip(&value)
+                .for_each(|(sum, phi)| *sum += mass * half * weight * phi);
         }
     }
     sum
@@ -53,11 +69,18 @@ fn imbalance(ran: &Ran, case: usize, mass: f64) -> [f64; 2] {
     let mut inertia = vec![0.0; wheels.len()];
     for (k, momentum) in momenta.iter().enumerate() {
         let acceleration = history.column(Channel::Acceleration(0, k));
-        inertia.iter_mut().zip(acceleration).for_each(|(sum, a)| *sum += momentum * a);
+        inertia
+            .iter_mut()
+            .zip(acceleration)
+            .for_each(|(sum, a)| *sum += momentum * a);
     }
     let whole = largest(wheels.iter().copied());
     // up: reactions - wheels = m a
-    let apart = wheels.iter().zip(&reactions).zip(&inertia).map(|((w, r), a)| (r - w - a) / whole);
+    let apart = wheels
+        .iter()
+        .zip(&reactions)
+        .zip(&inertia)
+        .map(|((w, r), a)| (r - w - a) / whole);
     [largest(apart), largest(inertia.iter().map(|a| a / whole))]
 }
 
@@ -119,7 +142,8 @@ fn flexible_and_rigid_reactions_have_equal_settled_means() {
     given["bodies"]["car"]["start"] = json!({"y": 0.003});
     given["structures"]["girder"] =
         json!({"spec": "spec.json", "foundation": "modal", "modes": 5, "damping": 0.03});
-    given["compare"] = json!([{"label": "rigid", "structures": {"girder": {"foundation": "rigid"}}}]);
+    given["compare"] =
+        json!([{"label": "rigid", "structures": {"girder": {"foundation": "rigid"}}}]);
     let ran = run(&given, &girder(&[10.0]));
     let mean = |case: usize| {
         let values = ran.column(case, "girder.support1.vertical");
@@ -135,7 +159,8 @@ fn flexible_and_rigid_reactions_have_equal_settled_means() {
 /// The momentum of a mode by the mass matrix of the frame, whose path to the reactions is another.
 #[test]
 fn the_mill_girderway_with_mass_balances_in_three_directions() {
-    let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/mill_girderway");
+    let example =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/mill_girderway");
     let read = |name: &str| -> Value {
         let text = std::fs::read_to_string(example.join(name)).expect("an example");
         serde_json::from_str(&text).expect("JSON")
@@ -163,25 +188,43 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
         true,
     )
     .expect("a foundation");
-    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else {
+        panic!("natural modes")
+    };
     let record = &ran.outcomes[0].columns;
     let history = &ran.outcomes[0].run.history;
     let wheels = |part: &str, sign: f64| -> Vec<f64> {
-        let all: Vec<&[f64]> = (1..=4).map(|k| record.values(&format!("truck.wheel{k}.{part}"))).collect();
-        (0..history.len()).map(|i| sign * all.iter().map(|force| force[i]).sum::<f64>()).collect()
+        let all: Vec<&[f64]> = (1..=4)
+            .map(|k| record.values(&format!("truck.wheel{k}.{part}")))
+            .collect();
+        (0..history.len())
+            .map(|i| sign * all.iter().map(|force| force[i]).sum::<f64>())
+            .collect()
     };
     let still = vec![0.0; history.len()];
-    for (k, (freedom, loads)) in
-        [(".ux", still), (".uy", wheels("vertical", -1.0)), (".uz", wheels("lateral", 1.0))]
-            .into_iter()
-            .enumerate()
+    for (k, (freedom, loads)) in [
+        (".ux", still),
+        (".uy", wheels("vertical", -1.0)),
+        (".uz", wheels("lateral", 1.0)),
+    ]
+    .into_iter()
+    .enumerate()
     {
-        let own = record.columns.iter().filter(|c| c.name.starts_with("aisle.") && c.name.ends_with(freedom));
+        let own = record
+            .columns
+            .iter()
+            .filter(|c| c.name.starts_with("aisle.") && c.name.ends_with(freedom));
         let mut sum = loads.clone();
-        own.for_each(|column| sum.iter_mut().zip(&column.values).for_each(|(sum, value)| *sum += value));
+        own.for_each(|column| {
+            sum.iter_mut()
+                .zip(&column.values)
+                .for_each(|(sum, value)| *sum += value)
+        });
         for (mode, shape) in refined.modes.modes.iter().enumerate() {
             let acceleration = history.column(Channel::Acceleration(0, mode));
-            sum.iter_mut().zip(acceleration).for_each(|(sum, a)| *sum -= shape.coupling[k] * a);
+            sum.iter_mut()
+                .zip(acceleration)
+                .for_each(|(sum, a)| *sum -= shape.coupling[k] * a);
         }
         let apart = largest(sum) / 480_000.0;
         println!("mill girderway{freedom}: imbalance {apart:.1e} of the truck's weight");

@@ -7,7 +7,11 @@ const WEIGHT: f64 = 8000.0 * 9.81;
 
 /// The value of an extreme of a reaction in the summary of a case, and its row.
 fn reaction(ran: &Ran, case: usize, name: &str, kind: &str) -> (f64, Value) {
-    let summary = results::summary::run(&ran.document.cases[case].scene, &ran.outcomes[case], case + 1);
+    let summary = results::summary::run(
+        &ran.document.cases[case].scene,
+        &ran.outcomes[case],
+        case + 1,
+    );
     let rows = summary["extremes"].as_array().expect("extremes").clone();
     let is_it = |row: &&Value| {
         row["quantity"] == "reaction"
@@ -18,16 +22,28 @@ fn reaction(ran: &Ran, case: usize, name: &str, kind: &str) -> (f64, Value) {
             ) == name
             && row["kind"] == kind
     };
-    let row = rows.iter().find(is_it).unwrap_or_else(|| panic!("no {kind} of {name} in {rows:?}")).clone();
+    let row = rows
+        .iter()
+        .find(is_it)
+        .unwrap_or_else(|| panic!("no {kind} of {name} in {rows:?}"))
+        .clone();
     (row["value"].as_f64().expect("a number"), row)
 }
 
 /// Girders of the general form over the same axis: each from the first to the second coordinate, supported at its ends, or
 /// clamped at its first end alone.
 fn apart(girders: &[[f64; 2]], is_clamped: bool) -> Value {
-    let points: Vec<Value> = girders.iter().flatten().map(|x| json!([x, 0.0, 0.0])).collect();
-    let cells: Vec<Value> = (0..girders.len()).map(|k| json!([2 * k, 2 * k + 1])).collect();
-    let segments: Vec<Value> = (0..girders.len()).map(|k| json!({"cell": [0, k]})).collect();
+    let points: Vec<Value> = girders
+        .iter()
+        .flatten()
+        .map(|x| json!([x, 0.0, 0.0]))
+        .collect();
+    let cells: Vec<Value> = (0..girders.len())
+        .map(|k| json!([2 * k, 2 * k + 1]))
+        .collect();
+    let segments: Vec<Value> = (0..girders.len())
+        .map(|k| json!({"cell": [0, k]}))
+        .collect();
     let supports: Vec<Value> = (0..points.len())
         .filter(|point| !is_clamped || point % 2 == 0)
         .map(|point| match (is_clamped, point % 2) {
@@ -61,16 +77,29 @@ fn extremes_of_reactions_are_those_between_outputs() {
     let (value, row) = reaction(&ran, 0, "girder.support1 uy", "min");
     assert!((value / exact - 1.0).abs() < 1e-12, "{value}, not {exact}");
     let time = 20.0 - 10.0 / 3.0_f64.sqrt() - 1.5;
-    assert!((row["time"].as_f64().expect("a time") - time).abs() < 1e-5, "{row}");
-    assert_eq!((row["case"].as_u64(), row["dead"].as_f64()), (Some(1), Some(0.0)));
+    assert!(
+        (row["time"].as_f64().expect("a time") - time).abs() < 1e-5,
+        "{row}"
+    );
+    assert_eq!(
+        (row["case"].as_u64(), row["dead"].as_f64()),
+        (Some(1), Some(0.0))
+    );
     // three eighths of the weight of a span are added where the scene asks for dead load
     let dead = 0.375 * 400.0 * 9.81 * 10.0;
     let (with, row) = reaction(&ran, 1, "girder.support1 uy", "min");
     assert!((with - exact - dead).abs() < 1e-9 * WEIGHT, "{with}");
-    assert!((row["dead"].as_f64().expect("a number") - dead).abs() < 1e-9 * WEIGHT, "{row}");
+    assert!(
+        (row["dead"].as_f64().expect("a number") - dead).abs() < 1e-9 * WEIGHT,
+        "{row}"
+    );
     // every direction of every support has two rows, also where it is zero
     let count = ran.outcomes[0].girders().reactions.len();
-    assert_eq!(count, 2 * (4 + 3 + 3), "four directions at the first support, three at the others");
+    assert_eq!(
+        count,
+        2 * (4 + 3 + 3),
+        "four directions at the first support, three at the others"
+    );
 }
 
 /// Statics: a rail over the gap between two simple girders moves with the nearer one. A wheel just before the middle of the
@@ -84,12 +113,22 @@ fn reactions_at_a_jump_are_those_of_the_instant_before_it() {
     let [far, near] = [-0.2 / 9.9, 10.1 / 9.9].map(|share| share * WEIGHT);
     for (point, kind, exact) in [(0, "min", far), (1, "max", near)] {
         let (value, row) = reaction(&ran, 0, &format!("girder.point{point} uy"), kind);
-        assert!((value - exact).abs() < 1e-9 * WEIGHT, "{value}, not {exact}: {row}");
-        assert!((row["time"].as_f64().expect("a time") - (10.1 - 1.5)).abs() < 1e-9, "{row}");
+        assert!(
+            (value - exact).abs() < 1e-9 * WEIGHT,
+            "{value}, not {exact}: {row}"
+        );
+        assert!(
+            (row["time"].as_f64().expect("a time") - (10.1 - 1.5)).abs() < 1e-9,
+            "{row}"
+        );
     }
     let share = (10.1 - 10.3) / 9.7;
     let (value, _) = reaction(&ran, 0, "girder.point3 uy", "min");
-    assert!((value - share * WEIGHT).abs() < 1e-9 * WEIGHT, "{value}, not {}", share * WEIGHT);
+    assert!(
+        (value - share * WEIGHT).abs() < 1e-9 * WEIGHT,
+        "{value}, not {}",
+        share * WEIGHT
+    );
 }
 
 /// Equilibrium: the one support of a cantilever bears the wheel forces, the weight and minus the inertia of the girder, whose
@@ -104,29 +143,47 @@ fn the_reaction_of_a_cantilever_is_in_equilibrium_with_wheels_weight_and_inertia
     let ran = run(&given, &apart(&[[0.0, 10.0]], true));
     let history = &ran.outcomes[0].run.history;
     let mut expected = ran.sum(0, ".reaction");
-    for (k, momentum) in super::motion::momenta(&ran.laid(0), 400.0).iter().enumerate() {
+    for (k, momentum) in super::motion::momenta(&ran.laid(0), 400.0)
+        .iter()
+        .enumerate()
+    {
         let acceleration = history.column(Channel::Acceleration(0, k));
-        expected.iter_mut().zip(acceleration).for_each(|(sum, a)| *sum += momentum * a);
+        expected
+            .iter_mut()
+            .zip(acceleration)
+            .for_each(|(sum, a)| *sum += momentum * a);
     }
     let weight = 400.0 * 9.81 * 10.0;
     // the vertex of the parabola through the largest value at an output and those beside it
     let inner = 1..expected.len() - 1;
-    let at = inner.max_by(|a, b| expected[*a].total_cmp(&expected[*b])).expect("a history with rows");
+    let at = inner
+        .max_by(|a, b| expected[*a].total_cmp(&expected[*b]))
+        .expect("a history with rows");
     let [a, b, c] = [expected[at - 1], expected[at], expected[at + 1]];
     let most = b + weight - (c - a).powi(2) / (8.0 * (a - 2.0 * b + c));
     // the car falls from above the rail
-    let least = expected.iter().copied().reduce(f64::min).expect("a history with rows") + weight;
+    let least = expected
+        .iter()
+        .copied()
+        .reduce(f64::min)
+        .expect("a history with rows")
+        + weight;
     for (kind, exact) in [("max", most), ("min", least)] {
         let (value, _) = reaction(&ran, 0, "girder.point0 uy", kind);
         println!("cantilever, {kind}: {value:.3} N, {exact:.3} N by equilibrium");
-        assert!((value - exact).abs() < 2e-5 * WEIGHT, "{kind}: {value}, not {exact}");
+        assert!(
+            (value - exact).abs() < 2e-5 * WEIGHT,
+            "{kind}: {value}, not {exact}"
+        );
     }
     let response = &ran.outcomes[0].response;
     for (column, envelope) in response.columns.iter().zip(&response.envelopes) {
         let own = |is_max: bool| {
             let all = ran.outcomes[0].girders().reactions.iter();
             let mut own = all.filter(|own| own.is_max == is_max && own.column == column.name);
-            own.next().map(|own| own.value).expect("a reaction for every column of one")
+            own.next()
+                .map(|own| own.value)
+                .expect("a reaction for every column of one")
         };
         let slack = 1e-9 * WEIGHT;
         assert!(own(true) >= envelope.max.value - slack, "{}", column.name);
@@ -160,7 +217,8 @@ fn a_quasi_static_run_has_the_reactions_of_the_static_design() {
     std::fs::copy(folder.join("spec.json"), place.path().join("spec.json")).expect("a file");
     let file = place.path().join("design.json");
     std::fs::write(&file, design.to_string()).expect("a file");
-    let (design, inputs) = formats::design::Design::open(&file).unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let (design, inputs) =
+        formats::design::Design::open(&file).unwrap_or_else(|wrong| panic!("{wrong:?}"));
     let found = design::solve(&design, &inputs).unwrap_or_else(|wrong| panic!("{wrong:?}"));
     let mut worst = 0.0_f64;
     for own in &found.cases[0].reactions {
@@ -168,16 +226,38 @@ fn a_quasi_static_run_has_the_reactions_of_the_static_design() {
         for (kind, exact) in ["max", "min"].into_iter().zip(&own.extremes) {
             let (value, row) = reaction(&ran, 0, &name, kind);
             worst = worst.max((value - exact.value).abs() / 360.0);
-            assert!((value - exact.value).abs() < 1e-9 * 360.0, "{name} {kind}: {value}, {}", exact.value);
-            assert!((row["dead"].as_f64().expect("a number") - exact.dead).abs() < 1e-9 * 360.0, "{row}");
+            assert!(
+                (value - exact.value).abs() < 1e-9 * 360.0,
+                "{name} {kind}: {value}, {}",
+                exact.value
+            );
+            assert!(
+                (row["dead"].as_f64().expect("a number") - exact.dead).abs() < 1e-9 * 360.0,
+                "{row}"
+            );
         }
     }
     println!("reactions of the runway within {worst:.1e} of the weight of the crane");
-    for (column, envelope) in ran.outcomes[0].response.columns.iter().zip(&ran.outcomes[0].response.envelopes)
+    for (column, envelope) in ran.outcomes[0]
+        .response
+        .columns
+        .iter()
+        .zip(&ran.outcomes[0].response.envelopes)
     {
-        let Some(support) = column.name.strip_suffix(".vertical") else { continue };
-        let [most, least] = ["max", "min"].map(|kind| reaction(&ran, 0, &format!("{support} uy"), kind).0);
-        assert!(envelope.max.value <= most + 1e-9 && envelope.min.value >= least - 1e-9, "{}", column.name);
-        assert!(most - envelope.max.value < 1e-2 && envelope.min.value - least < 1e-2, "{}", column.name);
+        let Some(support) = column.name.strip_suffix(".vertical") else {
+            continue;
+        };
+        let [most, least] =
+            ["max", "min"].map(|kind| reaction(&ran, 0, &format!("{support} uy"), kind).0);
+        assert!(
+            envelope.max.value <= most + 1e-9 && envelope.min.value >= least - 1e-9,
+            "{}",
+            column.name
+        );
+        assert!(
+            most - envelope.max.value < 1e-2 && envelope.min.value - least < 1e-2,
+            "{}",
+            column.name
+        );
     }
 }

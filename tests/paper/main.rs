@@ -19,7 +19,10 @@ fn text(path: &str) -> String {
 }
 
 fn girder() -> (Spec, SolvedModel) {
-    let source = Source { name: "spec.json".to_owned(), text: text("examples/bogie/spec.json") };
+    let source = Source {
+        name: "spec.json".to_owned(),
+        text: text("examples/bogie/spec.json"),
+    };
     let spec = Spec::read(&source, None).expect("the example's spec");
     let solved = solve(&spec).expect("a girder on two supports stands");
     (spec, solved)
@@ -37,11 +40,20 @@ fn all_98_printed_entries_are_met_within_one_unit_of_their_last_digit() {
     let printed = adams::tables::read(&text("examples/bogie/printed.adm")).expect("our own file");
     let mut entries = 0;
     for (id, quantity) in [(6, GridBlock::Vertical), (7, GridBlock::Lateral)] {
-        let table = &printed.splines.iter().find(|spline| spline.id == id).expect("the table").curves;
+        let table = &printed
+            .splines
+            .iter()
+            .find(|spline| spline.id == id)
+            .expect("the table")
+            .curves;
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for (row, column) in (0..7).flat_map(|row| (0..7).map(move |column| (row, column))) {
             let (digits, found) = (table.y()[row][column], grid[(row, column)]);
-            let unit = if digits == 0.0 { 1e-20 } else { last_digit(digits) };
+            let unit = if digits == 0.0 {
+                1e-20
+            } else {
+                last_digit(digits)
+            };
             assert!(
                 (found - digits).abs() <= unit * (1.0 + 1e-9),
                 "{quantity} {row} {column}: {found} for {digits}"
@@ -57,16 +69,26 @@ fn tables_read_back_bit_for_bit() {
     let (_, solved) = girder();
     let set = tables::data_set(&solved.grid);
     let written = adams::tables::write(&set).expect("tables");
-    assert!(written.lines().all(|line| line.len() <= 79 && line.is_ascii()));
+    assert!(
+        written
+            .lines()
+            .all(|line| line.len() <= 79 && line.is_ascii())
+    );
     let read = adams::tables::read(&written).expect("what was written");
     assert_eq!(read.splines.len(), GridBlock::ALL.len());
-    for (id, spline, quantity) in (6..).zip(&read.splines).zip(GridBlock::ALL).map(|((id, s), q)| (id, s, q))
+    for (id, spline, quantity) in (6..)
+        .zip(&read.splines)
+        .zip(GridBlock::ALL)
+        .map(|((id, s), q)| (id, s, q))
     {
         assert_eq!(spline.id, id);
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for row in 0..7 {
             for column in 0..7 {
-                assert_eq!(spline.curves.y()[row][column].to_bits(), (grid[(row, column)] + 0.0).to_bits());
+                assert_eq!(
+                    spline.curves.y()[row][column].to_bits(),
+                    (grid[(row, column)] + 0.0).to_bits()
+                );
             }
         }
     }
@@ -85,13 +107,22 @@ fn run(command: &str, scene: &Value, folder: &Path) {
         .arg(folder.join("out"))
         .output()
         .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 fn columns(folder: &Path, names: [&str; 3]) -> [Vec<f64>; 3] {
     let mut reader = csv::Reader::from_path(folder.join("out/history.csv")).expect("a history");
     let header = reader.headers().expect("a header").clone();
-    let at = names.map(|name| header.iter().position(|known| known == name).expect("the column"));
+    let at = names.map(|name| {
+        header
+            .iter()
+            .position(|known| known == name)
+            .expect("the column")
+    });
     let mut columns = [Vec::new(), Vec::new(), Vec::new()];
     for row in reader.records() {
         let row = row.expect("a row");
@@ -115,7 +146,8 @@ fn numbers(reference: &Value, name: &str) -> Vec<f64> {
 #[test]
 fn crossings_at_5_and_100_ft_a_second_follow_the_scipy_reference() {
     for (file, speed, end) in [("bogie_s1.json", 5.0, 12.0), ("bogie_s2.json", 100.0, 0.55)] {
-        let mut scene: Value = serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
+        let mut scene: Value =
+            serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
         scene["compare"] = json!([]);
         scene["wheels"]["crane"]["vertical"]["damper"] = json!("ground");
         scene["motions"][0]["speed"] = json!([[0, speed]]);
@@ -124,10 +156,16 @@ fn crossings_at_5_and_100_ft_a_second_follow_the_scipy_reference() {
         scene["accuracy"] = json!(1e-7);
         let folder = tempfile::tempdir().expect("a temporary folder");
         run("run", &scene, folder.path());
-        let reference: Value =
-            serde_json::from_str(&text(&format!("fea/reference/{file}"))).expect("the reference is JSON");
-        let found =
-            columns(folder.path(), ["bogie.deflection", "truck.wheel1.vertical", "truck.wheel2.vertical"]);
+        let reference: Value = serde_json::from_str(&text(&format!("fea/reference/{file}")))
+            .expect("the reference is JSON");
+        let found = columns(
+            folder.path(),
+            [
+                "bogie.deflection",
+                "truck.wheel1.vertical",
+                "truck.wheel2.vertical",
+            ],
+        );
         let mut worst = [0.0_f64; 3];
         for (k, name) in ["z", "F1", "F2"].iter().enumerate() {
             let wanted = numbers(&reference, name);
@@ -136,8 +174,14 @@ fn crossings_at_5_and_100_ft_a_second_follow_the_scipy_reference() {
                 worst[k] = worst[k].max((a - b).abs());
             }
         }
-        println!("{file}: z {:.1e} ft, forces {:.1e} and {:.1e} lbf", worst[0], worst[1], worst[2]);
-        assert!(worst[0] < 1e-6 && worst[1] < 50.0 && worst[2] < 50.0, "{worst:?}");
+        println!(
+            "{file}: z {:.1e} ft, forces {:.1e} and {:.1e} lbf",
+            worst[0], worst[1], worst[2]
+        );
+        assert!(
+            worst[0] < 1e-6 && worst[1] < 50.0 && worst[2] < 50.0,
+            "{worst:?}"
+        );
         let summary: Value = serde_json::from_slice(
             &std::fs::read(folder.path().join("out/summary.json")).expect("a summary"),
         )
@@ -148,7 +192,8 @@ fn crossings_at_5_and_100_ft_a_second_follow_the_scipy_reference() {
 
 #[test]
 fn two_rigid_halves_under_one_central_load_meet_their_closed_form() {
-    let mut scene: Value = serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
+    let mut scene: Value =
+        serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
     scene["compare"] = json!([]);
     scene["analysis"] = json!("quasi-static");
     scene["structures"]["girder"]["foundation"] = json!("parts");
@@ -158,16 +203,24 @@ fn two_rigid_halves_under_one_central_load_meet_their_closed_form() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     run("run", &scene, folder.path());
     let [x, z, _] = columns(folder.path(), ["bogie.x", "bogie.deflection", "time"]);
-    let middle = x.iter().position(|x| (x - 30.0).abs() < 1e-9).expect("midspan");
+    let middle = x
+        .iter()
+        .position(|x| (x - 30.0).abs() < 1e-9)
+        .expect("midspan");
     // Analytic: each half turns about its support by M 45/(2 E I), M = (P/2) 30, and the wheel's own spring.
     let ei = 9.528 * 4.32e9;
     let closed = 30.0 * (2.4e6 * 30.0) * 45.0 / (2.0 * ei) + 4.8e6 / 1e8;
-    assert!((z[middle] - closed).abs() < 1e-10, "{} for {closed}", z[middle]);
+    assert!(
+        (z[middle] - closed).abs() < 1e-10,
+        "{} for {closed}",
+        z[middle]
+    );
 }
 
 #[test]
 fn simulation_on_existing_tables_gives_the_same_history() {
-    let scene: Value = serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
+    let scene: Value =
+        serde_json::from_str(&text("examples/bogie/scene.json")).expect("the example");
     let folder = tempfile::tempdir().expect("a temporary folder");
     run("run", &scene, folder.path());
     let file = folder.path().join("out/history.csv");
@@ -176,7 +229,8 @@ fn simulation_on_existing_tables_gives_the_same_history() {
     assert_eq!(first, std::fs::read(&file).expect("a history"));
     // a comparison with a spec of its own has tables of its own
     let mut other = scene.clone();
-    other["compare"] = json!([{"label": "stiff", "structures": {"girder": {"spec": "stiff.json"}}}]);
+    other["compare"] =
+        json!([{"label": "stiff", "structures": {"girder": {"spec": "stiff.json"}}}]);
     let stiff = text("examples/bogie/spec.json").replace("9.528", "95.28");
     std::fs::write(folder.path().join("stiff.json"), stiff).expect("a spec");
     let file = folder.path().join("out/history-stiff.csv");
@@ -196,5 +250,8 @@ fn simulation_on_existing_tables_gives_the_same_history() {
         .output()
         .expect("the program starts");
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("were not made from spec.json as it is now"));
+    assert!(
+        String::from_utf8_lossy(&output.stderr)
+            .contains("were not made from spec.json as it is now")
+    );
 }

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 
 use diffsol::{
-    DiffsolError, MatrixCommon, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquationsImplicit,
-    OdeSolverMethod, OdeSolverProblem,
+    DiffsolError, MatrixCommon, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder,
+    OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem,
 };
 use sim::{
-    Actuators, Analysis, Body, Channel, Contact, Damper, Foundation, Freedom, Friction, FrictionLaw, Given,
-    NormalLaw, Profile, Run, Scene, Status, Wheel,
+    Actuators, Analysis, Body, Channel, Contact, Damper, Foundation, Freedom, Friction,
+    FrictionLaw, Given, NormalLaw, Profile, Run, Scene, Status, Wheel,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -45,7 +45,9 @@ where
         Stepper::Esdirk => problem.esdirk34::<Lu>()?.solve_dense(times)?.0,
     };
     let rows = states.nrows();
-    Ok((0..times.len()).map(|k| (0..rows).map(|i| states.inner()[(i, k)]).collect()).collect())
+    Ok((0..times.len())
+        .map(|k| (0..rows).map(|i| states.inner()[(i, k)]).collect())
+        .collect())
 }
 
 /// Influence of a simply supported beam with overhangs: |x - z|^3 / 12 EI less what its supports take back.
@@ -59,7 +61,9 @@ fn give(x: f64, z: f64) -> f64 {
             sum += l * m * kernel(s, r);
         }
     }
-    shares(z).iter().fold(sum, |sum, (s, l)| sum - l * kernel(x, *s))
+    shares(z)
+        .iter()
+        .fold(sum, |sum, (s, l)| sum - l * kernel(x, *s))
 }
 
 /// The same with its slope by central differences, exact for the cubic pieces but for the kinks' third derivatives.
@@ -72,8 +76,11 @@ impl Compliance for Girder {
             for (j, q) in at.iter().enumerate() {
                 let both = vertical(p) && vertical(q);
                 out.value[(i, j)] = if both { give(p.x, q.x) } else { 0.0 };
-                out.slope[(i, j)] =
-                    if both { (give(p.x + 1e-3, q.x) - give(p.x - 1e-3, q.x)) / 2e-3 } else { 0.0 };
+                out.slope[(i, j)] = if both {
+                    (give(p.x + 1e-3, q.x) - give(p.x - 1e-3, q.x)) / 2e-3
+                } else {
+                    0.0
+                };
             }
         }
         Ok(())
@@ -95,8 +102,11 @@ impl Compliance for Girder {
 /// Forces (G + 1/k) F = d + (c/k) d' of the bogie's wheels, rear and front.
 fn wheel_forces(trunnion: f64, [z, pitch, z_rate, pitch_rate]: [f64; 4]) -> [f64; 2] {
     let [rear, front] = [trunnion - ARM, trunnion + ARM];
-    let [a, b, c] =
-        [give(rear, rear) + 1.0 / STIFFNESS, give(front, front) + 1.0 / STIFFNESS, give(rear, front)];
+    let [a, b, c] = [
+        give(rear, rear) + 1.0 / STIFFNESS,
+        give(front, front) + 1.0 / STIFFNESS,
+        give(rear, front),
+    ];
     let drop = |arm: f64| z + arm * pitch + DAMPING / STIFFNESS * (z_rate + arm * pitch_rate);
     let [d, e] = [drop(-ARM), drop(ARM)];
     let determinant = a * b - c * c;
@@ -150,7 +160,8 @@ fn scene(body: Body, wheel: Wheel, offsets: &[f64], end: f64) -> Scene {
 }
 
 fn ours(scene: &Scene, foundation: Foundation) -> Run {
-    let run = sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -158,9 +169,13 @@ fn ours(scene: &Scene, foundation: Foundation) -> Run {
 /// Largest difference of `column` and component `i`, times `sign`, by the largest value.
 fn apart(column: &[f64], states: &[Vec<f64>], i: usize, sign: f64) -> f64 {
     assert_eq!(column.len(), states.len());
-    let largest = states.iter().fold(0.0_f64, |max, row| max.max(row[i].abs()));
+    let largest = states
+        .iter()
+        .fold(0.0_f64, |max, row| max.max(row[i].abs()));
     let pairs = column.iter().zip(states);
-    pairs.fold(0.0_f64, |max, (value, row)| max.max((value - sign * row[i]).abs())) / largest
+    pairs.fold(0.0_f64, |max, (value, row)| {
+        max.max((value - sign * row[i]).abs())
+    }) / largest
 }
 
 fn times(run: &Run) -> Vec<f64> {
@@ -173,7 +188,8 @@ fn bogie_over_a_girder_without_mass_agrees_with_both_steppers() -> Result<(), Di
     let mut bogie = body(MASS);
     bogie.inertia[2] = INERTIA;
     bogie.free = [false, true, false, false, false, true];
-    bogie.motion = Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table"));
+    bogie.motion =
+        Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table"));
     let wheel = Wheel {
         radius: 1.25,
         normal: NormalLaw::linear(STIFFNESS, DAMPING, Damper::Ground),
@@ -181,7 +197,10 @@ fn bogie_over_a_girder_without_mass_agrees_with_both_steppers() -> Result<(), Di
         friction: None,
         spin_inertia: None,
     };
-    let run = ours(&scene(bogie, wheel, &[-ARM, ARM], 12.0), Foundation::influence(Box::new(Girder), 1));
+    let run = ours(
+        &scene(bogie, wheel, &[-ARM, ARM], 12.0),
+        Foundation::influence(Box::new(Girder), 1),
+    );
     // At rest each wheel carries half of the weight.
     let half = 0.5 * MASS * GRAVITY;
     let rear = half * (give(-ARM, -ARM) + give(-ARM, ARM) + 1.0 / STIFFNESS);
@@ -199,16 +218,34 @@ fn bogie_over_a_girder_without_mass_agrees_with_both_steppers() -> Result<(), Di
             )
             .init(
                 |_, _, state| {
-                    state.copy_from_slice(&[0.5 * (rear + front), (front - rear) / (2.0 * ARM), 0.0, 0.0]);
+                    state.copy_from_slice(&[
+                        0.5 * (rear + front),
+                        (front - rear) / (2.0 * ARM),
+                        0.0,
+                        0.0,
+                    ]);
                 },
                 4,
             )
             .build()?;
         problem.ode_options.update_rhs_jacobian_after_steps = 1;
         let states = solved(&problem, stepper, &times(&run))?;
-        let z = apart(&run.history.column(Channel::Displacement(0, Freedom::Y)), &states, 0, -1.0);
-        let pitch = apart(&run.history.column(Channel::Displacement(0, Freedom::Pitch)), &states, 1, -1.0);
-        println!("{stepper:?}: z {z:.1e}, pitch {pitch:.1e}, {:?}", run.counts);
+        let z = apart(
+            &run.history.column(Channel::Displacement(0, Freedom::Y)),
+            &states,
+            0,
+            -1.0,
+        );
+        let pitch = apart(
+            &run.history.column(Channel::Displacement(0, Freedom::Pitch)),
+            &states,
+            1,
+            -1.0,
+        );
+        println!(
+            "{stepper:?}: z {z:.1e}, pitch {pitch:.1e}, {:?}",
+            run.counts
+        );
         assert!(z < 1e-6 && pitch < 1e-6, "{stepper:?}: {z:e} {pitch:e}");
     }
     Ok(())
@@ -243,7 +280,11 @@ fn sliding_wheel_that_bounces_agrees_with_both_steppers() -> Result<(), DiffsolE
             radius: RADIUS,
             normal: NormalLaw::linear(STIFFNESS, DAMPING, Damper::Rail),
             flange: None,
-            friction: Some(Friction { law, coefficient: MU, slip: SLIP }),
+            friction: Some(Friction {
+                law,
+                coefficient: MU,
+                slip: SLIP,
+            }),
             spin_inertia: Some(SPIN),
         };
         let run = ours(&scene(sliding, wheel, &[0.0], 1.0), Foundation::rigid());
@@ -272,20 +313,37 @@ fn sliding_wheel_that_bounces_agrees_with_both_steppers() -> Result<(), DiffsolE
                         rate[0] = change[1];
                         rate[1] = -more / mass;
                         rate[2] = -friction / mass;
-                        rate[3] = (change[0] * MU * normal * share - (RADIUS - p) * friction) / SPIN;
+                        rate[3] =
+                            (change[0] * MU * normal * share - (RADIUS - p) * friction) / SPIN;
                     },
                 )
-                .init(|_, _, state| state.copy_from_slice(&[start, 0.5, 10.0, 0.0]), 4)
+                .init(
+                    |_, _, state| state.copy_from_slice(&[start, 0.5, 10.0, 0.0]),
+                    4,
+                )
                 .build()?;
             problem.ode_options.update_rhs_jacobian_after_steps = 1;
             let states = solved(&problem, stepper, &times(&run))?;
             let errors = [
-                apart(&run.history.column(Channel::Displacement(0, Freedom::Y)), &states, 0, -1.0),
-                apart(&run.history.column(Channel::Speed(0, Freedom::X)), &states, 2, 1.0),
+                apart(
+                    &run.history.column(Channel::Displacement(0, Freedom::Y)),
+                    &states,
+                    0,
+                    -1.0,
+                ),
+                apart(
+                    &run.history.column(Channel::Speed(0, Freedom::X)),
+                    &states,
+                    2,
+                    1.0,
+                ),
                 apart(&run.history.column(Channel::SpinSpeed(0)), &states, 3, 1.0),
             ];
             println!("{law:?} {stepper:?}: {errors:?}, {:?}", run.counts);
-            assert!(errors.iter().all(|error| *error < 1e-6), "{law:?} {stepper:?}: {errors:?}");
+            assert!(
+                errors.iter().all(|error| *error < 1e-6),
+                "{law:?} {stepper:?}: {errors:?}"
+            );
         }
     }
     Ok(())

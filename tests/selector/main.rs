@@ -1,6 +1,9 @@
 //! What "auto" chooses for crossings of girders, judged by runs of many modes at a fine accuracy.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 use std::path::Path;
 
@@ -53,18 +56,71 @@ const PLAIN: Crossing = Crossing {
 
 /// Crossings of every kind that take little time.
 const QUICK: [Crossing; 11] = [
-    Crossing { speed: 0.002, frequency: 0.2, damper: (0.1, false), ..PLAIN },
-    Crossing { speed: 0.01, ..PLAIN },
+    Crossing {
+        speed: 0.002,
+        frequency: 0.2,
+        damper: (0.1, false),
+        ..PLAIN
+    },
+    Crossing {
+        speed: 0.01,
+        ..PLAIN
+    },
     PLAIN,
-    Crossing { speed: 0.4, mass: 5.0, ..PLAIN },
-    Crossing { spans: 3, wheels: 4, damper: (0.05, true), ..PLAIN },
-    Crossing { spans: 2, frequency: 3.0, tolerance: 1e-3, ..PLAIN },
-    Crossing { mass: 0.03, frequency: 5.0, damper: (0.2, true), tolerance: 1e-3, ..PLAIN },
-    Crossing { mass: 10.0, frequency: 2.0, damper: (0.1, true), ..PLAIN },
-    Crossing { theory: "timoshenko", spans: 2, damper: (0.1, false), ..PLAIN },
-    Crossing { theory: "timoshenko", wheels: 1, speed: 0.2, damping: 0.05, tolerance: 1e-3, ..PLAIN },
+    Crossing {
+        speed: 0.4,
+        mass: 5.0,
+        ..PLAIN
+    },
+    Crossing {
+        spans: 3,
+        wheels: 4,
+        damper: (0.05, true),
+        ..PLAIN
+    },
+    Crossing {
+        spans: 2,
+        frequency: 3.0,
+        tolerance: 1e-3,
+        ..PLAIN
+    },
+    Crossing {
+        mass: 0.03,
+        frequency: 5.0,
+        damper: (0.2, true),
+        tolerance: 1e-3,
+        ..PLAIN
+    },
+    Crossing {
+        mass: 10.0,
+        frequency: 2.0,
+        damper: (0.1, true),
+        ..PLAIN
+    },
+    Crossing {
+        theory: "timoshenko",
+        spans: 2,
+        damper: (0.1, false),
+        ..PLAIN
+    },
+    Crossing {
+        theory: "timoshenko",
+        wheels: 1,
+        speed: 0.2,
+        damping: 0.05,
+        tolerance: 1e-3,
+        ..PLAIN
+    },
     // the waves of its start amplify each other: in four modes the wheels err by 1.2e-2 at equal times
-    Crossing { mass: 13.7, frequency: 3.0, wheels: 8, base: 0.9, speed: 0.018, damping: 0.0235, ..PLAIN },
+    Crossing {
+        mass: 13.7,
+        frequency: 3.0,
+        wheels: 8,
+        base: 0.9,
+        speed: 0.018,
+        damping: 0.0235,
+        ..PLAIN
+    },
 ];
 
 /// Modulus of elasticity, second moment of area, area, length of a span, gravity: SI units.
@@ -94,15 +150,14 @@ impl Crossing {
         let line = 7850.0 * AREA;
         let first = std::f64::consts::PI / (2.0 * SPAN * SPAN) * (E * INERTIA / line).sqrt();
         let (mass, speed) = (self.mass * line * SPAN, self.speed * 2.0 * SPAN * first);
-        let stiffness =
-            mass * (2.0 * std::f64::consts::PI * first * self.frequency).powi(2) / self.wheels as f64;
+        let stiffness = mass * (2.0 * std::f64::consts::PI * first * self.frequency).powi(2)
+            / self.wheels as f64;
         let base = if self.wheels > 1 { self.base } else { 0.0 };
         let wheel = |k: usize| base * (k as f64 / (self.wheels - 1).max(1) as f64 - 0.5);
         let tree: Vec<f64> = (0..self.wheels).map(wheel).collect();
         let travel = self.spans as f64 * SPAN - base;
         let end = 0.999 * travel / speed;
-        let mut own =
-            json!({"spec": "spec.json", "damping": self.damping, "gauges": {"mid": {"x": 0.4 * SPAN}}});
+        let mut own = json!({"spec": "spec.json", "damping": self.damping, "gauges": {"mid": {"x": 0.4 * SPAN}}});
         for (key, value) in structure.as_object().expect("an object") {
             own[key] = value.clone();
         }
@@ -134,8 +189,11 @@ impl Crossing {
         write("spec.json", &self.spec());
         write("scene.json", &self.scene(accuracy, structure));
         let document = Document::open(&folder.join("scene.json")).expect("a scene without faults");
-        let known = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
-        let result = simulate(&document, &known, Some(1), &|_| ()).expect("a scene that starts").remove(0);
+        let known =
+            solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
+        let result = simulate(&document, &known, Some(1), &|_| ())
+            .expect("a scene that starts")
+            .remove(0);
         assert_eq!(result.run.status, Status::Done);
         result
     }
@@ -146,13 +204,23 @@ impl Crossing {
 /// overlap.
 fn error(found: &NamedColumns, reference: &NamedColumns, measure: &str) -> (f64, String) {
     let range = |column: &HistoryColumn| {
-        let start = if column.name.ends_with(".x") { column.values[0] } else { 0.0 };
+        let start = if column.name.ends_with(".x") {
+            column.values[0]
+        } else {
+            0.0
+        };
         let [low, high] = extremes(&column.values, start);
         high - low
     };
     let of = |own: &HistoryColumn, other: &HistoryColumn| {
-        let same = reference.columns.iter().filter(|column| column.dimension == own.dimension);
-        let largest = same.filter(|column| column.name != "time").map(range).fold(0.0, f64::max);
+        let same = reference
+            .columns
+            .iter()
+            .filter(|column| column.dimension == own.dimension);
+        let largest = same
+            .filter(|column| column.name != "time")
+            .map(range)
+            .fold(0.0, f64::max);
         let scale = range(other).max(1e-3 * largest);
         let pairs = || own.values.iter().zip(&other.values);
         let apart = match measure {
@@ -164,16 +232,24 @@ fn error(found: &NamedColumns, reference: &NamedColumns, measure: &str) -> (f64,
         };
         if scale > 0.0 { apart / scale } else { 0.0 }
     };
-    let all = found.columns.iter().zip(&reference.columns).filter(|(own, _)| own.name != "time");
+    let all = found
+        .columns
+        .iter()
+        .zip(&reference.columns)
+        .filter(|(own, _)| own.name != "time");
     let errors = all.map(|(own, other)| {
         assert_eq!(own.name, other.name);
         (of(own, other), own.name.clone())
     });
-    errors.fold((0.0, String::new()), |worst, own| if own.0 > worst.0 { own } else { worst })
+    errors.fold((0.0, String::new()), |worst, own| {
+        if own.0 > worst.0 { own } else { worst }
+    })
 }
 
 fn extremes(values: &[f64], start: f64) -> [f64; 2] {
-    values.iter().fold([start; 2], |[low, high], value| [low.min(*value), high.max(*value)])
+    values.iter().fold([start; 2], |[low, high], value| {
+        [low.min(*value), high.max(*value)]
+    })
 }
 
 /// Each crossing is judged by the measure that it asked for.
@@ -182,8 +258,11 @@ fn choices_keep_the_tolerance_for_every_recorded_quantity() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut doubted = Vec::new();
     for (index, crossing) in QUICK.iter().enumerate() {
-        let reference =
-            crossing.run(folder.path(), ACCURACY, &json!({"foundation": "modal", "modes": MODES}));
+        let reference = crossing.run(
+            folder.path(),
+            ACCURACY,
+            &json!({"foundation": "modal", "modes": MODES}),
+        );
         for measure in ["extremes", "history"] {
             let structure = json!({"tolerance": crossing.tolerance, "measure": measure});
             let result = crossing.run(folder.path(), 1e-4, &structure);
@@ -193,7 +272,10 @@ fn choices_keep_the_tolerance_for_every_recorded_quantity() {
                 "{index} {measure}: {:?}, {:?}, estimate {:?} of {}; error {error:.1e} of {column}",
                 choice.fidelity, choice.reason, choice.estimate, choice.quantity
             );
-            assert!(error <= crossing.tolerance, "{choice:?}: {error} of {column}");
+            assert!(
+                error <= crossing.tolerance,
+                "{choice:?}: {error} of {column}"
+            );
             if !matches!(choice.reason, Reason::Sufficient | Reason::Kept) {
                 assert_eq!(choice.reason, Reason::NoBetter, "{choice:?}");
                 doubted.push((index, measure));
@@ -229,7 +311,9 @@ fn influence_suffices_for_a_plain_runway() {
     std::fs::write(folder.path().join("scene.json"), scene.to_string()).expect("a writable folder");
     let document = Document::open(&folder.path().join("scene.json")).expect("a valid scene");
     let known = solve_specs(&document, &distinct_specs(&document)).expect("a sound structure");
-    let outcome = simulate(&document, &known, Some(1), &|_| ()).expect("a scene that starts").remove(0);
+    let outcome = simulate(&document, &known, Some(1), &|_| ())
+        .expect("a scene that starts")
+        .remove(0);
     let choice = &outcome.choices[0];
     assert_eq!(choice.fidelity, sim::Fidelity::Influence, "{choice:?}");
     let estimate = choice.estimate.expect("an estimate");

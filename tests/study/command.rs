@@ -41,7 +41,8 @@ fn equal_studies_differ_in_their_times_alone() {
     let (mut same, mut varying) = (0, Vec::new());
     for output in outputs {
         let name = output["name"].as_str().expect("a name");
-        let [a, b] = ["a", "b"].map(|own| std::fs::read(folder.path().join(own).join(name)).expect("listed"));
+        let [a, b] = ["a", "b"]
+            .map(|own| std::fs::read(folder.path().join(own).join(name)).expect("listed"));
         if output["sha256"].is_string() {
             assert_eq!(a, b, "{name}");
             same += 1;
@@ -50,8 +51,15 @@ fn equal_studies_differ_in_their_times_alone() {
         }
     }
     assert!(same >= 5, "{outputs:?}");
-    let times = ["plots/foundations-time.svg", "plots/methods-time.svg", "plots/tables-time.svg"];
-    assert_eq!(varying, [&times[..], &["timing.csv", "timing.json"]].concat());
+    let times = [
+        "plots/foundations-time.svg",
+        "plots/methods-time.svg",
+        "plots/tables-time.svg",
+    ];
+    assert_eq!(
+        varying,
+        [&times[..], &["timing.csv", "timing.json"]].concat()
+    );
     for word in ["median", "seconds", "\"time\""] {
         let text = std::fs::read_to_string(folder.path().join("a/study.json")).expect("text");
         assert!(!text.contains(word), "{word}");
@@ -62,23 +70,39 @@ fn equal_studies_differ_in_their_times_alone() {
 fn a_study_tells_references_errors_and_the_choice() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = bogie();
-    let arguments =
-        ["--quick", scene.to_str().expect("a path in UTF-8"), "--case", "quasi-static", "-o", "out"];
+    let arguments = [
+        "--quick",
+        scene.to_str().expect("a path in UTF-8"),
+        "--case",
+        "quasi-static",
+        "-o",
+        "out",
+    ];
     let run = girderway(folder.path(), &arguments);
     assert_eq!(run.status.code(), Some(0), "{}", errors(&run));
     let study = read(&folder.path().join("out/study.json"));
     assert_eq!(study["format"], "girderway-study/1");
     assert_eq!(study["references"].as_array().map(Vec::len), Some(3));
     assert!(
-        study["auto"]["girder"].as_str().is_some_and(|why| why.contains("auto: influence")),
+        study["auto"]["girder"]
+            .as_str()
+            .is_some_and(|why| why.contains("auto: influence")),
         "{}",
         study["auto"]
     );
     let settings = study["settings"].as_array().expect("a list");
-    assert!(settings.iter().all(|own| own["status"] == "done"), "{settings:#?}");
+    assert!(
+        settings.iter().all(|own| own["status"] == "done"),
+        "{settings:#?}"
+    );
     // baselines: two rigid parts sink by 1.198 ft where the girder sinks by 0.54575 ft
-    let two = settings.iter().find(|own| own["family"] == "parts" && own["parts"] == 2.0).expect("two parts");
-    let error = two["errors"]["deflection"]["peak"].as_f64().expect("a number");
+    let two = settings
+        .iter()
+        .find(|own| own["family"] == "parts" && own["parts"] == 2.0)
+        .expect("two parts");
+    let error = two["errors"]["deflection"]["peak"]
+        .as_f64()
+        .expect("a number");
     assert!((error - (1.198 / 0.54575 - 1.0)).abs() < 5e-3, "{error}");
 }
 
@@ -87,13 +111,30 @@ fn a_reference_that_is_not_converged_is_told_and_fails() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = bogie();
     let scene = scene.to_str().expect("a path in UTF-8");
-    let run = girderway(folder.path(), &["--quick", "--resolution", "1e-12", scene, "-o", "out"]);
+    let run = girderway(
+        folder.path(),
+        &["--quick", "--resolution", "1e-12", scene, "-o", "out"],
+    );
     assert_eq!(run.status.code(), Some(3));
-    assert!(errors(&run).contains("not converged: its two finest runs differ by"), "{}", errors(&run));
-    assert!(folder.path().join("out/study.json").is_file(), "what was found is written");
-    let run = girderway(folder.path(), &["--quick", "--limit", "1e-9", scene, "-o", "none"]);
+    assert!(
+        errors(&run).contains("not converged: its two finest runs differ by"),
+        "{}",
+        errors(&run)
+    );
+    assert!(
+        folder.path().join("out/study.json").is_file(),
+        "what was found is written"
+    );
+    let run = girderway(
+        folder.path(),
+        &["--quick", "--limit", "1e-9", scene, "-o", "none"],
+    );
     assert_eq!(run.status.code(), Some(3));
-    assert!(errors(&run).contains("no reference could be run"), "{}", errors(&run));
+    assert!(
+        errors(&run).contains("no reference could be run"),
+        "{}",
+        errors(&run)
+    );
     assert!(!folder.path().join("none").exists());
 }
 
@@ -104,7 +145,11 @@ fn maps_need_a_straight_girder() {
     let scene = scene.to_str().expect("a path in UTF-8");
     let run = girderway(folder.path(), &["--stability", scene, "-o", "out"]);
     assert_eq!(run.status.code(), Some(1));
-    assert!(errors(&run).contains("need a truck on a straight girder"), "{}", errors(&run));
+    assert!(
+        errors(&run).contains("need a truck on a straight girder"),
+        "{}",
+        errors(&run)
+    );
     assert!(!folder.path().join("out").exists());
 }
 
@@ -113,10 +158,16 @@ fn garbage_is_refused_before_anything_is_run() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = bogie();
     let scene = scene.to_str().expect("a path in UTF-8");
-    std::fs::write(folder.path().join("bad.json"), "{\"format\": \"girderway-scene/1\", \"study\": 1}")
-        .expect("writable");
+    std::fs::write(
+        folder.path().join("bad.json"),
+        "{\"format\": \"girderway-scene/1\", \"study\": 1}",
+    )
+    .expect("writable");
     for (arguments, wanted) in [
-        (vec!["--case", "rigit", scene], "known: quasi-static, printed-akispl"),
+        (
+            vec!["--case", "rigit", scene],
+            "known: quasi-static, printed-akispl",
+        ),
         (vec!["bad.json"], "bad.json:1:"),
         (vec!["missing.json"], "no such file"),
         (vec!["--limit", "0", scene], "must be positive"),
@@ -124,7 +175,11 @@ fn garbage_is_refused_before_anything_is_run() {
     ] {
         let run = girderway(folder.path(), &arguments);
         assert_eq!(run.status.code(), Some(2), "{arguments:?}");
-        assert!(errors(&run).contains(wanted), "{arguments:?}: {}", errors(&run));
+        assert!(
+            errors(&run).contains(wanted),
+            "{arguments:?}: {}",
+            errors(&run)
+        );
         assert!(run.stdout.is_empty());
     }
 }

@@ -1,6 +1,9 @@
 //! Studies of small scenes: orders of convergence, references that are checked, what is refused.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod command;
 #[path = "../near.rs"]
@@ -14,7 +17,8 @@ use near::assert_near;
 use serde_json::{Value, json};
 use sim::Method;
 use study::{
-    ErrorGroup, PointOutcome, ReferenceKind, SettingFamily, SilentObserver, Study, StudyBudget, study,
+    ErrorGroup, PointOutcome, ReferenceKind, SettingFamily, SilentObserver, Study, StudyBudget,
+    study,
 };
 
 /// The paper's girder; `mass` by length, where it has one.
@@ -65,19 +69,25 @@ fn conduct(scene: &Value, spec: &Value, depth: &StudyBudget) -> Study {
         }
         std::fs::write(folder.path().join(name), value.to_string()).expect("writable");
     }
-    let document = Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
+    let document =
+        Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
     let solved = |spec: &std::sync::Arc<formats::spec::Spec>| SolvedStructure {
         spec: std::sync::Arc::clone(spec),
         solution: solve(spec).expect("a girder that stands").into(),
     };
-    let known: Vec<SolvedStructure> =
-        distinct_specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
+    let known: Vec<SolvedStructure> = distinct_specs(&document)
+        .iter()
+        .map(|(_, _, spec)| solved(spec))
+        .collect();
     study(document.scene(), &known, depth, &SilentObserver).expect("a reference")
 }
 
 /// Values and errors along a family, in their order.
 fn curve(study: &Study, family: SettingFamily, quantity: ErrorGroup) -> Vec<[f64; 2]> {
-    let own = study.points.iter().filter(|point| point.setting.family == family);
+    let own = study
+        .points
+        .iter()
+        .filter(|point| point.setting.family == family);
     own.map(|point| {
         let error = point.error(quantity);
         [
@@ -96,11 +106,20 @@ fn order(curve: &[[f64; 2]]) -> f64 {
 
 #[test]
 fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
-    let depth = StudyBudget { steps: vec![3, 6, 12, 24, 48], references: vec![(1e-10, 2)], ..nothing() };
+    let depth = StudyBudget {
+        steps: vec![3, 6, 12, 24, 48],
+        references: vec![(1e-10, 2)],
+        ..nothing()
+    };
     // between supports, where the rail's give is smooth
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
-    let known = study.reference(ReferenceKind::Own).expect("the scene's own reference");
-    println!("the reference resolves errors from {:.1e}", known.resolution(ErrorGroup::Deflection));
+    let known = study
+        .reference(ReferenceKind::Own)
+        .expect("the scene's own reference");
+    println!(
+        "the reference resolves errors from {:.1e}",
+        known.resolution(ErrorGroup::Deflection)
+    );
     // Radau is as exact as the reference from 24 steps on; with fewer its order is still approached
     for (method, wanted, within) in [
         (Method::Sdirk4, 4.0, 0.5),
@@ -119,7 +138,10 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
         println!("{method:?}: {curve:?}");
         assert!(told.len() > 1, "{method:?}: {curve:?}");
         let found = order(&told);
-        assert!((found - wanted).abs() < within, "{method:?}: order {found}, theory {wanted}; {curve:?}");
+        assert!(
+            (found - wanted).abs() < within,
+            "{method:?}: order {found}, theory {wanted}; {curve:?}"
+        );
     }
 }
 
@@ -130,29 +152,56 @@ fn a_study_judges_by_the_measure_of_its_scene() {
         let mut scene = scene(0.0, 40.0, 0.5);
         scene["structures"]["girder"]["measure"] = json!(measure);
         if measure.is_none() {
-            scene["structures"]["girder"].as_object_mut().expect("an object").remove("measure");
+            scene["structures"]["girder"]
+                .as_object_mut()
+                .expect("an object")
+                .remove("measure");
         }
-        let depth = StudyBudget { accuracies: vec![1e-4], ..nothing() };
+        let depth = StudyBudget {
+            accuracies: vec![1e-4],
+            ..nothing()
+        };
         let study = conduct(&scene, &girder(Some(500.0)), &depth);
-        let point = study.points.iter().find(|own| own.setting.family == SettingFamily::Influence);
+        let point = study
+            .points
+            .iter()
+            .find(|own| own.setting.family == SettingFamily::Influence);
         let point = point.expect("influence functions").clone();
         let error = point.error(ErrorGroup::WheelForce).expect("an error");
-        (error, point.measured().expect("a run").errors[1].expect("wheel forces"))
+        (
+            error,
+            point.measured().expect("a run").errors[1].expect("wheel forces"),
+        )
     };
-    for (measure, is_history) in [(None, false), (Some("extremes"), false), (Some("history"), true)] {
+    for (measure, is_history) in [
+        (None, false),
+        (Some("extremes"), false),
+        (Some("history"), true),
+    ] {
         let (error, deviation) = by(measure);
         assert!(
             deviation.peak < 0.99 * deviation.largest,
             "the case tells the measures apart: {deviation:?}"
         );
-        let wanted = if is_history { deviation.largest } else { deviation.peak };
-        assert!((error - wanted).abs() <= 0.0, "{measure:?}: {error}, {deviation:?}");
+        let wanted = if is_history {
+            deviation.largest
+        } else {
+            deviation.peak
+        };
+        assert!(
+            (error - wanted).abs() <= 0.0,
+            "{measure:?}: {error}, {deviation:?}"
+        );
     }
 }
 
 #[test]
 fn errors_of_tables_and_parts_fall_with_their_orders() {
-    let depth = StudyBudget { stations: vec![13, 25, 49], parts: vec![6, 12, 24, 48], ..nothing() };
+    let depth = StudyBudget {
+        stations: vec![13, 25, 49],
+        parts: vec![6, 12, 24, 48],
+        ..nothing()
+    };
     let mut scene = scene(0.0, 5.0, 12.0);
     scene["analysis"] = json!("quasi-static");
     let study = conduct(&scene, &girder(None), &depth);
@@ -166,31 +215,53 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
         let curve = curve(&study, family, ErrorGroup::Deflection);
         let found = order(&curve);
         println!("{}: {curve:?}, order {found:.2}", family.name());
-        assert!((found - wanted).abs() < 0.3, "{}: order {found}; {curve:?}", family.name());
+        assert!(
+            (found - wanted).abs() < 0.3,
+            "{}: order {found}; {curve:?}",
+            family.name()
+        );
     }
     let exact = curve(&study, SettingFamily::Influence, ErrorGroup::Deflection);
-    assert!(exact.iter().all(|own| own[1] == 0.0), "the exact surface is the reference: {exact:?}");
+    assert!(
+        exact.iter().all(|own| own[1] == 0.0),
+        "the exact surface is the reference: {exact:?}"
+    );
 }
 
 #[test]
 fn residual_flexibility_spares_modes() {
-    let depth =
-        StudyBudget { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine_accuracy: 1e-5, ..nothing() };
+    let depth = StudyBudget {
+        modes: vec![1, 2, 4],
+        references: vec![(1e-5, 12)],
+        fine_accuracy: 1e-5,
+        ..nothing()
+    };
     let mut scene = scene(0.0, 100.0, 0.6);
     scene["bodies"]["car"]["weight"] = json!(2e4);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
     let study = conduct(&scene, &girder(Some(15.2)), &depth);
-    let least =
-        study.reference(ReferenceKind::Whole).expect("a reference").resolution(ErrorGroup::Deflection);
+    let least = study
+        .reference(ReferenceKind::Whole)
+        .expect("a reference")
+        .resolution(ErrorGroup::Deflection);
     let [with, without] = [SettingFamily::Modal, SettingFamily::ModalWithoutResidual]
         .map(|family| curve(&study, family, ErrorGroup::Deflection));
     println!("with {with:?}, without {without:?}, told from {least:.1e}");
     for (with, without) in with.iter().zip(&without) {
-        assert!(with[1].max(least) < 0.2 * without[1], "{with:?} {without:?}");
+        assert!(
+            with[1].max(least) < 0.2 * without[1],
+            "{with:?} {without:?}"
+        );
     }
-    assert!(without.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{without:?}");
+    assert!(
+        without.windows(2).all(|pair| pair[1][1] < pair[0][1]),
+        "{without:?}"
+    );
     let massless = curve(&study, SettingFamily::Influence, ErrorGroup::Deflection);
-    assert!(massless.iter().all(|own| own[1] > with[0][1]), "{massless:?}");
+    assert!(
+        massless.iter().all(|own| own[1] > with[0][1]),
+        "{massless:?}"
+    );
 }
 
 #[test]
@@ -223,24 +294,63 @@ fn errors_by_modes_are_those_found_elsewhere() {
     };
     let study = conduct(&scene, &spec, &depth);
     for (family, quantity, wanted) in [
-        (SettingFamily::Modal, ErrorGroup::WheelForce, [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN]),
-        (SettingFamily::Modal, ErrorGroup::Moment, [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN]),
-        (SettingFamily::ModalWithoutResidual, ErrorGroup::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
-        (SettingFamily::ModalWithoutResidual, ErrorGroup::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
-        (SettingFamily::Influence, ErrorGroup::WheelForce, [3.3e-2, f64::NAN, f64::NAN, f64::NAN]),
-        (SettingFamily::Influence, ErrorGroup::Moment, [8.4e-2, f64::NAN, f64::NAN, f64::NAN]),
+        (
+            SettingFamily::Modal,
+            ErrorGroup::WheelForce,
+            [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN],
+        ),
+        (
+            SettingFamily::Modal,
+            ErrorGroup::Moment,
+            [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN],
+        ),
+        (
+            SettingFamily::ModalWithoutResidual,
+            ErrorGroup::WheelForce,
+            [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6],
+        ),
+        (
+            SettingFamily::ModalWithoutResidual,
+            ErrorGroup::Moment,
+            [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2],
+        ),
+        (
+            SettingFamily::Influence,
+            ErrorGroup::WheelForce,
+            [3.3e-2, f64::NAN, f64::NAN, f64::NAN],
+        ),
+        (
+            SettingFamily::Influence,
+            ErrorGroup::Moment,
+            [8.4e-2, f64::NAN, f64::NAN, f64::NAN],
+        ),
     ] {
         let curve = curve(&study, family, quantity);
-        println!("{} {}: {curve:?}, elsewhere {wanted:?}", family.name(), quantity.name());
-        for (own, wanted) in curve.iter().zip(wanted).filter(|(_, wanted)| wanted.is_finite()) {
-            let what =
-                format!("girderway study, {} {}: error of the {}", family.name(), own[0], quantity.name());
+        println!(
+            "{} {}: {curve:?}, elsewhere {wanted:?}",
+            family.name(),
+            quantity.name()
+        );
+        for (own, wanted) in curve
+            .iter()
+            .zip(wanted)
+            .filter(|(_, wanted)| wanted.is_finite())
+        {
+            let what = format!(
+                "girderway study, {} {}: error of the {}",
+                family.name(),
+                own[0],
+                quantity.name()
+            );
             if (family, quantity) != (SettingFamily::ModalWithoutResidual, ErrorGroup::Moment) {
                 assert_near(what, "prototype", wanted, own[1], 0.2);
                 continue;
             }
             let known = [(1.0, 1.99e-2), (5.0, 1.08e-3), (20.0, 2.34e-5)];
-            let (_, known) = known.into_iter().find(|(modes, _)| *modes == own[0]).expect("one of them");
+            let (_, known) = known
+                .into_iter()
+                .find(|(modes, _)| *modes == own[0])
+                .expect("one of them");
             // The prototype sums the bending moments of the modes, a series that converges slowly. Ours takes moments from
             // the equilibrium of wheel forces and the inertia of the modes, which needs no curvature.
             assert_near(what, "regression", known, own[1], 0.02);
@@ -250,7 +360,11 @@ fn errors_by_modes_are_those_found_elsewhere() {
 
 #[test]
 fn a_run_beyond_its_limit_is_stopped_and_says_so() {
-    let depth = StudyBudget { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
+    let depth = StudyBudget {
+        steps: vec![16, 4_000_000],
+        limit: 0.05,
+        ..nothing()
+    };
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let of = |value: f64| {
         let found = study.points.iter().find(|own| {
@@ -264,13 +378,21 @@ fn a_run_beyond_its_limit_is_stopped_and_says_so() {
 
 #[test]
 fn methods_that_do_not_suit_are_refused_with_what_they_lack() {
-    let depth = StudyBudget { steps: vec![64], ..nothing() };
+    let depth = StudyBudget {
+        steps: vec![64],
+        ..nothing()
+    };
     let mut scene = scene(20.0, 40.0, 0.5);
     scene["wheels"]["wheel"]["vertical"]["c"] = json!(1e4);
     let study = conduct(&scene, &girder(None), &depth);
-    let gauss = study.points.iter().find(|own| own.setting.family == SettingFamily::Fixed(Method::Gauss2));
+    let gauss = study
+        .points
+        .iter()
+        .find(|own| own.setting.family == SettingFamily::Fixed(Method::Gauss2));
     match &gauss.expect("a setting").outcome {
-        PointOutcome::Refused(why) => assert!(why.contains("damper between wheel and rail"), "{why}"),
+        PointOutcome::Refused(why) => {
+            assert!(why.contains("damper between wheel and rail"), "{why}")
+        }
         other => panic!("{other:?}"),
     }
 }

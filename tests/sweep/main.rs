@@ -16,12 +16,18 @@ fn folder(sweep: &str) -> TempDir {
     for name in ["scene.json", "spec.json", "design.json"] {
         fs::copy(example("runway").join(name), folder.path().join(name)).expect("a copy");
     }
-    write(&folder, "sweep.json", &format!("{{\"format\": \"girderway-sweep/1\", {sweep}}}"));
+    write(
+        &folder,
+        "sweep.json",
+        &format!("{{\"format\": \"girderway-sweep/1\", {sweep}}}"),
+    );
     folder
 }
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../examples")
+        .join(name)
 }
 
 fn write(folder: &TempDir, name: &str, text: &str) {
@@ -30,12 +36,17 @@ fn write(folder: &TempDir, name: &str, text: &str) {
 
 fn command(folder: &TempDir, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_girderway"));
-    command.arg("sweep").args(arguments).current_dir(folder.path());
+    command
+        .arg("sweep")
+        .args(arguments)
+        .current_dir(folder.path());
     command
 }
 
 fn girderway(folder: &TempDir, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().expect("the program starts")
+    command(folder, arguments)
+        .output()
+        .expect("the program starts")
 }
 
 fn errors(output: &Output) -> String {
@@ -65,7 +76,9 @@ fn names(folder: &TempDir, own: &str) -> Vec<String> {
         let name = entry.file_name().to_string_lossy().into_owned();
         if entry.path().is_dir() {
             found.extend(
-                names(folder, &format!("{own}/{name}")).iter().map(|below| format!("{name}/{below}")),
+                names(folder, &format!("{own}/{name}"))
+                    .iter()
+                    .map(|below| format!("{name}/{below}")),
             );
         } else {
             found.push(name);
@@ -79,7 +92,11 @@ fn names(folder: &TempDir, own: &str) -> Vec<String> {
 fn assert_same(folder: &TempDir, a: &str, b: &str) {
     assert_eq!(names(folder, a), names(folder, b));
     for name in names(folder, a) {
-        assert_eq!(read(folder, &format!("{a}/{name}")), read(folder, &format!("{b}/{name}")), "{name}");
+        assert_eq!(
+            read(folder, &format!("{a}/{name}")),
+            read(folder, &format!("{b}/{name}")),
+            "{name}"
+        );
     }
 }
 
@@ -95,22 +112,46 @@ fn threads_shards_and_interruptions_change_no_byte() {
     make(&folder, &["sweep.json", "-o", "one", "--threads", "1"]);
     // the name by which the sweep is called is in no result
     let sweep = folder.path().join("sweep.json");
-    make(&folder, &[sweep.to_str().expect("a path in UTF-8"), "-o", "two", "--threads", "2"]);
+    make(
+        &folder,
+        &[
+            sweep.to_str().expect("a path in UTF-8"),
+            "-o",
+            "two",
+            "--threads",
+            "2",
+        ],
+    );
     assert_same(&folder, "one", "two");
 
     for shard in ["1/3", "2/3", "3/3"] {
-        make(&folder, &["sweep.json", "--shard", shard, "-o", &format!("shard{}", &shard[..1])]);
+        make(
+            &folder,
+            &[
+                "sweep.json",
+                "--shard",
+                shard,
+                "-o",
+                &format!("shard{}", &shard[..1]),
+            ],
+        );
     }
-    make(&folder, &["--merge", "shard2", "shard1", "shard3", "-o", "merged"]);
+    make(
+        &folder,
+        &["--merge", "shard2", "shard1", "shard3", "-o", "merged"],
+    );
     assert_same(&folder, "one", "merged");
 
     // killed again and again, each time a little later, until it ends
     let mut kills = 0;
     loop {
-        let mut child = command(&folder, &["sweep.json", "-o", "killed", "--quiet", "--threads", "2"])
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
+        let mut child = command(
+            &folder,
+            &["sweep.json", "-o", "killed", "--quiet", "--threads", "2"],
+        )
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
         std::thread::sleep(Duration::from_millis(60 + 40 * kills));
         if let Some(status) = child.try_wait().expect("a child") {
             assert_eq!(status.code(), Some(0));
@@ -134,7 +175,10 @@ fn a_bad_run_is_a_line_and_the_others_are_made() {
     // at more than 1.67 m/s the second wheel leaves the rail
     let reasons: Vec<&str> = failures.lines().skip(1).collect();
     assert!(
-        !reasons.is_empty() && reasons.iter().all(|line| line.contains("must stay on rail")),
+        !reasons.is_empty()
+            && reasons
+                .iter()
+                .all(|line| line.contains("must stay on rail")),
         "{failures}"
     );
     assert_eq!(results.lines().count() - 1 + reasons.len(), 24);
@@ -148,13 +192,17 @@ fn a_bad_run_is_a_line_and_the_others_are_made() {
 
 #[test]
 fn a_run_is_that_of_the_command_run_to_the_last_bit() {
-    let axes = r#""axes": {"/bodies/crane/weight": [300, 355.7], "spec.json#/girder/E": [1.9e8, 2.1e8]}"#;
+    let axes =
+        r#""axes": {"/bodies/crane/weight": [300, 355.7], "spec.json#/girder/E": [1.9e8, 2.1e8]}"#;
     let folder = folder(&format!(
         r#""scene": "scene.json", {axes}, "sampling": "grid", "results": ["peaks", "extremes"]"#
     ));
     make(&folder, &["sweep.json", "-o", "out"]);
     let results = String::from_utf8(read(&folder, "out/results.csv")).expect("text");
-    let rows: Vec<Vec<&str>> = results.lines().map(|line| line.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = results
+        .lines()
+        .map(|line| line.split(',').collect())
+        .collect();
     assert_eq!(rows.len(), 5);
     assert_eq!(rows[3][..3], ["3", "355.7", "190000000.0"]);
 
@@ -173,20 +221,35 @@ fn a_run_is_that_of_the_command_run_to_the_last_bit() {
         .expect("the program starts");
     assert_eq!(run.status.code(), Some(0), "{}", errors(&run));
     let summary = json(&folder, "by hand/summary.json");
-    for (name, value) in rows[0].iter().zip(&rows[3]).skip(3).filter(|(name, _)| !name.contains("span ")) {
+    for (name, value) in rows[0]
+        .iter()
+        .zip(&rows[3])
+        .skip(3)
+        .filter(|(name, _)| !name.contains("span "))
+    {
         let (column, kind) = name.rsplit_once('.').expect("a kind");
         let value: f64 = value.parse().expect("a number");
         if let Some(peak) = summary["peaks"][column][kind]["value"].as_f64() {
             assert_eq!(value, peak, "{name}");
         }
     }
-    let moment = rows[0].iter().position(|name| *name == "girder.rail.span 2.moment.vertical.max");
-    let moment: f64 = rows[3][moment.expect("an extreme")].parse().expect("a number");
+    let moment = rows[0]
+        .iter()
+        .position(|name| *name == "girder.rail.span 2.moment.vertical.max");
+    let moment: f64 = rows[3][moment.expect("an extreme")]
+        .parse()
+        .expect("a number");
     let extremes = summary["extremes"].as_array().expect("a list");
     let is_it = |one: &&Value| {
-        one["span"] == 2 && one["quantity"] == "moment" && one["plane"] == "vertical" && one["kind"] == "max"
+        one["span"] == 2
+            && one["quantity"] == "moment"
+            && one["plane"] == "vertical"
+            && one["kind"] == "max"
     };
-    assert_eq!(extremes.iter().find(is_it).expect("an extreme")["value"], moment);
+    assert_eq!(
+        extremes.iter().find(is_it).expect("an extreme")["value"],
+        moment
+    );
 }
 
 #[test]
@@ -210,13 +273,25 @@ fn designs_are_swept_and_their_ratios_follow_the_limits() {
     );
     make(&folder, &["sweep.json", "-o", "out"]);
     let results = String::from_utf8(read(&folder, "out/results.csv")).expect("text");
-    let rows: Vec<Vec<&str>> = results.lines().map(|line| line.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = results
+        .lines()
+        .map(|line| line.split(',').collect())
+        .collect();
     let column = |name: &str| {
-        let place = rows[0].iter().position(|one| one.contains(name)).unwrap_or_else(|| panic!("{name}"));
-        rows[1..].iter().map(|row| row[place].parse().expect("a number")).collect::<Vec<f64>>()
+        let place = rows[0]
+            .iter()
+            .position(|one| one.contains(name))
+            .unwrap_or_else(|| panic!("{name}"));
+        rows[1..]
+            .iter()
+            .map(|row| row[place].parse().expect("a number"))
+            .collect::<Vec<f64>>()
     };
     let used = column("case 1.rail.span 2.vertical deflection");
-    assert!(used[0] > used[1] && used[1] > used[2], "a stiffer girder uses less of the limit: {used:?}");
+    assert!(
+        used[0] > used[1] && used[1] > used[2],
+        "a stiffer girder uses less of the limit: {used:?}"
+    );
     let report = String::from_utf8(read(&folder, "out/report.html")).expect("text");
     assert!(report.contains("spec.json#/girder/I_vertical") && report.contains("--run"));
 }
@@ -224,20 +299,32 @@ fn designs_are_swept_and_their_ratios_follow_the_limits() {
 #[test]
 fn runs_of_another_sweep_are_not_lost() {
     let folder = folder(SCATTER);
-    let mut child =
-        command(&folder, &["sweep.json", "-o", "out", "--quiet"]).spawn().expect("the program starts");
+    let mut child = command(&folder, &["sweep.json", "-o", "out", "--quiet"])
+        .spawn()
+        .expect("the program starts");
     let rows = folder.path().join("out/.girderway-sweep");
     while fs::read_to_string(&rows).map_or(0, |text| text.lines().count()) < 3 {
-        assert!(child.try_wait().expect("a child").is_none(), "the sweep ended before it was killed");
+        assert!(
+            child.try_wait().expect("a child").is_none(),
+            "the sweep ended before it was killed"
+        );
         std::thread::sleep(Duration::from_millis(5));
     }
     child.kill().expect("a living child");
     child.wait().expect("a dead child");
     let text = String::from_utf8(read(&folder, "sweep.json")).expect("text");
-    write(&folder, "sweep.json", &text.replace("\"seed\": 3", "\"seed\": 4"));
+    write(
+        &folder,
+        "sweep.json",
+        &text.replace("\"seed\": 3", "\"seed\": 4"),
+    );
     let run = girderway(&folder, &["sweep.json", "-o", "out", "--quiet"]);
     assert_eq!(run.status.code(), Some(2), "{}", errors(&run));
-    assert!(errors(&run).contains("holds the runs of another sweep"), "{}", errors(&run));
+    assert!(
+        errors(&run).contains("holds the runs of another sweep"),
+        "{}",
+        errors(&run)
+    );
     assert!(errors(&run).contains("--force"), "{}", errors(&run));
     make(&folder, &["sweep.json", "-o", "out", "--force"]);
     assert!(!rows.exists());
@@ -251,20 +338,34 @@ fn figures_have_values_of_codes_and_the_mean_of_damages_with_its_confidence() {
     }
     let text = fs::read_to_string(example("runway").join("crane_sweep.json")).expect("an example");
     assert_eq!(text.matches("\"count\": 200").count(), 1);
-    write(&folder, "sweep.json", &text.replace("\"count\": 200", "\"count\": 8"));
+    write(
+        &folder,
+        "sweep.json",
+        &text.replace("\"count\": 200", "\"count\": 8"),
+    );
     make(&folder, &["sweep.json", "-o", "out"]);
-    let figure =
-        |name: &str| String::from_utf8(read(&folder, &format!("out/plots/{name}.svg"))).expect("text");
+    let figure = |name: &str| {
+        String::from_utf8(read(&folder, &format!("out/plots/{name}.svg"))).expect("text")
+    };
     let first = figure("distribution-1");
-    assert!(first.contains("Distribution of rail_factor") && first.contains("AIST TR-13"), "{first}");
+    assert!(
+        first.contains("Distribution of rail_factor") && first.contains("AIST TR-13"),
+        "{first}"
+    );
     // three factors have values by codes, then come the damages of the life
     let damage = figure("mean-4");
-    assert!(damage.contains("life damage") && damage.contains("95 % confidence"), "{damage}");
+    assert!(
+        damage.contains("life damage") && damage.contains("95 % confidence"),
+        "{damage}"
+    );
     let summary = json(&folder, "out/summary.json");
     let found = &summary["results"]["south.midspan.bottom flange.life damage"];
     let [low, high] = [0, 1].map(|k| found["mean_interval"][k].as_f64().expect("a number"));
     let mean = found["mean"].as_f64().expect("a number");
-    assert!(0.0 < low && low < mean && mean < high && high < 1.0, "{found}");
+    assert!(
+        0.0 < low && low < mean && mean < high && high < 1.0,
+        "{found}"
+    );
     let listed = String::from_utf8(read(&folder, "out/manifest.json")).expect("text");
     assert!(
         names(&folder, "out")
@@ -290,7 +391,10 @@ fn dynamic_factors_are_those_of_rails_that_start_with_their_static_force() {
         text.lines().next().unwrap_or_default().to_owned()
     };
     let lifted = header("lifted/results.csv");
-    assert!(lifted.contains("rail_factor") && !lifted.contains("dynamic factor"), "{lifted}");
+    assert!(
+        lifted.contains("rail_factor") && !lifted.contains("dynamic factor"),
+        "{lifted}"
+    );
     let sweep = r#"{"format": "girderway-sweep/1", "scene": "scene.json", "axes": {"/end/time": [1, 2]}, "sampling": "grid", "results": ["ratios"]}"#;
     write(&folder, "rolling.json", sweep);
     make(&folder, &["rolling.json", "-o", "rolling"]);

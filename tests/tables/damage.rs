@@ -57,21 +57,34 @@ fn tried(name: &str, bytes: &[u8]) -> bool {
     let set = match read(name, bytes, Some(FT_LBF)) {
         Err(wrong) => {
             assert!(
-                !wrong.is_empty() && wrong.iter().all(|one| one.file == name && !one.expected.is_empty())
+                !wrong.is_empty()
+                    && wrong
+                        .iter()
+                        .all(|one| one.file == name && !one.expected.is_empty())
             );
             return false;
         }
         Ok(set) => set,
     };
     let finite = |set: &formats::tables::TableSet| {
-        set.tables.iter().all(|table| table.curves.y().iter().flatten().all(|value| value.is_finite()))
+        set.tables.iter().all(|table| {
+            table
+                .curves
+                .y()
+                .iter()
+                .flatten()
+                .all(|value| value.is_finite())
+        })
     };
     assert!(finite(&set));
     let _ = round(&set, 3).map(|(set, _)| assert!(finite(&set)));
     assert!(finite(&expand(&set)));
     let _ = factor(&set, Rank::Count(2));
     for ending in ENDINGS {
-        let _ = write(&set, TableFormat::of(&format!("a.{ending}")).expect("a format"));
+        let _ = write(
+            &set,
+            TableFormat::of(&format!("a.{ending}")).expect("a format"),
+        );
     }
     true
 }
@@ -84,7 +97,8 @@ fn damaged_files_are_refused_or_taken() {
         let name = format!("a.{ending}");
         for _ in 0..4 {
             for set in [random_set(&mut dice), random_factored(&mut dice)] {
-                let bytes = write(&set, TableFormat::of(&name).expect("a format")).expect("writable");
+                let bytes =
+                    write(&set, TableFormat::of(&name).expect("a format")).expect("writable");
                 for _ in 0..150 {
                     taken += usize::from(tried(&name, &damaged(&bytes, &mut dice)));
                 }

@@ -14,11 +14,19 @@ fn by_hand(value: f64, digits: usize) -> f64 {
     // 1100 digits are all that a double has
     let full = format!("{:.1100e}", value.abs());
     let (mantissa, exponent) = full.split_once('e').expect("an exponent");
-    let all: Vec<u8> = mantissa.bytes().filter(u8::is_ascii_digit).map(|c| c - b'0').collect();
+    let all: Vec<u8> = mantissa
+        .bytes()
+        .filter(u8::is_ascii_digit)
+        .map(|c| c - b'0')
+        .collect();
     let (kept, rest) = all.split_at(digits);
     let mut kept: Vec<u8> = std::iter::once(0).chain(kept.iter().copied()).collect();
     let tie = rest[0] == 5 && rest[1..].iter().all(|&digit| digit == 0);
-    let up = if tie { kept[digits] % 2 == 1 } else { rest[0] >= 5 };
+    let up = if tie {
+        kept[digits] % 2 == 1
+    } else {
+        rest[0] >= 5
+    };
     if up {
         let mut k = digits;
         kept[k] += 1;
@@ -42,7 +50,9 @@ fn rounding_is_that_of_the_decimal_expansion_and_its_report_is_right() {
         let mut checked = 0;
         for _ in 0..40 {
             let set = random_set(&mut dice);
-            let Ok((rounded, report)) = round(&set, digits) else { continue };
+            let Ok((rounded, report)) = round(&set, digits) else {
+                continue;
+            };
             checked += 1;
             let mut largest = 0.0_f64;
             for (table, new) in set.tables.iter().zip(&rounded.tables) {
@@ -86,10 +96,23 @@ fn what_cannot_be_rounded_is_refused() {
 fn the_program_reports_rounding_to_people_and_to_programs() {
     let folder = folder();
     bogie_grid(folder.path());
-    let plain = girderway(folder.path(), &["splines", "grid.json", "-o", "all.npz", "--quiet"]);
+    let plain = girderway(
+        folder.path(),
+        &["splines", "grid.json", "-o", "all.npz", "--quiet"],
+    );
     assert_eq!(plain.status.code(), Some(0));
-    let run =
-        girderway(folder.path(), &["splines", "grid.json", "-o", "ten.cmd", "--digits", "10", "--json"]);
+    let run = girderway(
+        folder.path(),
+        &[
+            "splines",
+            "grid.json",
+            "-o",
+            "ten.cmd",
+            "--digits",
+            "10",
+            "--json",
+        ],
+    );
     assert_eq!((run.status.code(), told(&run).as_str()), (Some(0), ""));
     let result: Value = serde_json::from_slice(&run.stdout).expect("JSON");
     let rounding = &result["rounding"];
@@ -100,14 +123,29 @@ fn the_program_reports_rounding_to_people_and_to_programs() {
     let value = |set: &formats::tables::TableSet| {
         let curves = &set.table(id).expect("the table").curves;
         let place = |list: &[f64], x: &Value| {
-            list.iter().position(|one| Some(*one) == x.as_f64()).expect("a station")
+            list.iter()
+                .position(|one| Some(*one) == x.as_f64())
+                .expect("a station")
         };
         curves.y()[place(curves.z(), &at["z"])][place(curves.x(), &at["x"])]
     };
     let error = (value(&ten) / value(&all) - 1.0).abs();
     let largest = rounding["largest"].as_f64().expect("a number");
-    assert!((error - largest).abs() < 1e-15 && largest > 1e-11 && largest <= 5e-10, "{error} {largest}");
-    assert_eq!((rounding["digits"].as_u64(), rounding["stations"].as_bool()), (Some(10), Some(false)));
-    let run = girderway(folder.path(), &["splines", "grid.json", "-o", "ten.adm", "--digits", "10"]);
-    assert!(told(&run).starts_with("rounded to 10 digits: by "), "{}", told(&run));
+    assert!(
+        (error - largest).abs() < 1e-15 && largest > 1e-11 && largest <= 5e-10,
+        "{error} {largest}"
+    );
+    assert_eq!(
+        (rounding["digits"].as_u64(), rounding["stations"].as_bool()),
+        (Some(10), Some(false))
+    );
+    let run = girderway(
+        folder.path(),
+        &["splines", "grid.json", "-o", "ten.adm", "--digits", "10"],
+    );
+    assert!(
+        told(&run).starts_with("rounded to 10 digits: by "),
+        "{}",
+        told(&run)
+    );
 }

@@ -14,13 +14,25 @@ use super::{bogie_grid, bytes, folder, girderway, told};
 fn five_curves_of_the_paper_girder_err_as_published() {
     let folder = folder();
     bogie_grid(folder.path());
-    let arguments = ["--form", "factored", "--rank", "5", "--only", "vertical", "--json"];
-    let run = girderway(folder.path(), &[&["splines", "grid.json", "-o", "f.json"], &arguments[..]].concat());
+    let arguments = [
+        "--form", "factored", "--rank", "5", "--only", "vertical", "--json",
+    ];
+    let run = girderway(
+        folder.path(),
+        &[&["splines", "grid.json", "-o", "f.json"], &arguments[..]].concat(),
+    );
     assert_eq!(run.status.code(), Some(0), "{}", told(&run));
     let result: Value = serde_json::from_slice(&run.stdout).expect("JSON");
     let found = &result["factored"];
-    assert!(found["at_stations"]["largest"].as_f64().is_some_and(|error| error < 1e-14), "{found}");
-    let between = found["against_surface"]["largest"].as_f64().expect("the grid has its surface");
+    assert!(
+        found["at_stations"]["largest"]
+            .as_f64()
+            .is_some_and(|error| error < 1e-14),
+        "{found}"
+    );
+    let between = found["against_surface"]["largest"]
+        .as_f64()
+        .expect("the grid has its surface");
     assert!((0.007..0.0105).contains(&between), "{between}");
     assert_eq!(found["ranks"][0]["retained"], 5);
 }
@@ -29,8 +41,17 @@ fn five_curves_of_the_paper_girder_err_as_published() {
 fn fewer_curves_err_more_and_the_report_is_the_largest_difference() {
     let folder = folder();
     bogie_grid(folder.path());
-    let run =
-        girderway(folder.path(), &["splines", "grid.json", "-o", "t.npz", "--only", "vertical,longitudinal"]);
+    let run = girderway(
+        folder.path(),
+        &[
+            "splines",
+            "grid.json",
+            "-o",
+            "t.npz",
+            "--only",
+            "vertical,longitudinal",
+        ],
+    );
     assert_eq!(run.status.code(), Some(0), "{}", told(&run));
     let set = read("t.npz", &bytes(&folder.path().join("t.npz")), None).expect("our own file");
     assert_eq!(set.tables.len(), 3);
@@ -40,9 +61,24 @@ fn fewer_curves_err_more_and_the_report_is_the_largest_difference() {
         let back = expand(&found.set);
         let mut largest = 0.0_f64;
         for table in &set.tables {
-            let back = back.tables.iter().find(|back| back.name == table.name).expect("its product");
-            let size = table.curves.y().iter().flatten().fold(0.0_f64, |size, value| size.max(value.abs()));
-            for (a, b) in table.curves.y().iter().flatten().zip(back.curves.y().iter().flatten()) {
+            let back = back
+                .tables
+                .iter()
+                .find(|back| back.name == table.name)
+                .expect("its product");
+            let size = table
+                .curves
+                .y()
+                .iter()
+                .flatten()
+                .fold(0.0_f64, |size, value| size.max(value.abs()));
+            for (a, b) in table
+                .curves
+                .y()
+                .iter()
+                .flatten()
+                .zip(back.curves.y().iter().flatten())
+            {
                 largest = largest.max((a - b).abs() / size);
             }
         }
@@ -50,8 +86,11 @@ fn fewer_curves_err_more_and_the_report_is_the_largest_difference() {
         assert!(largest <= last);
         last = largest;
         // symmetric to the last bit whatever the rank
-        let direct =
-            back.tables.iter().find(|table| table.name.ends_with("rail_vertical")).expect("vertical");
+        let direct = back
+            .tables
+            .iter()
+            .find(|table| table.name.ends_with("rail_vertical"))
+            .expect("vertical");
         let values = direct.curves.y();
         for (i, row) in values.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
@@ -85,7 +124,12 @@ fn a_tolerance_keeps_the_stations_within_it() {
         );
         assert_eq!(run.status.code(), Some(0), "{}", told(&run));
         let result: Value = serde_json::from_slice(&run.stdout).expect("JSON");
-        let error = result["factored"]["at_stations"]["largest"].as_f64().expect("a number");
-        assert!(error <= tolerance.parse().expect("a number"), "{tolerance} {error}");
+        let error = result["factored"]["at_stations"]["largest"]
+            .as_f64()
+            .expect("a number");
+        assert!(
+            error <= tolerance.parse().expect("a number"),
+            "{tolerance} {error}"
+        );
     }
 }

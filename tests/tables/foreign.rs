@@ -6,7 +6,10 @@ use formats::units::{Force, Length, Units};
 
 use super::{FT_LBF, bytes, data};
 
-const M_KN: Units = Units { length: Length::Metre, force: Force::Kilonewton };
+const M_KN: Units = Units {
+    length: Length::Metre,
+    force: Force::Kilonewton,
+};
 
 /// cos(x/20) cos(z/20) 1e-8, as the script beside the files makes it.
 fn shape(x: f64, z: f64) -> f64 {
@@ -32,20 +35,40 @@ fn files_that_numpy_wrote_are_read() {
         let table = &set.tables[0];
         assert_eq!((table.name.as_str(), table.id), ("vertical", 6), "{name}");
         let curves = &table.curves;
-        assert_eq!((curves.z().len(), curves.x().len()), (rows, columns), "{name}");
+        assert_eq!(
+            (curves.z().len(), curves.x().len()),
+            (rows, columns),
+            "{name}"
+        );
         for (z, row) in curves.z().iter().zip(curves.y()) {
             for (x, value) in curves.x().iter().zip(row) {
                 // a cosine may round differently, a float of four bytes keeps 24 bits
-                let allowed = if exact { 4.0 * f64::EPSILON } else { 2_f64.powi(-24) };
-                assert!((value / shape(*x, *z) - 1.0).abs() <= allowed, "{name} at {x}, {z}");
+                let allowed = if exact {
+                    4.0 * f64::EPSILON
+                } else {
+                    2_f64.powi(-24)
+                };
+                assert!(
+                    (value / shape(*x, *z) - 1.0).abs() <= allowed,
+                    "{name} at {x}, {z}"
+                );
             }
         }
     }
     let both = of_numpy("packed.npz");
-    assert_eq!((both.name.as_str(), both.tables[1].id, both.tables.len()), ("bridge", 7, 2));
+    assert_eq!(
+        (both.name.as_str(), both.tables[1].id, both.tables.len()),
+        ("bridge", 7, 2)
+    );
     assert_eq!(both, of_numpy("plain.npz"));
     let curve = of_numpy("curve.npz");
-    assert_eq!((curve.tables[0].name.as_str(), curve.tables[0].curves.z().len()), ("shape", 0));
+    assert_eq!(
+        (
+            curve.tables[0].name.as_str(),
+            curve.tables[0].curves.z().len()
+        ),
+        ("shape", 0)
+    );
 }
 
 fn csv(text: &str, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
@@ -56,10 +79,16 @@ fn csv(text: &str, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
 fn expected(set: &TableSet) {
     let table = &set.tables[0];
     assert_eq!(set.units, FT_LBF);
-    assert_eq!((table.id, table.name.as_str(), set.tables.len()), (6, "north_vertical", 1));
+    assert_eq!(
+        (table.id, table.name.as_str(), set.tables.len()),
+        (6, "north_vertical", 1)
+    );
     assert_eq!(table.curves.x(), [-1.5, 0.0, 2.0, 4.0]);
     assert_eq!(table.curves.z(), [0.0, 2.0]);
-    assert_eq!(table.curves.y(), [[1.5e-8, 0.0, -2e-8, 1.0], [0.25, 0.0, 3.0, 4e-9]]);
+    assert_eq!(
+        table.curves.y(),
+        [[1.5e-8, 0.0, -2e-8, 1.0], [0.25, 0.0, 3.0, 4e-9]]
+    );
 }
 
 #[test]
@@ -80,9 +109,21 @@ fn matrices_of_spreadsheets_and_matlab_are_read() {
 
 #[test]
 fn values_in_rows_are_read_in_any_order_and_with_few_columns() {
-    let rows = ["2,2,3", "0,-1.5,1.5e-8", "0,4,1", "2,-1.5,.25", "0,0,0", "2,0,0", "0,2,-2e-8", "2,4,4e-9"];
+    let rows = [
+        "2,2,3",
+        "0,-1.5,1.5e-8",
+        "0,4,1",
+        "2,-1.5,.25",
+        "0,0,0",
+        "2,0,0",
+        "0,2,-2e-8",
+        "2,4,4e-9",
+    ];
     expected(&csv(&format!("z,x,value\n{}", rows.join("\n")), Some(FT_LBF)).expect("readable"));
-    let text = format!("Z [ft], X [ft], Value [ft/lbf]\r\n{}\r\n", rows.join("\r\n"));
+    let text = format!(
+        "Z [ft], X [ft], Value [ft/lbf]\r\n{}\r\n",
+        rows.join("\r\n")
+    );
     expected(&csv(&text, None).expect("readable"));
     let set = csv("# units: m, kN, s\nvalue,x\n1,0\n2,1\n3,2\n4,3\n", None).expect("one curve");
     assert_eq!((set.units, set.tables[0].curves.z().len()), (M_KN, 0));
@@ -98,7 +139,10 @@ fn plain_json_is_read() {
         "{{\"stations\": [0, 1, 2, 3], {units}, \"name\": \"lateral\", \"values\": [[1,2,3,4],[2,1,2,3],[3,2,1,2],[4,3,2,1]]}}"
     );
     let set = read("a.json", text.as_bytes(), None).expect("readable");
-    assert_eq!((set.units, set.tables[0].id, set.tables[0].curves.z()), (M_KN, 7, &[0.0, 1.0, 2.0, 3.0][..]));
+    assert_eq!(
+        (set.units, set.tables[0].id, set.tables[0].curves.z()),
+        (M_KN, 7, &[0.0, 1.0, 2.0, 3.0][..])
+    );
 }
 
 /// A data set as Adams View writes it: one argument a line, ten digits, exponents of three digits.

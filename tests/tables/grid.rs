@@ -14,16 +14,25 @@ fn grid(rails: usize) -> StationGrid {
     let name = |index: usize| format!("rail {}", index + 1);
     let stations = |index: usize| [0.0, 1.0, 2.5, 4.0 + index as f64].to_vec();
     let n = 4 * rails;
-    let root =
-        DMatrix::from_fn(2 * n, 2 * n, |i, j| 1e-4 * ((i * 7 + j * 3) as f64 / 5.0).cos() / (1.0 + j as f64));
+    let root = DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+        1e-4 * ((i * 7 + j * 3) as f64 / 5.0).cos() / (1.0 + j as f64)
+    });
     let all = &root * root.transpose();
     let all = 0.5 * (&all + all.transpose());
     let block = |i: usize, j: usize| all.view((i * n, j * n), (n, n)).into_owned();
     StationGrid {
         name: "two rails".to_owned(),
-        units: Units { length: Length::Foot, force: Force::Kip },
+        units: Units {
+            length: Length::Foot,
+            force: Force::Kip,
+        },
         theory: None,
-        rails: (0..rails).map(|index| GridRail { name: name(index), stations: stations(index) }).collect(),
+        rails: (0..rails)
+            .map(|index| GridRail {
+                name: name(index),
+                stations: stations(index),
+            })
+            .collect(),
         blocks: vec![
             (GridBlock::Vertical, block(0, 0)),
             (GridBlock::Lateral, block(1, 1)),
@@ -48,7 +57,10 @@ fn a_data_set_read_back_has_the_grid_bit_for_bit() {
     assert_eq!(back.units.map(Units::of_adams), Some(grid(1).units));
     assert_eq!(ids(&TableSet::of_grid(&grid(1))), [6, 7, 9]);
     let vertical = &grid(1).blocks[0].1;
-    assert_eq!(back.splines[0].curves.y().concat(), vertical.transpose().as_slice());
+    assert_eq!(
+        back.splines[0].curves.y().concat(),
+        vertical.transpose().as_slice()
+    );
 }
 
 #[test]
@@ -58,7 +70,10 @@ fn every_pair_of_rails_has_its_tables_once() {
     assert_eq!(ids(&set), [6, 7, 9, 12, 13, 15, 21, 24, 25, 27]);
     let across = &set.tables[3];
     assert_eq!(across.curves.y()[1][2], grid(2).blocks[0].1[(1, 6)]);
-    assert_eq!(across.rails, Some(["rail 1".to_owned(), "rail 2".to_owned()]));
+    assert_eq!(
+        across.rails,
+        Some(["rail 1".to_owned(), "rail 2".to_owned()])
+    );
     assert_eq!((across.curves.x()[3], across.curves.z()[3]), (5.0, 4.0));
 }
 
@@ -70,7 +85,10 @@ fn files_of_two_rails_read_back_with_their_rails() {
         let bytes = write(&set, TableFormat::of(&name).expect("a format")).expect("writable");
         let back = read(&name, &bytes, None).expect("our own file");
         for (back, table) in back.tables.iter().zip(&set.tables) {
-            assert_eq!((back.id, back.quantity, &back.curves), (table.id, table.quantity, &table.curves));
+            assert_eq!(
+                (back.id, back.quantity, &back.curves),
+                (table.id, table.quantity, &table.curves)
+            );
         }
         if ["json", "npz"].contains(&ending) {
             assert_eq!(back, set, "{ending}");
@@ -89,14 +107,21 @@ fn coupled_directions_of_two_rails_share_their_curves() {
     for ending in ["json", "npz"] {
         let name = format!("two rails.{ending}");
         let bytes = write(&found.set, TableFormat::of(&name).expect("a format")).expect("writable");
-        assert_eq!(read(&name, &bytes, None).as_ref(), Ok(&found.set), "{ending}");
+        assert_eq!(
+            read(&name, &bytes, None).as_ref(),
+            Ok(&found.set),
+            "{ending}"
+        );
     }
     // from text, which has no rails: the same numbers
     let bytes = write(&found.set, TableFormat::Adams).expect("writable");
     let back = expand(&read("a.adm", &bytes, None).expect("our own file"));
     assert_eq!(back.tables.len(), set.tables.len());
     for (back, table) in back.tables.iter().zip(&expand(&found.set).tables) {
-        assert_eq!((&back.curves, back.quantity), (&table.curves, table.quantity));
+        assert_eq!(
+            (&back.curves, back.quantity),
+            (&table.curves, table.quantity)
+        );
     }
 }
 
@@ -107,8 +132,14 @@ fn directions_choose_tables_and_the_curves_of_their_products() {
     assert_eq!(ids(&lateral), [7, 13, 25]);
     let factored = factor(&set, Rank::Full).expect("one structure").set;
     let lateral = select(&factored, &[GridBlock::Lateral]);
-    assert_eq!((lateral.products.len(), lateral.tables.len()), (3, factored.tables.len() / 2));
-    assert_eq!(select(&factored, &[GridBlock::Vertical, GridBlock::Lateral]), factored);
+    assert_eq!(
+        (lateral.products.len(), lateral.tables.len()),
+        (3, factored.tables.len() / 2)
+    );
+    assert_eq!(
+        select(&factored, &[GridBlock::Vertical, GridBlock::Lateral]),
+        factored
+    );
     assert!(select(&set, &[GridBlock::Longitudinal]).tables.is_empty());
 }
 

@@ -39,8 +39,13 @@ fn parse(text: &str) -> (Vec<Found>, String) {
         } else if let Some(rest) = statement.strip_prefix("SPLINE/") {
             let mut parts = rest.split(',').map(str::trim);
             let id = parts.next().expect("an id").parse().expect("a number");
-            let mut one =
-                Found { id, name: std::mem::take(&mut name), linear: false, x: Vec::new(), y: Vec::new() };
+            let mut one = Found {
+                id,
+                name: std::mem::take(&mut name),
+                linear: false,
+                x: Vec::new(),
+                y: Vec::new(),
+            };
             let mut in_x = false;
             for part in parts {
                 let number = match part.split_once('=') {
@@ -59,7 +64,11 @@ fn parse(text: &str) -> (Vec<Found>, String) {
                     None => part,
                 };
                 let number: f64 = number.parse().expect("a number");
-                if in_x { one.x.push(number) } else { one.y.last_mut().expect("a list").push(number) }
+                if in_x {
+                    one.x.push(number)
+                } else {
+                    one.y.last_mut().expect("a list").push(number)
+                }
             }
             found.push(one);
         }
@@ -74,10 +83,16 @@ fn an_independent_reader_finds_the_same_numbers_in_a_data_set() {
         let set = random_set(&mut dice);
         let bytes = write(&set, TableFormat::Adams).expect("writable");
         let (found, units) = parse(std::str::from_utf8(&bytes).expect("text"));
-        assert_eq!(units, "UNITS/,FORCE=POUND_FORCE,MASS=SLUG,LENGTH=FOOT,TIME=SECOND");
+        assert_eq!(
+            units,
+            "UNITS/,FORCE=POUND_FORCE,MASS=SLUG,LENGTH=FOOT,TIME=SECOND"
+        );
         assert_eq!(found.len(), set.tables.len());
         for (found, table) in found.iter().zip(&set.tables) {
-            assert_eq!((found.id, &found.name, found.linear), (table.id, &table.name, true));
+            assert_eq!(
+                (found.id, &found.name, found.linear),
+                (table.id, &table.name, true)
+            );
             let same = |a: &[f64], b: &[f64]| {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
             };

@@ -20,7 +20,10 @@ use formats::tables::{Product, Table, TableSet};
 use formats::units::{Force, Length, Units};
 use tempfile::TempDir;
 
-const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
+const FT_LBF: Units = Units {
+    length: Length::Foot,
+    force: Force::Pound,
+};
 
 /// The formats, by their endings.
 const ENDINGS: [&str; 5] = ["adm", "cmd", "csv", "json", "npz"];
@@ -57,19 +60,32 @@ impl Dice {
 
     fn curves(&mut self, rows: usize, columns: usize) -> SplineValues {
         let (x, z) = (self.increasing(columns), self.increasing(rows));
-        let values = (0..rows.max(1)).map(|_| x.iter().map(|_| self.any()).collect()).collect();
+        let values = (0..rows.max(1))
+            .map(|_| x.iter().map(|_| self.any()).collect())
+            .collect();
         SplineValues::new(x, z, values).expect("increasing")
     }
 }
 
 fn table(id: u32, name: &str, quantity: Option<GridBlock>, curves: SplineValues) -> Table {
-    Table { id, name: name.to_owned(), quantity, rails: None, curves }
+    Table {
+        id,
+        name: name.to_owned(),
+        quantity,
+        rails: None,
+        curves,
+    }
 }
 
 /// Tables of any doubles, some with quantities, in shapes of every kind.
 fn random_set(dice: &mut Dice) -> TableSet {
     let tables = vec![
-        table(6, "bridge_rail_vertical", Some(GridBlock::Vertical), dice.curves(5, 5)),
+        table(
+            6,
+            "bridge_rail_vertical",
+            Some(GridBlock::Vertical),
+            dice.curves(5, 5),
+        ),
         table(
             10,
             "bridge_rail_vertical_longitudinal",
@@ -79,7 +95,13 @@ fn random_set(dice: &mut Dice) -> TableSet {
         table(31, "spare", None, dice.curves(1, 4)),
         table(4_000_000_000, "one_curve", None, dice.curves(0, 9)),
     ];
-    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products: Vec::new(), left_out: Vec::new() }
+    TableSet {
+        name: "bridge".to_owned(),
+        units: FT_LBF,
+        tables,
+        products: Vec::new(),
+        left_out: Vec::new(),
+    }
 }
 
 /// Curves of any doubles and the products that use them.
@@ -89,14 +111,23 @@ fn random_factored(dice: &mut Dice) -> TableSet {
     for k in 0..8 {
         let stations = if k < 4 { &x } else { &z };
         let values = stations.iter().map(|_| dice.any()).collect();
-        let curves = SplineValues::new(stations.clone(), Vec::new(), vec![values]).expect("increasing");
+        let curves =
+            SplineValues::new(stations.clone(), Vec::new(), vec![values]).expect("increasing");
         tables.push(table(101 + 25 * k, &format!("curve_{k}"), None, curves));
     }
     let id = |k: usize| tables[k].id;
-    let product =
-        |name: &str, quantity, terms| Product { name: name.to_owned(), quantity, rails: None, terms };
+    let product = |name: &str, quantity, terms| Product {
+        name: name.to_owned(),
+        quantity,
+        rails: None,
+        terms,
+    };
     let products = vec![
-        product("a_vertical", Some(GridBlock::Vertical), (0..4).map(|k| [id(k), id(k)]).collect()),
+        product(
+            "a_vertical",
+            Some(GridBlock::Vertical),
+            (0..4).map(|k| [id(k), id(k)]).collect(),
+        ),
         product(
             "a_vertical_lateral",
             Some(GridBlock::VerticalLateral),
@@ -104,13 +135,30 @@ fn random_factored(dice: &mut Dice) -> TableSet {
         ),
         product("nothing", None, Vec::new()),
     ];
-    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products, left_out: Vec::new() }
+    TableSet {
+        name: "bridge".to_owned(),
+        units: FT_LBF,
+        tables,
+        products,
+        left_out: Vec::new(),
+    }
 }
 
 /// All numbers of a set, as bits.
 fn bits(set: &TableSet) -> Vec<u64> {
-    let numbers = |table: &Table| [table.curves.x(), table.curves.z(), &table.curves.y().concat()].concat();
-    set.tables.iter().flat_map(numbers).map(f64::to_bits).collect()
+    let numbers = |table: &Table| {
+        [
+            table.curves.x(),
+            table.curves.z(),
+            &table.curves.y().concat(),
+        ]
+        .concat()
+    };
+    set.tables
+        .iter()
+        .flat_map(numbers)
+        .map(f64::to_bits)
+        .collect()
 }
 
 fn folder() -> TempDir {
@@ -118,7 +166,9 @@ fn folder() -> TempDir {
 }
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/tables/data").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../tests/tables/data")
+        .join(name)
 }
 
 fn bytes(path: &Path) -> Vec<u8> {
@@ -141,6 +191,15 @@ fn told(run: &Output) -> String {
 /// The grid of the girder whose printed tables are SPLINE/6 and 7.
 fn bogie_grid(folder: &Path) {
     let spec = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bogie/spec.json");
-    let run = girderway(folder, &["fea", &spec.display().to_string(), "-o", "grid.json", "--quiet"]);
+    let run = girderway(
+        folder,
+        &[
+            "fea",
+            &spec.display().to_string(),
+            "-o",
+            "grid.json",
+            "--quiet",
+        ],
+    );
     assert_eq!(run.status.code(), Some(0), "{}", told(&run));
 }

@@ -11,26 +11,45 @@ use girderway::crosscheck::Environment;
 use super::{Dice, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
 
 fn python() -> Option<PathBuf> {
-    let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python").join("girderway");
-    let own = Environment { python: "python3".into(), cache };
-    let made = [Some(own), Environment::of_user().ok()].into_iter().flatten();
+    let cache = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("python")
+        .join("girderway");
+    let own = Environment {
+        python: "python3".into(),
+        cache,
+    };
+    let made = [Some(own), Environment::of_user().ok()]
+        .into_iter()
+        .flatten();
     let made = made.map(|environment| environment.folder().join("bin").join("python"));
     let works = |python: &PathBuf| {
-        let run = Command::new(python).args(["-I", "-c", "import numpy"]).output();
+        let run = Command::new(python)
+            .args(["-I", "-c", "import numpy"])
+            .output();
         run.is_ok_and(|run| run.status.success())
     };
     let found = made.chain([PathBuf::from("python3")]).find(works);
     if found.is_none() {
         // Not by a macro: that would be seen only where a test fails.
-        let _ = writeln!(std::io::stderr(), "not run, no numpy here: no Python can import it");
+        let _ = writeln!(
+            std::io::stderr(),
+            "not run, no numpy here: no Python can import it"
+        );
     }
     found
 }
 
 fn run(python: &Path, folder: &Path, script: &str) -> String {
-    let run =
-        Command::new(python).args(["-I", "-c", script]).current_dir(folder).output().expect("Python starts");
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let run = Command::new(python)
+        .args(["-I", "-c", script])
+        .current_dir(folder)
+        .output()
+        .expect("Python starts");
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
     String::from_utf8(run.stdout).expect("text")
 }
 
@@ -42,7 +61,9 @@ def bits(a):
 ";
 
 fn printed(text: &str) -> Vec<u64> {
-    text.lines().map(|line| line.parse().expect("bits")).collect()
+    text.lines()
+        .map(|line| line.parse().expect("bits"))
+        .collect()
 }
 
 #[test]
@@ -51,8 +72,11 @@ fn numpy_loads_equal_bits() {
     let folder = folder();
     let mut dice = Dice::new(41);
     let set = random_set(&mut dice);
-    std::fs::write(folder.path().join("a.npz"), write(&set, TableFormat::Npz).expect("writable"))
-        .expect("writable");
+    std::fs::write(
+        folder.path().join("a.npz"),
+        write(&set, TableFormat::Npz).expect("writable"),
+    )
+    .expect("writable");
     let script = format!(
         "{BITS}
 d = numpy.load('a.npz')
@@ -79,9 +103,23 @@ fn numpy_users_are_at_home_in_a_file_of_a_girder() {
     bogie_grid(folder.path());
     let plain = girderway(folder.path(), &["splines", "grid.json", "-o", "plain.npz"]);
     assert_eq!(plain.status.code(), Some(0), "{}", told(&plain));
-    let run_factored =
-        girderway(folder.path(), &["splines", "grid.json", "-o", "factored.npz", "--form", "factored"]);
-    assert_eq!(run_factored.status.code(), Some(0), "{}", told(&run_factored));
+    let run_factored = girderway(
+        folder.path(),
+        &[
+            "splines",
+            "grid.json",
+            "-o",
+            "factored.npz",
+            "--form",
+            "factored",
+        ],
+    );
+    assert_eq!(
+        run_factored.status.code(),
+        Some(0),
+        "{}",
+        told(&run_factored)
+    );
     let script = "import numpy
 d = numpy.load('plain.npz'); f = numpy.load('factored.npz')
 assert list(d['stations']) == [-15, 0, 15, 30, 45, 60, 75]

@@ -11,7 +11,11 @@ use super::{FT_LBF, bytes, data};
 
 fn refusal(name: &str, bytes: &[u8], told: Option<Units>) -> String {
     let wrong = read(name, bytes, told).map(|_| ()).expect_err("refused");
-    wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    wrong
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 #[test]
@@ -28,13 +32,34 @@ fn sheets_are_refused_at_line_and_column() {
             ",0,1,2\n0,1,2,3\n",
             "a.csv:1:1: must have at least 4 x, got 3  hint: a SPLINE has four x values or more",
         ),
-        (",0,1,2,3\n0,1,2,x,4\n", "a.csv:2:7: must be a finite number, got \"x\""),
-        (",0,1,2,3\n0,1,2,,4\n", "a.csv:2:7: must be a finite number, got nothing"),
-        (",0,1,2,3\n0,1,2,NaN,4\n", "a.csv:2:7: must be a finite number, got \"NaN\""),
-        (",0,1,2,3\n0,1,2,3\n", "a.csv:2:1: must have 4 numbers, one for each x, got 3"),
-        (",0,1,2,3\n0,1,2,3,4,5\n", "a.csv:2:1: must have 4 numbers, one for each x, got 5"),
-        (",0,1,1,3\n0,1,2,3,4\n", "a.csv:1:6: must be above the one before it, 1, got 1"),
-        (",0,1,2,3\n5,1,2,3,4\n4,1,2,3,4\n", "a.csv:3:1: must be above the one before it, 5, got 4"),
+        (
+            ",0,1,2,3\n0,1,2,x,4\n",
+            "a.csv:2:7: must be a finite number, got \"x\"",
+        ),
+        (
+            ",0,1,2,3\n0,1,2,,4\n",
+            "a.csv:2:7: must be a finite number, got nothing",
+        ),
+        (
+            ",0,1,2,3\n0,1,2,NaN,4\n",
+            "a.csv:2:7: must be a finite number, got \"NaN\"",
+        ),
+        (
+            ",0,1,2,3\n0,1,2,3\n",
+            "a.csv:2:1: must have 4 numbers, one for each x, got 3",
+        ),
+        (
+            ",0,1,2,3\n0,1,2,3,4,5\n",
+            "a.csv:2:1: must have 4 numbers, one for each x, got 5",
+        ),
+        (
+            ",0,1,1,3\n0,1,2,3,4\n",
+            "a.csv:1:6: must be above the one before it, 1, got 1",
+        ),
+        (
+            ",0,1,2,3\n5,1,2,3,4\n4,1,2,3,4\n",
+            "a.csv:3:1: must be above the one before it, 5, got 4",
+        ),
         (
             "1,2,3,4,5\n2,3,4,5,6\n3,4,5,6,7\n",
             "a.csv:1:1: the corner must be empty or text, got 1  hint: a matrix has x in its first row and z in its first column",
@@ -51,13 +76,31 @@ fn sheets_are_refused_at_line_and_column() {
             "z,x,value,colour\n",
             "a.csv:1:11: unknown column `colour`  hint: known columns are id, name, z, x, value",
         ),
-        ("x,x,value\n", "a.csv:1:3: duplicate column `x`  hint: known columns are id, name, z, x, value"),
+        (
+            "x,x,value\n",
+            "a.csv:1:3: duplicate column `x`  hint: known columns are id, name, z, x, value",
+        ),
         ("z,value\n1,2\n", "a.csv:1:1: missing column `x`"),
-        ("z,x,value\n0,0,1\n0,1,2\n0,2,\n", "a.csv:4:5: must be a finite number, got nothing"),
-        ("z,x,value\n0,0,1,7\n", "a.csv:2:7: a row must have 3 cells, as the header"),
-        ("z,x,value\n0,0,1\n,1,2\n", "a.csv:3:1: must have a z, as the other rows of the table"),
-        ("id,x,value\n0,0,1\n", "a.csv:2:1: must be a whole number above 0"),
-        ("id,name,x,value\n6,a,0,1\n6,b,0,1\n", "a.csv:3:1: the id is that of a table of another name"),
+        (
+            "z,x,value\n0,0,1\n0,1,2\n0,2,\n",
+            "a.csv:4:5: must be a finite number, got nothing",
+        ),
+        (
+            "z,x,value\n0,0,1,7\n",
+            "a.csv:2:7: a row must have 3 cells, as the header",
+        ),
+        (
+            "z,x,value\n0,0,1\n,1,2\n",
+            "a.csv:3:1: must have a z, as the other rows of the table",
+        ),
+        (
+            "id,x,value\n0,0,1\n",
+            "a.csv:2:1: must be a whole number above 0",
+        ),
+        (
+            "id,name,x,value\n6,a,0,1\n6,b,0,1\n",
+            "a.csv:3:1: the id is that of a table of another name",
+        ),
         (
             "z,x,value\n0,0,1\n0,1,2\n0,2,3\n0,3,4\n0,1,5\n",
             "a.csv:6:3: the value at this z and x is given twice",
@@ -71,15 +114,20 @@ fn sheets_are_refused_at_line_and_column() {
             "a.csv:1:14: must be a unit of length per force  hint: such as [ft/lbf]",
         ),
     ] {
-        assert_eq!(refusal("a.csv", text.as_bytes(), Some(FT_LBF)), expected, "{text}");
+        assert_eq!(
+            refusal("a.csv", text.as_bytes(), Some(FT_LBF)),
+            expected,
+            "{text}"
+        );
     }
 }
 
 #[test]
 fn json_is_refused_by_path() {
     let units = "\"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}";
-    let ours =
-        |tables: &str| format!("{{\"format\": \"girderway-tables/1\", {units}, \"tables\": {tables}}}");
+    let ours = |tables: &str| {
+        format!("{{\"format\": \"girderway-tables/1\", {units}, \"tables\": {tables}}}")
+    };
     for (text, expected) in [
         (ours("[]"), "tables: must have at least one table"),
         (
@@ -98,7 +146,10 @@ fn json_is_refused_by_path() {
             ours("[{\"x\": [0,1,2,3], \"z\": [1, 0], \"values\": [[1,2,3,4], [1,2,3,4]]}]"),
             "tables[0].z[1]: must be above the one before it, 1, got 0",
         ),
-        (ours("[{\"x\": [0,1,2,3]}]"), "tables[0]: missing key `values`"),
+        (
+            ours("[{\"x\": [0,1,2,3]}]"),
+            "tables[0]: missing key `values`",
+        ),
         (
             ours("[{\"id\": 0, \"x\": [0,1,2,3], \"values\": [[1,2,3,4]]}]"),
             "tables[0].id: must be positive, got 0",
@@ -144,12 +195,18 @@ fn commands_are_refused_at_line_and_column() {
             "data_element create spline x=0,1,2,3 y=1,2,3,4",
             "a.cmd: has no `defaults units`  hint: such as: defaults units length=foot force=pound_force mass=slug time=sec; units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables",
         ),
-        ("defaults units &\n length = cubit", "a.cmd:2:11: unknown unit"),
+        (
+            "defaults units &\n length = cubit",
+            "a.cmd:2:11: unknown unit",
+        ),
     ] {
         assert_eq!(refusal("a.cmd", text.as_bytes(), None), expected, "{text}");
     }
     let text = format!("{head}data_element create spline &\n  x = 0, 1, 2, (3+1)");
-    assert_eq!(refusal("a.cmd", text.as_bytes(), None), "a.cmd:3:16: unexpected text");
+    assert_eq!(
+        refusal("a.cmd", text.as_bytes(), None),
+        "a.cmd:3:16: unexpected text"
+    );
 }
 
 /// Names and bytes.
@@ -159,7 +216,9 @@ type Members = Vec<(&'static str, Vec<u8>)>;
 fn archive(members: &[(&str, Vec<u8>)]) -> Vec<u8> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in members {
-        writer.start_file(*name, SimpleFileOptions::default()).expect("a member");
+        writer
+            .start_file(*name, SimpleFileOptions::default())
+            .expect("a member");
         writer.write_all(bytes).expect("memory");
     }
     writer.finish().expect("an archive").into_inner()
@@ -173,7 +232,14 @@ fn array(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
 }
 
 fn numbers(list: &[f64], shape: &str) -> Vec<u8> {
-    array("<f8", shape, &list.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<_>>())
+    array(
+        "<f8",
+        shape,
+        &list
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect::<Vec<_>>(),
+    )
 }
 
 #[test]
@@ -193,32 +259,50 @@ fn archives_are_refused_by_array_and_index() {
             vec![row("(1, 4)")],
             "vertical: has no stations: no array `vertical_x`, `x` or `stations`  hint: numpy.savez(file, stations=x, vertical=values, units=[\"ft\", \"lbf\", \"s\"])",
         ),
-        (vec![stations(), row("(1, 4)")], "vertical: must have 4 rows, one for each z, got 1"),
+        (
+            vec![stations(), row("(1, 4)")],
+            "vertical: must have 4 rows, one for each z, got 1",
+        ),
         (
             vec![stations(), row("(2, 2, 1)")],
             "vertical: unknown array, got the shape [2, 2, 1]  hint: tables are matrices; other arrays are name, units, stations, x, z, tables, ids, names, quantity, rail, load_rail, curves, products, expressions",
         ),
         (
-            vec![("x.npy", numbers(&[0.0, 1.0, 2.0, f64::NAN], "(4,)")), row("(4,)")],
+            vec![
+                ("x.npy", numbers(&[0.0, 1.0, 2.0, f64::NAN], "(4,)")),
+                row("(4,)"),
+            ],
             "x[3]: must be finite, got NaN",
         ),
         (
-            vec![("x.npy", numbers(&[0.0, 1.0, 1.0, 2.0], "(4,)")), row("(4,)")],
+            vec![
+                ("x.npy", numbers(&[0.0, 1.0, 1.0, 2.0], "(4,)")),
+                row("(4,)"),
+            ],
             "x[2]: must be above the one before it, 1, got 1",
         ),
         (
-            vec![("x.npy", numbers(&[0.0, 1.0, 2.0, 3.0], "(2, 2)")), row("(4,)")],
+            vec![
+                ("x.npy", numbers(&[0.0, 1.0, 2.0, 3.0], "(2, 2)")),
+                row("(4,)"),
+            ],
             "x: must have one dimension, got the shape [2, 2]",
         ),
         (
             vec![
                 ("x.npy", numbers(&[0.0, 1.0, 2.0, 3.0], "(4,)")),
                 ("z.npy", numbers(&[5.0], "(1,)")),
-                ("lateral.npy", numbers(&[0.0, 1.0, f64::INFINITY, 3.0], "(1, 4)")),
+                (
+                    "lateral.npy",
+                    numbers(&[0.0, 1.0, f64::INFINITY, 3.0], "(1, 4)"),
+                ),
             ],
             "lateral[0][2]: must be finite, got inf",
         ),
-        (vec![stations(), row("(5,)")], "vertical: must have 40 bytes of data, got 32"),
+        (
+            vec![stations(), row("(5,)")],
+            "vertical: must have 40 bytes of data, got 32",
+        ),
         (
             vec![("vertical.npy", array("|O", "(4,)", &[]))],
             "vertical: must be real numbers or words, got the type |O  hint: such as numpy.asarray(values, dtype=float)",
@@ -228,14 +312,25 @@ fn archives_are_refused_by_array_and_index() {
             "notes.txt: must be an .npy array  hint: numpy.savez writes them",
         ),
         (
-            vec![("units.npy", array("|S3", "()", b"cub")), stations(), row("(4,)")],
+            vec![
+                ("units.npy", array("|S3", "()", b"cub")),
+                stations(),
+                row("(4,)"),
+            ],
             "units: must be units of length and force  hint: such as [\"ft\", \"lbf\", \"s\"]; length ft, in, m or mm; force lbf, kip, N or kN",
         ),
         (
-            vec![("units.npy", numbers(&[1.0], "()")), stations(), row("(4,)")],
+            vec![
+                ("units.npy", numbers(&[1.0], "()")),
+                stations(),
+                row("(4,)"),
+            ],
             "units: must be words  hint: such as numpy.array([\"ft\", \"lbf\", \"s\"])",
         ),
-        (vec![("tables.npy", array("|S1", "(1,)", b"q")), stations()], "tables[0]: no array is called `q`"),
+        (
+            vec![("tables.npy", array("|S1", "(1,)", b"q")), stations()],
+            "tables[0]: no array is called `q`",
+        ),
         (
             vec![
                 ("tables.npy", array("|S8", "(1,)", b"vertical")),
@@ -247,14 +342,20 @@ fn archives_are_refused_by_array_and_index() {
         ),
     ];
     for (members, expected) in cases {
-        assert_eq!(refusal("a.npz", &archive(&members), Some(FT_LBF)), format!("a.npz: {expected}"));
+        assert_eq!(
+            refusal("a.npz", &archive(&members), Some(FT_LBF)),
+            format!("a.npz: {expected}")
+        );
     }
 }
 
 #[test]
 fn an_archive_that_is_none_or_broken_is_refused() {
     let found = refusal("a.npz", b"hello", None);
-    assert!(found.starts_with("a.npz: must be a zip archive of arrays, got "), "{found}");
+    assert!(
+        found.starts_with("a.npz: must be a zip archive of arrays, got "),
+        "{found}"
+    );
     let mut broken = bytes(&data("plain.npz"));
     // a byte of the values: the checksum tells
     broken[700] ^= 1;
@@ -267,7 +368,10 @@ fn units_are_never_guessed_nor_overruled() {
     let set = refusal(
         "plain.npz",
         &bytes(&data("plain.npz")),
-        Some(Units { length: formats::units::Length::Metre, ..FT_LBF }),
+        Some(Units {
+            length: formats::units::Length::Metre,
+            ..FT_LBF
+        }),
     );
     assert_eq!(
         set,
@@ -279,7 +383,10 @@ fn units_are_never_guessed_nor_overruled() {
         found.starts_with("a.adm: has no UNITS statement  hint: such as UNITS/")
             && found.contains("units are not guessed")
     );
-    assert_eq!(read("a.adm", adm.as_bytes(), Some(FT_LBF)).map(|set| set.units), Ok(FT_LBF));
+    assert_eq!(
+        read("a.adm", adm.as_bytes(), Some(FT_LBF)).map(|set| set.units),
+        Ok(FT_LBF)
+    );
 }
 
 #[test]

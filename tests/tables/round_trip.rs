@@ -2,7 +2,9 @@
 
 use formats::tables::{TableFormat, TableSet, expand, read, write};
 
-use super::{Dice, ENDINGS, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
+use super::{
+    Dice, ENDINGS, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told,
+};
 
 fn back(set: &TableSet, ending: &str) -> TableSet {
     let name = format!("bridge.{ending}");
@@ -28,7 +30,9 @@ fn tables_of_any_doubles_read_back_equal_in_every_format() {
 fn a_walk_through_all_formats_changes_no_byte() {
     let mut dice = Dice::new(12);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
-        let walked = ENDINGS.into_iter().fold(set.clone(), |set, ending| back(&set, ending));
+        let walked = ENDINGS
+            .into_iter()
+            .fold(set.clone(), |set, ending| back(&set, ending));
         for ending in ENDINGS {
             let format = TableFormat::of(ending)
                 .or_else(|_| TableFormat::of(&format!("a.{ending}")))
@@ -76,9 +80,13 @@ fn the_program_converts_a_grid_through_all_formats_to_the_same_bytes() {
             }
             from = to;
         }
-        let run = girderway(folder.path(), &["splines", "grid.json", "--form", form, "-o", "direct.adm"]);
+        let run = girderway(
+            folder.path(),
+            &["splines", "grid.json", "--form", form, "-o", "direct.adm"],
+        );
         assert_eq!(run.status.code(), Some(0), "{}", told(&run));
-        let [direct, walked] = ["direct.adm", "bridge_flex.adm"].map(|name| bytes(&folder.path().join(name)));
+        let [direct, walked] =
+            ["direct.adm", "bridge_flex.adm"].map(|name| bytes(&folder.path().join(name)));
         assert_eq!(direct, walked, "{form}");
     }
 }
@@ -97,7 +105,14 @@ fn rails_and_names_of_any_letters_are_kept_where_a_format_has_room() {
     }
     let names: Vec<String> = set.tables.iter().map(|table| table.name.clone()).collect();
     let found = back(&set, "csv");
-    assert_eq!(found.tables.iter().map(|table| table.name.clone()).collect::<Vec<_>>(), names);
+    assert_eq!(
+        found
+            .tables
+            .iter()
+            .map(|table| table.name.clone())
+            .collect::<Vec<_>>(),
+        names
+    );
     for ending in ["adm", "cmd"] {
         assert_eq!(bits(&back(&set, ending)), bits(&set));
     }
@@ -117,17 +132,25 @@ fn a_check_finds_the_same_in_every_format() {
     let mut first: Option<String> = None;
     for ending in ENDINGS {
         let name = format!("bridge.{ending}");
-        for arguments in
-            [&["splines", "grid.json", "-o", &name][..], &["splines", &name, "--check", "--json"]]
-        {
+        for arguments in [
+            &["splines", "grid.json", "-o", &name][..],
+            &["splines", &name, "--check", "--json"],
+        ] {
             let run = girderway(folder.path(), arguments);
             assert_eq!(run.status.code(), Some(0), "{}", told(&run));
             if arguments.contains(&"--check") {
                 let found: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
                 let tables = found["tables"].as_array().expect("a list");
                 assert_eq!(tables.len(), 6);
-                let symmetry: String = tables.iter().map(|table| table["readings"].to_string()).collect();
-                assert_eq!(first.get_or_insert_with(|| symmetry.clone()), &symmetry, "{ending}");
+                let symmetry: String = tables
+                    .iter()
+                    .map(|table| table["readings"].to_string())
+                    .collect();
+                assert_eq!(
+                    first.get_or_insert_with(|| symmetry.clone()),
+                    &symmetry,
+                    "{ending}"
+                );
             }
         }
     }

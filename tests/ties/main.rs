@@ -1,6 +1,9 @@
 //! Rails on sprung ties against closed forms and published track numbers: 136RE rail, units in, lbf and s.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 use std::sync::Arc;
 
@@ -19,12 +22,25 @@ use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
 const E: f64 = 30e6;
 const I: f64 = 94.9;
-const UNITS: Units = Units { length: Length::Inch, force: Force::Pound };
+const UNITS: Units = Units {
+    length: Length::Inch,
+    force: Force::Pound,
+};
 
 /// Ties that are, on the average, a bed of the modulus `u`.
 fn ties(spacing: f64, u: f64) -> Ties {
-    let rail = CrossSection { e: E, iz: I, ..CrossSection::default() };
-    Ties { spacing, k: u * spacing, rail, elements: 1, ..Ties::default() }
+    let rail = CrossSection {
+        e: E,
+        iz: I,
+        ..CrossSection::default()
+    };
+    Ties {
+        spacing,
+        k: u * spacing,
+        rail,
+        elements: 1,
+        ..Ties::default()
+    }
 }
 
 fn influence(surface: &ExactSurface, probes: &[Probe]) -> DMatrix<f64> {
@@ -35,16 +51,26 @@ fn influence(surface: &ExactSurface, probes: &[Probe]) -> DMatrix<f64> {
 
 /// G(x, x), vertical, of the first rail.
 fn give(spec: &Spec, places: &[f64]) -> Vec<f64> {
-    let surface = solve(spec).expect("it stands").surface.expect("it is small");
+    let surface = solve(spec)
+        .expect("it stands")
+        .surface
+        .expect("it is small");
     let at = |x: f64| {
-        let probe = Probe { rail: 0, x, axis: Axis::Vertical };
+        let probe = Probe {
+            rail: 0,
+            x,
+            axis: Axis::Vertical,
+        };
         influence(&surface, &[probe])[(0, 0)]
     };
     places.iter().map(|&x| at(x)).collect()
 }
 
 fn close(what: &str, found: f64, wanted: f64, tolerance: f64) {
-    assert!((found / wanted - 1.0).abs() < tolerance, "{what}: {found}, wanted {wanted}");
+    assert!(
+        (found / wanted - 1.0).abs() < tolerance,
+        "{what}: {found}, wanted {wanted}"
+    );
 }
 
 /// External: beam on discrete springs 24 in apart, solved by transfer matrices: over a tie, at a quarter of the bay, in
@@ -54,12 +80,20 @@ fn discrete_ties_meet_the_published_give_and_modulation() {
     let cases = [
         (
             3000.0,
-            [3.773_161_008_044_098e-6, 3.777_522_958_263_273_4e-6, 3.780_995_964_835_813e-6],
+            [
+                3.773_161_008_044_098e-6,
+                3.777_522_958_263_273_4e-6,
+                3.780_995_964_835_813e-6,
+            ],
             0.002_074_343_125_207_224,
         ),
         (
             20000.0,
-            [9.049_112_594_210_274e-7, 9.129_680_331_731_793e-7, 9.195_378_991_848_971e-7],
+            [
+                9.049_112_594_210_274e-7,
+                9.129_680_331_731_793e-7,
+                9.195_378_991_848_971e-7,
+            ],
             0.016_034_033_828_649_95,
         ),
     ];
@@ -69,10 +103,16 @@ fn discrete_ties_meet_the_published_give_and_modulation() {
         let middle = length / 2.0;
         let spec = on_ground("track", UNITS, &ties(24.0, u), [0.0, length]).expect("a track");
         let found = give(&spec, &[middle, middle + 6.0, middle + 12.0]);
-        for ((place, found), wanted) in ["tie", "quarter", "middle"].iter().zip(&found).zip(wanted) {
+        for ((place, found), wanted) in ["tie", "quarter", "middle"].iter().zip(&found).zip(wanted)
+        {
             close(&format!("u {u}, {place}"), *found, wanted, 1e-9);
         }
-        close("modulation", 2.0 * (found[2] - found[0]) / (found[2] + found[0]), modulation, 1e-9);
+        close(
+            "modulation",
+            2.0 * (found[2] - found[0]) / (found[2] + found[0]),
+            modulation,
+            1e-9,
+        );
     }
 }
 
@@ -90,14 +130,36 @@ fn close_ties_come_to_a_bed_of_springs() {
         errors.push((deflection / 0.113_276_143_084_753_69 - 1.0).abs());
     }
     println!("errors {errors:?}");
-    assert!(errors[2] < 1e-5 && errors[0] / errors[1] > 12.0 && errors[1] / errors[2] > 12.0, "{errors:?}");
+    assert!(
+        errors[2] < 1e-5 && errors[0] / errors[1] > 12.0 && errors[1] / errors[2] > 12.0,
+        "{errors:?}"
+    );
     // External: the bed's deflection 24 in away, and where it first rises, 3 pi / (4 beta) away.
     let spec = on_ground("track", UNITS, &ties(6.0, u), [0.0, 1440.0]).expect("a track");
-    let surface = solve(&spec).expect("it stands").surface.expect("it is small");
-    let at = |x| Probe { rail: 0, x, axis: Axis::Vertical };
-    let found = influence(&surface, &[at(720.0), at(744.0), at(720.0 + 104.002_238_513_251_21)]);
-    close("24 in away", found[(0, 1)], 3.010_143_301_622_467_6e-6, 1e-4);
-    assert!(found[(0, 2)].abs() < 1e-4 * found[(0, 0)], "{}", found[(0, 2)]);
+    let surface = solve(&spec)
+        .expect("it stands")
+        .surface
+        .expect("it is small");
+    let at = |x| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
+    let found = influence(
+        &surface,
+        &[at(720.0), at(744.0), at(720.0 + 104.002_238_513_251_21)],
+    );
+    close(
+        "24 in away",
+        found[(0, 1)],
+        3.010_143_301_622_467_6e-6,
+        1e-4,
+    );
+    assert!(
+        found[(0, 2)].abs() < 1e-4 * found[(0, 0)],
+        "{}",
+        found[(0, 2)]
+    );
 }
 
 /// Analytic: a rail on two ties is statically determinate: levers of the ties times the give of ties and girder, and
@@ -129,12 +191,22 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
         preload: None,
     };
     let (first, spacing) = (100.0, 420.0);
-    let mut given = Ties { first: Some(first), k: 5e4, ..ties(spacing, 1.0) };
+    let mut given = Ties {
+        first: Some(first),
+        k: 5e4,
+        ..ties(spacing, 1.0)
+    };
     given.lateral_k = Some(2e4);
     given.rail.iy = 14.0;
     let spec = on_structure(&bare, &given).expect("two ties");
-    let own = solve(&bare).expect("it stands").surface.expect("it is small");
-    let both = solve(&spec).expect("it stands").surface.expect("it is small");
+    let own = solve(&bare)
+        .expect("it stands")
+        .surface
+        .expect("it is small");
+    let both = solve(&spec)
+        .expect("it stands")
+        .surface
+        .expect("it is small");
     for (axis, k, i) in [(Axis::Vertical, 5e4, I), (Axis::Lateral, 2e4, 14.0)] {
         let at = |x: f64| Probe { rail: 0, x, axis };
         let feet = influence(&own, &[at(first), at(first + spacing)]);
@@ -196,11 +268,22 @@ const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "in",
 fn auto_on_ties_says_which_rung_and_why() {
     let choice = |outcome: &CaseResult| outcome.choices.first().expect("it chose").clone();
     let ground = choice(&on_ties(""));
-    assert_eq!((ground.fidelity, ground.reason), (Fidelity::Influence, Reason::NoMass), "{ground:?}");
+    assert_eq!(
+        (ground.fidelity, ground.reason),
+        (Fidelity::Influence, Reason::NoMass),
+        "{ground:?}"
+    );
     let girder = choice(&on_ties(r#""spec": "girder.json", "#));
     println!("{ground:?}\n{girder:?}");
-    assert_eq!((girder.fidelity, girder.reason), (Fidelity::Influence, Reason::Sufficient), "{girder:?}");
-    assert!(girder.estimate.is_some_and(|estimate| estimate < 1e-2), "{girder:?}");
+    assert_eq!(
+        (girder.fidelity, girder.reason),
+        (Fidelity::Influence, Reason::Sufficient),
+        "{girder:?}"
+    );
+    assert!(
+        girder.estimate.is_some_and(|estimate| estimate < 1e-2),
+        "{girder:?}"
+    );
 }
 
 /// The largest and smallest amplification of a load of 30,000 lb while it runs at `theta` of the critical speed.
@@ -223,10 +306,15 @@ fn amplification(theta: f64, spacing: f64, length: f64) -> [f64; 2] {
     );
     let outcomes = run(&text, "{}");
     let record = &outcomes[0].columns;
-    let held =
-        record.values("time").iter().zip(record.values("load.deflection")).filter(|(t, _)| **t >= ramp);
+    let held = record
+        .values("time")
+        .iter()
+        .zip(record.values("load.deflection"))
+        .filter(|(t, _)| **t >= ramp);
     let own = held.map(|(_, deflection)| (deflection - 3e4 / 1e9) / 0.113_276_143_084_753_69);
-    own.fold([f64::INFINITY, 0.0], |[least, most], value| [least.min(value), most.max(value)])
+    own.fold([f64::INFINITY, 0.0], |[least, most], value| {
+        [least.min(value), most.max(value)]
+    })
 }
 
 /// Analytic: 1/sqrt(1 - theta^2) of a load that moves steadily along a beam on a bed of springs (Timoshenko 1926;
@@ -238,7 +326,10 @@ fn moving_load_meets_the_steady_amplification() {
     let [least, most] = amplification(0.1, 9.0, 2700.0);
     println!("{least} to {most} for {wanted}");
     // what the start leaves of waves, and the ripple of ties 9 in apart, swing about the mean
-    assert!((0.5 * (least + most) / wanted - 1.0).abs() < 1e-4 && most - least < 5e-4, "{least} to {most}");
+    assert!(
+        (0.5 * (least + most) / wanted - 1.0).abs() < 1e-4 && most - least < 5e-4,
+        "{least} to {most}"
+    );
 }
 
 /// Identity: a stiff rail on three ties with dampers is one mass on one spring, damped by c/(2 sqrt(k m)) of critical;
@@ -265,11 +356,22 @@ fn dampers_of_ties_under_a_stiff_rail_are_a_share_of_critical() {
     let outcomes = run(&scene, girder);
     let apart = |index: usize| {
         let [own, other] = [0, index].map(|k| outcomes[k].columns.values("load.deflection"));
-        own.iter().zip(other).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
+        own.iter()
+            .zip(other)
+            .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
     };
-    println!("share {:e}, girder {:e}, undamped {:e}", apart(1), apart(2), apart(3));
+    println!(
+        "share {:e}, girder {:e}, undamped {:e}",
+        apart(1),
+        apart(2),
+        apart(3)
+    );
     assert!(apart(1) < 1e-5 && apart(2) < 1e-5 && apart(3) > 1e-2);
     for outcome in &outcomes {
-        assert!(outcome.run.audit.residual() < 1e-6, "energy of {}", outcome.label);
+        assert!(
+            outcome.run.audit.residual() < 1e-6,
+            "energy of {}",
+            outcome.label
+        );
     }
 }

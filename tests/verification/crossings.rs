@@ -27,7 +27,10 @@ const G: f64 = 9.81;
 
 /// The girder without mass, exact, or with the modes of a mesh of `elements`.
 pub fn foundation(text: &str, elements: Option<usize>) -> Foundation {
-    let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+    let source = Source {
+        name: "spec.json".to_owned(),
+        text: text.to_owned(),
+    };
     let solved = solve(&Spec::read(&source, None).expect("a girder")).expect("it stands");
     match elements {
         None => Foundation::massless(Box::new(solved.surface.expect("it is small")), 1),
@@ -36,16 +39,28 @@ pub fn foundation(text: &str, elements: Option<usize>) -> Foundation {
 }
 
 fn run(scene: &Scene, foundation: Foundation) -> Run {
-    let run = sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    assert!(run.audit.residual() < 1e-6, "energy to {:e}", run.audit.residual());
+    assert!(
+        run.audit.residual() < 1e-6,
+        "energy to {:e}",
+        run.audit.residual()
+    );
     run
 }
 
 fn gauged(mut scene: Scene, x: f64, samples: f64, accuracy: f64) -> Scene {
     scene.output_dt = scene.end / samples;
     scene.accuracy = accuracy;
-    scene.gauges = vec![Gauge { structure: 0, probe: Probe { rail: 0, x, axis: Axis::Vertical } }];
+    scene.gauges = vec![Gauge {
+        structure: 0,
+        probe: Probe {
+            rail: 0,
+            x,
+            axis: Axis::Vertical,
+        },
+    }];
     scene
 }
 
@@ -63,16 +78,21 @@ fn bridge() -> Scene {
 }
 
 fn extremes(values: &[f64]) -> [f64; 2] {
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| [least.min(*v), most.max(*v)])
+    values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| {
+            [least.min(*v), most.max(*v)]
+        })
 }
 
 /// External, converged: another program's exact influence function (dampers on the wheels' own velocity), its finite
 /// elements with Newmark steps (dampers on the rate of the gap). Peaks of the bogie and of midspan, ft.
 #[test]
 fn bogie_over_the_girder_without_and_with_mass_meets_the_references() {
-    for (speed, end, light, heavy, middle) in
-        [(5.0, 12.0, 0.547_09, 0.547_17, 0.5247), (100.0, 0.55, 0.908_68, 0.912_60, 1.0777)]
-    {
+    for (speed, end, light, heavy, middle) in [
+        (5.0, 12.0, 0.547_09, 0.547_17, 0.5247),
+        (100.0, 0.55, 0.908_68, 0.912_60, 1.0777),
+    ] {
         let peaks = |damper, elements| {
             let scene = gauged(bogie(speed, end, damper), 30.0, 1000.0, 1e-5);
             let run = run(&scene, foundation(PAPER, elements));
@@ -81,8 +101,14 @@ fn bogie_over_the_girder_without_and_with_mass_meets_the_references() {
         };
         let (massless, beam) = (peaks(Damper::Ground, None), peaks(Damper::Rail, Some(8)));
         println!("{speed} ft/s: massless {massless:?}, beam {beam:?}");
-        assert!((massless[0] - light).abs() < 1e-5, "{massless:?} for {light}");
-        assert!((beam[0] - heavy).abs() < 1e-5 && (beam[1] - middle).abs() < 1e-4, "{beam:?}");
+        assert!(
+            (massless[0] - light).abs() < 1e-5,
+            "{massless:?} for {light}"
+        );
+        assert!(
+            (beam[0] - heavy).abs() < 1e-5 && (beam[1] - middle).abs() < 1e-4,
+            "{beam:?}"
+        );
     }
 }
 
@@ -92,15 +118,22 @@ fn bogie_over_the_girder_without_and_with_mass_meets_the_references() {
 fn sprung_mass_over_yang_and_yaus_bridge_meets_the_reference() {
     let scene = bridge();
     let run = run(&scene, foundation(BRIDGE, Some(32)));
-    let [time, middle, force, rate] =
-        [Channel::Time, Channel::Gauge(0), Channel::Vertical(0), Channel::Speed(0, BodyDof::Y)]
-            .map(|channel| run.history.column(channel));
-    let least = (0..middle.len()).min_by(|&i, &j| middle[i].total_cmp(&middle[j])).unwrap_or(0);
+    let [time, middle, force, rate] = [
+        Channel::Time,
+        Channel::Gauge(0),
+        Channel::Vertical(0),
+        Channel::Speed(0, BodyDof::Y),
+    ]
+    .map(|channel| run.history.column(channel));
+    let least = (0..middle.len())
+        .min_by(|&i, &j| middle[i].total_cmp(&middle[j]))
+        .unwrap_or(0);
     let force = extremes(&force);
     // downwards; forces begin anew at no place of the crossing
     let turns: Vec<f64> = (2..rate.len() - 2)
         .map(|i| {
-            -(8.0 * (rate[i + 1] - rate[i - 1]) - (rate[i + 2] - rate[i - 2])) / (12.0 * scene.output_dt)
+            -(8.0 * (rate[i + 1] - rate[i - 1]) - (rate[i + 2] - rate[i - 2]))
+                / (12.0 * scene.output_dt)
         })
         .collect();
     let acceleration = extremes(&turns);
@@ -108,8 +141,13 @@ fn sprung_mass_over_yang_and_yaus_bridge_meets_the_reference() {
         "midspan {} m at {} s, force {force:?} N, acceleration {acceleration:?} m/s2",
         middle[least], time[least]
     );
-    assert!((-middle[least] / 2.407_316e-3 - 1.0).abs() < 1e-5 && (time[least] - 0.3710).abs() < 2e-4);
-    assert!((force[0] - 55_590.0).abs() < 0.1 && (force[1] - 57_258.3).abs() < 0.1, "{force:?}");
+    assert!(
+        (-middle[least] / 2.407_316e-3 - 1.0).abs() < 1e-5 && (time[least] - 0.3710).abs() < 2e-4
+    );
+    assert!(
+        (force[0] - 55_590.0).abs() < 0.1 && (force[1] - 57_258.3).abs() < 0.1,
+        "{force:?}"
+    );
     assert!((acceleration[0] + 0.147_97).abs() < 1e-5 && (acceleration[1] - 0.142_18).abs() < 1e-5);
 }
 
@@ -145,9 +183,16 @@ fn sprung_mass_over_the_bridge_without_mass_meets_its_own_equation() {
     assert_eq!(y.len(), wanted.len());
     let (mut error, mut peaks) = ([0.0_f64; 2], [0.0_f64; 2]);
     for ((y, vertical), (z, force)) in y.iter().zip(&vertical).zip(&wanted) {
-        error = [error[0].max((y + z).abs()), error[1].max((vertical - force).abs())];
+        error = [
+            error[0].max((y + z).abs()),
+            error[1].max((vertical - force).abs()),
+        ];
         peaks = [peaks[0].max(*z), peaks[1].max(*force)];
     }
-    println!("peaks {peaks:?}, errors {:.1e} {:.1e} of them", error[0] / peaks[0], error[1] / peaks[1]);
+    println!(
+        "peaks {peaks:?}, errors {:.1e} {:.1e} of them",
+        error[0] / peaks[0],
+        error[1] / peaks[1]
+    );
     assert!(error[0] < 1e-6 * peaks[0] && error[1] < 1e-6 * peaks[1]);
 }

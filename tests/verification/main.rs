@@ -30,7 +30,8 @@ fn crossing(foundation: Foundation) -> Vec<f64> {
     let mut scene = bogie(5.0, 12.0, Damper::Rail);
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 0.08;
-    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("the bogie stands");
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()))
+        .expect("the bogie stands");
     run.history.column(Channel::Displacement(0, BodyDof::Y))
 }
 
@@ -41,8 +42,14 @@ fn parts_converge_with_the_square_of_their_number() {
     let wanted = crossing(Foundation::massless(Box::new(exact.surface), 1));
     let mut errors = Vec::new();
     for count in [6, 12, 24, 48, 96, 192] {
-        let found = crossing(rigid_parts_foundation(&girder(), count, None).expect("parts of a girder"));
-        errors.push(found.iter().zip(&wanted).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())));
+        let found =
+            crossing(rigid_parts_foundation(&girder(), count, None).expect("parts of a girder"));
+        errors.push(
+            found
+                .iter()
+                .zip(&wanted)
+                .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())),
+        );
     }
     // Least squares of log2(error) over log2(count).
     let n = errors.len() as f64;
@@ -53,5 +60,8 @@ fn parts_converge_with_the_square_of_their_number() {
     let covariance: f64 = x.iter().zip(&y).map(|(x, y)| (x - mx) * (y - my)).sum();
     let order = -covariance / x.iter().map(|x| (x - mx) * (x - mx)).sum::<f64>();
     println!("errors {errors:?} ft, order {order:.2}");
-    assert!((order - 2.0).abs() < 0.15, "order {order}, errors {errors:?}");
+    assert!(
+        (order - 2.0).abs() < 0.15,
+        "order {order}, errors {errors:?}"
+    );
 }

@@ -35,7 +35,9 @@ fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> Ca
             solution: Arc::new(solve(spec).expect("it stands")),
         })
         .collect();
-    simulate(&document, &known, None, &|_| ()).expect("runs").remove(0)
+    simulate(&document, &known, None, &|_| ())
+        .expect("runs")
+        .remove(0)
 }
 
 fn column(outcome: &CaseResult, name: &str) -> Vec<f64> {
@@ -60,14 +62,21 @@ fn sinusoid_and_its_survey_drive_a_cart_as_the_closed_form_says() {
     let rows: String = (0..=2700)
         .map(|i| {
             let x = f64::from(i) / 100.0;
-            format!("{};{}\n", 13.0 + x, 2.0 * (std::f64::consts::TAU * x / length).sin())
+            format!(
+                "{};{}\n",
+                13.0 + x,
+                2.0 * (std::f64::consts::TAU * x / length).sin()
+            )
         })
         .collect();
     let survey = format!("# levels in mm\nplace;level\n{rows}");
     let file = r#"{"kind": "profile", "file": "survey.csv", "columns": ["place", "level"], "scale": 0.001}"#;
     for (given, tolerance) in [(wave, 1e-6), (file, 3e-4)] {
         let outcome = carried(given, &survey);
-        let (t, y) = (column(&outcome, "time"), column(&outcome, "cart.deflection"));
+        let (t, y) = (
+            column(&outcome, "time"),
+            column(&outcome, "cart.deflection"),
+        );
         let mut worst = 0.0_f64;
         for (t, y) in t.iter().zip(&y) {
             let since = (t - 1.0).max(0.0);
@@ -86,14 +95,21 @@ fn y_rest() -> f64 {
 #[test]
 fn kinds_of_irregularities_are_sums_of_profiles() {
     let kinds = r#"{"kind": "step", "x": 15, "height": 0.001}, {"kind": "joint", "x": 20, "depth": 0.002, "length": 1}"#;
-    let rows =
-        r#"{"kind": "profile", "rows": [[15, 0], [15, 0.001], [19.5, 0.001], [20, -0.001], [20.5, 0.001]]}"#;
+    let rows = r#"{"kind": "profile", "rows": [[15, 0], [15, 0.001], [19.5, 0.001], [20, -0.001], [20.5, 0.001]]}"#;
     let [kinds, rows] = [kinds, rows].map(|given| column(&carried(given, ""), "cart.deflection"));
-    let largest = kinds.iter().zip(&rows).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+    let largest = kinds
+        .iter()
+        .zip(&rows)
+        .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
     assert!(largest < 1e-12, "{largest:e}");
     // A dip leaves nothing behind but the swing that it gave.
-    let dip = carried(r#"{"kind": "dip", "x": 20, "depth": 0.002, "length": 6}"#, "");
-    let deepest = column(&dip, "cart.deflection").iter().fold(0.0_f64, |max, y| max.max(*y));
+    let dip = carried(
+        r#"{"kind": "dip", "x": 20, "depth": 0.002, "length": 6}"#,
+        "",
+    );
+    let deepest = column(&dip, "cart.deflection")
+        .iter()
+        .fold(0.0_f64, |max, y| max.max(*y));
     assert!((deepest - y_rest()) > 0.0019 && (deepest - y_rest()) < 0.0022);
 }
 

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use sim::{
-    Channel, Damper, Dynamics, Extent, Foundation, MotionKind, NormalLaw, Profile, Scene, Shapes, Structure,
+    Channel, Damper, Dynamics, Extent, Foundation, MotionKind, NormalLaw, Profile, Scene, Shapes,
+    Structure,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -38,7 +39,11 @@ fn closed_form() -> Vec<[f64; 3]> {
         let upper = half + (half * half - product).sqrt();
         [product / upper, upper].map(|square| {
             let ratio = (p - m * square) / c;
-            [k, square.sqrt(), (2.0 / (SPAN * (m + j * ratio * ratio))).sqrt()]
+            [
+                k,
+                square.sqrt(),
+                (2.0 / (SPAN * (m + j * ratio * ratio))).sqrt(),
+            ]
         })
     };
     (1..=HARMONICS).flat_map(of_harmonic).collect()
@@ -104,10 +109,16 @@ fn reference() -> Foundation {
     Foundation {
         compliance: Some(Box::new(Rest(modes.clone()))),
         structure: Some(Structure {
-            dynamics: Dynamics::Modes { ratio: vec![0.0; omega.len()], omega },
+            dynamics: Dynamics::Modes {
+                ratio: vec![0.0; omega.len()],
+                omega,
+            },
             shapes: Box::new(Sines(modes)),
         }),
-        rails: vec![Extent { range: Some([0.0, SPAN]), breaks: vec![0.0, SPAN] }],
+        rails: vec![Extent {
+            range: Some([0.0, SPAN]),
+            breaks: vec![0.0, SPAN],
+        }],
         ..Foundation::default()
     }
 }
@@ -117,11 +128,15 @@ fn crossing() -> Scene {
     let mut scene = bogie(100.0, 0.45, Damper::Rail);
     // From rest, so that no shock sets out along the beam.
     let speed = [[0.0, 0.0], [0.1, 100.0]];
-    scene.bodies[0].motion = Some(Profile::new(MotionKind::Speed, &speed, 0.0, 10.0).expect("a valid table"));
+    scene.bodies[0].motion =
+        Some(Profile::new(MotionKind::Speed, &speed, 0.0, 10.0).expect("a valid table"));
     scene.bodies[0].mass = 100.0;
     scene.bodies[0].inertia = [0.0; 3];
     scene.bodies[0].free[5] = false;
-    scene.wheels[0].normal = NormalLaw { bilateral: true, ..NormalLaw::linear(2e6, 2e4, Damper::Rail) };
+    scene.wheels[0].normal = NormalLaw {
+        bilateral: true,
+        ..NormalLaw::linear(2e6, 2e4, Damper::Rail)
+    };
     scene.contacts.truncate(1);
     scene.contacts[0].offsets = vec![0.0];
     scene.gauges.clear();
@@ -131,8 +146,10 @@ fn crossing() -> Scene {
 }
 
 fn wheel_force(foundation: Foundation) -> Vec<f64> {
-    let run =
-        sim::run(&crossing(), &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run = sim::run(&crossing(), &[foundation], &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene");
     assert!(run.status.is_complete());
     run.history.column(Channel::Vertical(0))
 }
@@ -151,23 +168,38 @@ fn wheel_forces_on_a_sheared_girder_converge_with_the_mesh() {
     });
     println!("errors by the weight: {errors:?}");
     let orders = [0, 1, 2].map(|k| (errors[k] / errors[k + 1]).log2());
-    assert!(errors[0] < 1e-4 && orders.iter().all(|order| *order > 0.9), "{errors:?}, orders {orders:?}");
+    assert!(
+        errors[0] < 1e-4 && orders.iter().all(|order| *order > 0.9),
+        "{errors:?}, orders {orders:?}"
+    );
 }
 
 /// Values and slopes, also on a node; and what the modes leave is positive semi-definite.
 #[test]
 fn static_compliance_of_the_mesh_is_that_of_the_beam() {
     // In elements, and on the node at midspan.
-    let probes = [7.0, 15.0, 30.0, 31.0, 52.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
+    let probes = [7.0, 15.0, 30.0, 31.0, 52.0].map(|x| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    });
     let total = |foundation: &Foundation| {
         let mut out = Influence::zeros(probes.len());
-        let compliance = foundation.compliance.as_ref().expect("residual flexibility");
+        let compliance = foundation
+            .compliance
+            .as_ref()
+            .expect("residual flexibility");
         compliance.fill(&probes, &mut out).expect("on the rail");
         let structure = foundation.structure.as_ref().expect("modes");
-        let Dynamics::Modes { omega, .. } = &structure.dynamics else { panic!("modes") };
+        let Dynamics::Modes { omega, .. } = &structure.dynamics else {
+            panic!("modes")
+        };
         let rows = probes.map(|probe| {
             let (mut value, mut slope) = (vec![0.0; omega.len()], vec![0.0; omega.len()]);
-            structure.shapes.row(probe, &mut value, &mut slope).expect("on the rail");
+            structure
+                .shapes
+                .row(probe, &mut value, &mut slope)
+                .expect("on the rail");
             [value, slope]
         });
         for i in 0..probes.len() {
@@ -183,10 +215,20 @@ fn static_compliance_of_the_mesh_is_that_of_the_beam() {
         [out.value, out.slope]
     };
     let residual_of = |foundation: &Foundation| {
-        let places: Vec<Probe> =
-            (1..60).map(|x| Probe { rail: 0, x: f64::from(x), axis: Axis::Vertical }).collect();
+        let places: Vec<Probe> = (1..60)
+            .map(|x| Probe {
+                rail: 0,
+                x: f64::from(x),
+                axis: Axis::Vertical,
+            })
+            .collect();
         let mut out = Influence::zeros(places.len());
-        foundation.compliance.as_ref().expect("given").fill(&places, &mut out).expect("on the rail");
+        foundation
+            .compliance
+            .as_ref()
+            .expect("given")
+            .fill(&places, &mut out)
+            .expect("on the rail");
         out.value.symmetric_eigenvalues().min()
     };
     let exact = total(&reference());
@@ -195,5 +237,8 @@ fn static_compliance_of_the_mesh_is_that_of_the_beam() {
         let error = (found - exact).amax() / exact.amax();
         assert!(error < 1e-9, "{error:e}");
     }
-    assert!(residual_of(&mesh) > -1e-12 * exact[0].amax(), "the residual flexibility is not negative");
+    assert!(
+        residual_of(&mesh) > -1e-12 * exact[0].amax(),
+        "the residual flexibility is not negative"
+    );
 }

@@ -63,7 +63,9 @@ pub enum Error {
         statement: StatementId,
     },
     /// Newton's method finds no solution of an algebraic loop from the initial values.
-    #[error("{statement}: no solution of the loop that it belongs to, after {iterations} iterations")]
+    #[error(
+        "{statement}: no solution of the loop that it belongs to, after {iterations} iterations"
+    )]
     Loop {
         /// The statement of the loop that moved most in the last iteration.
         statement: StatementId,

@@ -113,7 +113,10 @@ impl StatementId {
     /// The statement `keyword/id`, its keyword given as a full word in capitals.
     #[must_use]
     pub fn new(keyword: &str, id: u32) -> StatementId {
-        StatementId { keyword: Keyword::from(keyword), id }
+        StatementId {
+            keyword: Keyword::from(keyword),
+            id,
+        }
     }
 }
 
@@ -128,11 +131,19 @@ impl fmt::Display for StatementId {
 /// A full name takes precedence over an abbreviation of a longer one. An abbreviation of several words names
 /// none.
 pub(crate) fn lookup<'a, T: Clone>(words: &'a [(T, &'a str)], text: &str) -> Option<T> {
-    if let Some((item, _)) = words.iter().find(|(_, word)| word.eq_ignore_ascii_case(text)) {
+    if let Some((item, _)) = words
+        .iter()
+        .find(|(_, word)| word.eq_ignore_ascii_case(text))
+    {
         return Some(item.clone());
     }
-    let begins = |word: &str| word.get(..text.len()).is_some_and(|start| start.eq_ignore_ascii_case(text));
-    let mut found = words.iter().filter(|(_, word)| !text.is_empty() && begins(word));
+    let begins = |word: &str| {
+        word.get(..text.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(text))
+    };
+    let mut found = words
+        .iter()
+        .filter(|(_, word)| !text.is_empty() && begins(word));
     match (found.next(), found.next()) {
         (Some((item, _)), None) => Some(item.clone()),
         _ => None,

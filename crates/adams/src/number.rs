@@ -33,7 +33,13 @@ pub fn write(value: f64) -> String {
 /// ```
 #[must_use]
 pub fn read(text: &str) -> Option<f64> {
-    let plain = text.bytes().all(|c| c.is_ascii_digit() || b"+-.eEdD".contains(&c));
-    let value: f64 = text.replace(['d', 'D'], "E").parse().ok().filter(|_| plain)?;
+    let plain = text
+        .bytes()
+        .all(|c| c.is_ascii_digit() || b"+-.eEdD".contains(&c));
+    let value: f64 = text
+        .replace(['d', 'D'], "E")
+        .parse()
+        .ok()
+        .filter(|_| plain)?;
     value.is_finite().then_some(value)
 }

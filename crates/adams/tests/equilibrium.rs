@@ -9,11 +9,16 @@ fn model(text: &str) -> AdamsModel {
 
 fn at_rest(text: &str, time: f64) -> Equilibrium {
     let model = model(text);
-    model.equilibrium(time, &model.initial()).unwrap_or_else(|error| panic!("{error}"))
+    model
+        .equilibrium(time, &model.initial())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn near(found: f64, expected: f64, within: f64) {
-    assert!((found - expected).abs() <= within, "{found} instead of {expected}");
+    assert!(
+        (found - expected).abs() <= within,
+        "{found} instead of {expected}"
+    );
 }
 
 /// The angle of a part about ground z.
@@ -61,11 +66,18 @@ fn body_above_its_stop_is_let_down_onto_it() {
                 SFORCE/1,TRANSLATIONAL,I=2,J=1,FUN=IMPACT(DM(2,1),VR(2,1),1,1E6,1.5,10,.1)\nACCGRAV/JGRAV=-10\nEND\n";
     let mut model = model(&text.replace("ORIENTATION", "PARALLEL_AXES"));
     let mut out = model.equilibrium(0.0, &model.initial());
-    assert!(matches!(out, Err(Error::Equilibrium { .. })), "axes are not parallel: {out:?}");
+    assert!(
+        matches!(out, Err(Error::Equilibrium { .. })),
+        "axes are not parallel: {out:?}"
+    );
     model = self::model(&text.replace("QG=0,7,0", "QG=0,7,0,REULER=0D,90D,0D"));
     out = model.equilibrium(0.0, &model.initial());
     let out = out.unwrap_or_else(|error| panic!("{error}"));
-    near(out.state.parts[&2].origin.y, 1.0 - 1e-3_f64.powf(1.0 / 1.5), 1e-12);
+    near(
+        out.state.parts[&2].origin.y,
+        1.0 - 1e-3_f64.powf(1.0 / 1.5),
+        1e-12,
+    );
 }
 
 /// A wheel with a stiff one-sided contact on a rail of compliance G(x) = 1e-3 x (4 - x), with force and deflection in
@@ -84,12 +96,22 @@ fn stiff_wheel_follows_a_rail_that_deflects_by_many_penetrations() {
              VFORCE/1,I=2,JFLOAT=9,RM=1,FX=0\\,FY=VARVAL(2)\\,FZ=0\nACCGRAV/JGRAV=-10\nEND\n"
         );
         let times: Vec<f64> = (0..=16).map(|i| 0.25 * f64::from(i)).collect();
-        let path = model(&text).quasi_static_path(&times).unwrap_or_else(|error| panic!("k = {k}: {error}"));
+        let path = model(&text)
+            .quasi_static_path(&times)
+            .unwrap_or_else(|error| panic!("k = {k}: {error}"));
         for one in &path {
             let x = one.state.time;
-            near(one.state.parts[&2].origin.y, -10.0 * (1e-3 * x * (4.0 - x) + 1.0 / k), 1e-13);
+            near(
+                one.state.parts[&2].origin.y,
+                -10.0 * (1e-3 * x * (4.0 - x) + 1.0 / k),
+                1e-13,
+            );
             near(one.solution.variables[&2], 10.0, 1e-8);
-            assert!(one.iterations < 40, "k = {k}, x = {x}: {} iterations", one.iterations);
+            assert!(
+                one.iterations < 40,
+                "k = {k}, x = {x}: {} iterations",
+                one.iterations
+            );
         }
     }
 }
@@ -102,8 +124,9 @@ fn motions_hold_angles_places_and_integrals_of_speeds() {
                 PART/3,MASS=1,CM=3,IP=1,1,1\nMARKER/3,PART=3,ZP=1,0,0\nJOINT/2,TRANSLATIONAL,I=3,J=5\n\
                 MOTION/2,TRANSLATIONAL,JOINT=2,VELOCITY,ICDISP=.5,FUN=STEP(TIME,0,0,2,3)\n\
                 ACCGRAV/JGRAV=-10\nREQUEST/1,F2=JOINT(1,0,3,1)\\,F3=MOTION(2,0,1)\nEND\n";
-    let path =
-        model(text).quasi_static_path(&[0.0, 0.5, 1.0, 2.0, 3.0]).unwrap_or_else(|error| panic!("{error}"));
+    let path = model(text)
+        .quasi_static_path(&[0.0, 0.5, 1.0, 2.0, 3.0])
+        .unwrap_or_else(|error| panic!("{error}"));
     for one in &path {
         let turned = 200_f64.to_radians() * one.state.time;
         let heading = heading(one, 2);
@@ -140,8 +163,14 @@ fn differential_equations_rest_where_their_rates_vanish() {
 fn force_and_mass_units_meet_in_the_weight() {
     for (units, weight) in [
         ("FORCE=POUND_FORCE,MASS=SLUG,LENGTH=FOOT,TIME=SECOND", 20.0),
-        ("FORCE=POUND_FORCE,MASS=POUND_MASS,LENGTH=FOOT,TIME=SECOND", 20.0 / 32.174_048_556_430_45),
-        ("FORCE=NEWTON,MASS=KILOGRAM,LENGTH=MILLIMETER,TIME=SECOND", 0.02),
+        (
+            "FORCE=POUND_FORCE,MASS=POUND_MASS,LENGTH=FOOT,TIME=SECOND",
+            20.0 / 32.174_048_556_430_45,
+        ),
+        (
+            "FORCE=NEWTON,MASS=KILOGRAM,LENGTH=MILLIMETER,TIME=SECOND",
+            0.02,
+        ),
         ("SYSTEM=MKS", 20.0),
     ] {
         let text = format!(
@@ -168,8 +197,9 @@ fn constraints_that_say_the_same_share_and_those_that_do_not_are_refused() {
 
 #[test]
 fn free_body_without_support_has_no_equilibrium() {
-    let model =
-        model("free\nPART/1,GROUND\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nACCGRAV/JGRAV=-1\nEND\n");
+    let model = model(
+        "free\nPART/1,GROUND\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nACCGRAV/JGRAV=-1\nEND\n",
+    );
     let error = model.equilibrium(0.0, &model.initial());
     assert!(
         matches!(error, Err(Error::Equilibrium { ref statement, .. }) if *statement == StatementId::new("PART", 2)),
@@ -180,7 +210,9 @@ fn free_body_without_support_has_no_equilibrium() {
 #[test]
 fn references_are_checked_by_statement() {
     let head = "refs\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nMARKER/9,PART=1,FLOATING\n";
-    let missing = |keyword: &str, id: u32| AdamsFault::Missing { statement: StatementId::new(keyword, id) };
+    let missing = |keyword: &str, id: u32| AdamsFault::Missing {
+        statement: StatementId::new(keyword, id),
+    };
     let lacks = |argument: &'static str| AdamsFault::MissingArgument { argument };
     for (tail, expected) in [
         ("MARKER/3,PART=7", missing("PART", 7)),
@@ -193,11 +225,19 @@ fn references_are_checked_by_statement() {
         ("VARIABLE/1,FUN=AKISPL(0,0,6)", missing("SPLINE", 6)),
         ("VARIABLE/1,FUN=VARVAL(2)", missing("VARIABLE", 2)),
         ("VARIABLE/1,FUN=GFORCE(3,0,1,1)", missing("GFORCE", 3)),
-        ("VARIABLE/1,FUN=USER(1,2)", AdamsFault::Unknown { name: "USER".to_owned() }),
+        (
+            "VARIABLE/1,FUN=USER(1,2)",
+            AdamsFault::Unknown {
+                name: "USER".to_owned(),
+            },
+        ),
         ("VARIABLE/1,FUN=STEP(TIME,0,0,1)", AdamsFault::Arguments),
         ("VARIABLE/1,FUN=DX(2.5,1)", AdamsFault::Id),
         ("VARIABLE/1", lacks("FUNCTION")),
-        ("JOINT/1,FIXED,I=2,J=1\nVARIABLE/1,FUN=JOINT(1,0,2,1)", AdamsFault::Reaction),
+        (
+            "JOINT/1,FIXED,I=2,J=1\nVARIABLE/1,FUN=JOINT(1,0,2,1)",
+            AdamsFault::Reaction,
+        ),
         ("GFORCE/1,I=2,JFLOAT=1,RM=1,FX=0", AdamsFault::Floating),
         ("GFORCE/1,I=2,JFLOAT=9,FX=0", lacks("RM")),
         ("CONTACT/1,IGEOM=1", AdamsFault::Unsupported),
@@ -205,9 +245,13 @@ fn references_are_checked_by_statement() {
             "SPLINE/6,X=0,1,2,3,Y=0,1,2,3,4,Y=1,1,2,3,4\nVARIABLE/1,FUN=AKISPL(0,0,6,1)",
             AdamsFault::Derivative,
         ),
-        ("MOTION/1,I=2,J=1,X,VELOCITY,FUN=DX(2,1)", AdamsFault::Unsupported),
+        (
+            "MOTION/1,I=2,J=1,X,VELOCITY,FUN=DX(2,1)",
+            AdamsFault::Unsupported,
+        ),
     ] {
-        let set = DataSet::read(&format!("{head}{tail}\nEND\n")).unwrap_or_else(|error| panic!("{error}"));
+        let set = DataSet::read(&format!("{head}{tail}\nEND\n"))
+            .unwrap_or_else(|error| panic!("{error}"));
         match AdamsModel::new(&set) {
             Err(Error::Statement { fault, .. } | Error::In { fault, .. }) => {
                 assert_eq!(*fault, expected, "{tail}")
@@ -219,7 +263,10 @@ fn references_are_checked_by_statement() {
 
 #[test]
 fn nothing_at_all_is_at_rest() {
-    for text in ["empty\nEND\n", "ground\nPART/1,GROUND\nMARKER/1,PART=1\nVARIABLE/1,FUN=DX(1)\nEND\n"] {
+    for text in [
+        "empty\nEND\n",
+        "ground\nPART/1,GROUND\nMARKER/1,PART=1\nVARIABLE/1,FUN=DX(1)\nEND\n",
+    ] {
         let out = at_rest(text, 0.0);
         assert!(out.state.parts.is_empty() && out.reactions.is_empty());
     }
@@ -237,10 +284,17 @@ fn damaged_listing_comes_to_rest_or_is_refused_without_panic() {
         let at = text.len() - 1 - below(text.len() - 500);
         text[at] = letters[below(letters.len())];
         let text: String = text.into_iter().collect();
-        let Ok(model) = DataSet::read(&text).and_then(|set| AdamsModel::new(&set)) else { continue };
+        let Ok(model) = DataSet::read(&text).and_then(|set| AdamsModel::new(&set)) else {
+            continue;
+        };
         if let Ok(out) = model.equilibrium(0.0, &model.initial()) {
             rested += 1;
-            assert!(out.state.parts.values().all(|pose| pose.origin.iter().all(|value| value.is_finite())));
+            assert!(
+                out.state
+                    .parts
+                    .values()
+                    .all(|pose| pose.origin.iter().all(|value| value.is_finite()))
+            );
         }
     }
     assert!(rested > 50, "{rested}");

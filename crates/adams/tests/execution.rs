@@ -10,8 +10,13 @@ fn model(text: &str) -> AdamsModel {
 
 fn solved(text: &str, time: f64) -> Solution {
     let model = model(text);
-    let state = ModelState { time, ..model.initial() };
-    model.solve(&state).unwrap_or_else(|error| panic!("{error}"))
+    let state = ModelState {
+        time,
+        ..model.initial()
+    };
+    model
+        .solve(&state)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A variable on a spring k over a compliance g, as a wheel on a girder: v = y + g k (1.25 - v).
@@ -29,7 +34,11 @@ fn newton_closes_the_loop_where_substitution_diverges() {
     // k g = 10.9: each substitution would multiply the error by this factor.
     let out = solved(&looped(1e8, 0.0, "-$K*(VARVAL(1)-1.25)"), 0.0);
     let exact = (1.2 + 10.9 * 1.25) / 11.9;
-    assert!((out.variables[&1] - exact).abs() < 4e-16 * exact, "{}", out.variables[&1]);
+    assert!(
+        (out.variables[&1] - exact).abs() < 4e-16 * exact,
+        "{}",
+        out.variables[&1]
+    );
     assert!(out.iterations <= 3, "{}", out.iterations);
     let mut substituted = exact + 1e-9;
     for _ in 0..5 {
@@ -38,10 +47,16 @@ fn newton_closes_the_loop_where_substitution_diverges() {
     assert!((substituted - exact).abs() > 1e-4);
     // A one-sided progressive law, starting from penetrations of 1.25 ft and from no contact.
     for start in [0.0, 1.25, 3.0] {
-        let out = solved(&looped(1e8, start, "IMPACT(VARVAL(1),VY(2,1),1.25,$K,1.1,1E5,.01)"), 0.0);
+        let out = solved(
+            &looped(1e8, start, "IMPACT(VARVAL(1),VY(2,1),1.25,$K,1.1,1E5,.01)"),
+            0.0,
+        );
         let gap = out.variables[&1];
         let force = 1e8 * (1.25 - gap).powf(1.1);
-        assert!((gap - 1.2 - 1.09e-7 * force).abs() < 1e-15, "{start}: {gap}");
+        assert!(
+            (gap - 1.2 - 1.09e-7 * force).abs() < 1e-15,
+            "{start}: {gap}"
+        );
         assert!((out.loads[&("GFORCE", 1)].force.y - force).abs() < 1e-8 * force);
     }
 }
@@ -55,7 +70,16 @@ fn loop_without_a_solution_is_refused_by_name() {
     );
     let text = looped(1e8, 0.0, "SQRT(-1-VARVAL(1)**2)");
     let error = model(&text).solve(&model(&text).initial());
-    assert!(matches!(error, Err(Error::In { statement: StatementId { id: 1, .. }, .. })), "{error:?}");
+    assert!(
+        matches!(
+            error,
+            Err(Error::In {
+                statement: StatementId { id: 1, .. },
+                ..
+            })
+        ),
+        "{error:?}"
+    );
 }
 
 #[test]
@@ -70,11 +94,23 @@ fn velocities_are_seen_in_the_fourth_marker() {
     let angle = 0.3;
     let rotation = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), angle).into_inner();
     let velocity = Vector3::new(1.0, 0.5, 0.0);
-    state.parts.insert(2, Pose::moving(Vector3::zeros(), rotation, velocity, Vector3::new(0.0, 0.0, 4.0)));
+    state.parts.insert(
+        2,
+        Pose::moving(
+            Vector3::zeros(),
+            rotation,
+            velocity,
+            Vector3::new(0.0, 0.0, 4.0),
+        ),
+    );
     let out = model.solve(&state).expect("velocities");
     let local = rotation.transpose() * -velocity;
     let close = |id: u32, value: f64| {
-        assert!((out.variables[&id] - value).abs() < 1e-14, "{id}: {}", out.variables[&id])
+        assert!(
+            (out.variables[&id] - value).abs() < 1e-14,
+            "{id}: {}",
+            out.variables[&id]
+        )
     };
     close(1, local.x);
     close(2, local.y);
@@ -107,7 +143,12 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
     let tables = include_str!("../../../examples/bogie/printed.adm");
     let mut set = DataSet::read(listing).unwrap_or_else(|error| panic!("{error}"));
     let tables = DataSet::read(tables).unwrap_or_else(|error| panic!("{error}"));
-    set.statements.extend(tables.statements.into_iter().filter(|one| one.keyword == "SPLINE"));
+    set.statements.extend(
+        tables
+            .statements
+            .into_iter()
+            .filter(|one| one.keyword == "SPLINE"),
+    );
     let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
     let mut state = model.initial();
     let drop = 0.5;
@@ -115,18 +156,30 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
         let pose = state.parts.get_mut(&part).expect("a part");
         pose.origin = Vector3::new(0.0, 1.25 - drop, x);
     }
-    let out = model.solve(&state).unwrap_or_else(|error| panic!("{error}"));
+    let out = model
+        .solve(&state)
+        .unwrap_or_else(|error| panic!("{error}"));
     // The listing has one compliance for both: g(x, x) of the wheel whose force it is, here equal by
     // symmetry.
-    let g = model.evaluate(&state, &out, "AKISPL(DZ(216,46),DZ(216,46),6)").expect("a value");
+    let g = model
+        .evaluate(&state, &out, "AKISPL(DZ(216,46),DZ(216,46),6)")
+        .expect("a value");
     let force = drop / (1e-8 + 2.0 * g);
     for id in [17, 18] {
         let found = out.loads[&("GFORCE", id)];
-        assert!((found.components[1] - force).abs() < 1e-9 * force, "{found:?} {force}");
+        assert!(
+            (found.components[1] - force).abs() < 1e-9 * force,
+            "{found:?} {force}"
+        );
         assert!((found.force.y - found.components[1]).abs() < 1e-12 * force);
     }
     assert!(
-        (model.evaluate(&state, &out, "GFORCE(17,1,3,49)").expect("a value") + force).abs() < 1e-9 * force
+        (model
+            .evaluate(&state, &out, "GFORCE(17,1,3,49)")
+            .expect("a value")
+            + force)
+            .abs()
+            < 1e-9 * force
     );
     assert!(out.extrapolated.is_empty());
 }
@@ -140,7 +193,9 @@ fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
     let mut text = String::from("many\nPART/1,GROUND\nMARKER/1,PART=1\n");
     for i in 1..=n {
         let (marker, floating) = (100 + i, 200 + i);
-        text += &format!("PART/{marker}\nMARKER/{marker},PART={marker}\nMARKER/{floating},PART=1,FLOATING\n");
+        text += &format!(
+            "PART/{marker}\nMARKER/{marker},PART={marker}\nMARKER/{floating},PART=1,FLOATING\n"
+        );
         text += &format!("VARIABLE/{i},IC=1.25,FUN=DY({marker},1)");
         for j in 1..=n {
             text += &format!("\n,+GFORCE({j},0,3,1)*{:E}", compliance(i, j));
@@ -157,7 +212,9 @@ fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
         for pose in state.parts.values_mut() {
             pose.origin.y = 1.3 - 0.6 * random.f64();
         }
-        let out = model.solve(&state).unwrap_or_else(|error| panic!("{error}"));
+        let out = model
+            .solve(&state)
+            .unwrap_or_else(|error| panic!("{error}"));
         for i in 1..=n {
             let force = |k: usize| out.loads[&("GFORCE", k as u32)].components[1];
             let sunk: f64 = (1..=n).map(|j| compliance(i, j) * force(j)).sum();

@@ -7,7 +7,10 @@ fn evaluated(text: &str) -> f64 {
     let text = format!("one\nVARIABLE/1,FUN={text}\nEND\n");
     let set = DataSet::read(&text).unwrap_or_else(|error| panic!("{error}"));
     let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
-    model.solve(&model.initial()).unwrap_or_else(|error| panic!("{error}")).variables[&1]
+    model
+        .solve(&model.initial())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .variables[&1]
 }
 
 #[test]
@@ -31,7 +34,11 @@ fn operators_bind_as_in_fortran() {
         ("MODE", 4.0),
         ("+5", 5.0),
     ] {
-        assert!((evaluated(text) - value).abs() <= 1e-15 * value.abs(), "{text}: {}", evaluated(text));
+        assert!(
+            (evaluated(text) - value).abs() <= 1e-15 * value.abs(),
+            "{text}: {}",
+            evaluated(text)
+        );
     }
 }
 
@@ -49,7 +56,10 @@ fn functions_have_the_values_of_their_definitions() {
         ("POLY(3,1,5,4,2)", 21.0),
         ("STEP(0.25,0,1,1,3)", 1.0 + 2.0 * 0.15625),
         ("STEP(-1,0,1,1,3)+STEP(9,0,1,1,3)", 4.0),
-        ("STEP5(0.25,0,1,1,3)", 1.0 + 2.0 * 0.015625 * (10.0 - 3.75 + 0.375)),
+        (
+            "STEP5(0.25,0,1,1,3)",
+            1.0 + 2.0 * 0.015625 * (10.0 - 3.75 + 0.375),
+        ),
         ("HAVSIN(0.5,0,1,1,3)", 2.0),
         // k p^e with full damping beyond d, without tension, and zero above the contact.
         ("IMPACT(.5,0,1,8,2,4,.1)", 2.0),
@@ -62,7 +72,11 @@ fn functions_have_the_values_of_their_definitions() {
         ("BISTOP(2.5,-9,1,2,8,2,4,.1)", 0.0),
         ("BISTOP(1.5,3,1,2,8,2,4,.1)", 0.0),
     ] {
-        assert!((evaluated(text) - value).abs() <= 1e-14 * value.abs(), "{text}: {}", evaluated(text));
+        assert!(
+            (evaluated(text) - value).abs() <= 1e-14 * value.abs(),
+            "{text}: {}",
+            evaluated(text)
+        );
     }
 }
 
@@ -87,7 +101,11 @@ fn derivatives_are_those_of_the_values() {
     for (name, at) in cases {
         let (function, least, most) = Function::find(name).expect("a function");
         assert!((least..=most).contains(&at.len()));
-        let duals: Vec<Dual> = at.iter().enumerate().map(|(k, x)| Dual::unknown(*x, k, at.len())).collect();
+        let duals: Vec<Dual> = at
+            .iter()
+            .enumerate()
+            .map(|(k, x)| Dual::unknown(*x, k, at.len()))
+            .collect();
         let exact = function.value(&duals).expect("a value");
         for k in 0..at.len() {
             let moved = |step: f64| {
@@ -97,7 +115,10 @@ fn derivatives_are_those_of_the_values() {
             };
             let step = 1e-5;
             let slope = (moved(step) - moved(-step)) / (2.0 * step);
-            assert!((slope - exact.derivative(k)).abs() < 1e-8 * (1.0 + slope.abs()), "{name} {k}: {slope}");
+            assert!(
+                (slope - exact.derivative(k)).abs() < 1e-8 * (1.0 + slope.abs()),
+                "{name} {k}: {slope}"
+            );
         }
         assert_eq!(exact.value(), function.value(at).expect("a value"));
     }
@@ -105,13 +126,25 @@ fn derivatives_are_those_of_the_values() {
 
 #[test]
 fn values_that_are_not_finite_are_refused_by_name() {
-    for text in ["1/(TIME-TIME)", "SQRT(TIME-1)", "LOG(0*TIME)", "EXP(1E5)", "(-8)**(1/3)", "STEP(0,1,0,1,1)"]
-    {
+    for text in [
+        "1/(TIME-TIME)",
+        "SQRT(TIME-1)",
+        "LOG(0*TIME)",
+        "EXP(1E5)",
+        "(-8)**(1/3)",
+        "STEP(0,1,0,1,1)",
+    ] {
         let set = DataSet::read(&format!("bad\nVARIABLE/31,FUN={text}\nEND\n")).expect("grammar");
         let model = AdamsModel::new(&set).expect("names");
         let error = model.solve(&model.initial());
         assert!(
-            matches!(error, Err(adams::Error::In { statement: adams::StatementId { id: 31, .. }, .. })),
+            matches!(
+                error,
+                Err(adams::Error::In {
+                    statement: adams::StatementId { id: 31, .. },
+                    ..
+                })
+            ),
             "{text}: {error:?}"
         );
     }
@@ -142,9 +175,12 @@ fn forces_are_read_on_either_side_and_in_any_frame() {
         ("DX(9,1)", 3.0),
         ("AZ(2,1)*RTOD", 30.0),
     ] {
-        let set = DataSet::read(&format!("{text}VARIABLE/1,FUN={expression}\nEND\n")).expect("grammar");
+        let set =
+            DataSet::read(&format!("{text}VARIABLE/1,FUN={expression}\nEND\n")).expect("grammar");
         let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
-        let out = model.solve(&model.initial()).unwrap_or_else(|error| panic!("{error}"));
+        let out = model
+            .solve(&model.initial())
+            .unwrap_or_else(|error| panic!("{error}"));
         assert!(
             (out.variables[&1] - value).abs() < 1e-14 * value.abs().max(1.0),
             "{expression}: {}",
@@ -164,5 +200,8 @@ fn forces_may_read_themselves_and_each_other() {
     let model = AdamsModel::new(&DataSet::read(text).expect("grammar")).expect("names");
     let out = model.solve(&model.initial()).expect("a solution");
     let [x, _, z, ..] = out.loads[&("GFORCE", 1)].components;
-    assert!((x + 6.0).abs() < 1e-14 && (z - 20.0).abs() < 1e-14, "{x} {z}");
+    assert!(
+        (x + 6.0).abs() < 1e-14 && (z - 20.0).abs() < 1e-14,
+        "{x} {z}"
+    );
 }

@@ -2,7 +2,9 @@
 //! of their weak points. References: exact beam theory, and an independent interpolation of the printed table
 //! by AKISPL and CUBSPL as documented.
 
-use adams::{AdamsModel, DataSet, Error, ModelState, Solution, SplineFunction, SplineMethod, tables};
+use adams::{
+    AdamsModel, DataSet, Error, ModelState, Solution, SplineFunction, SplineMethod, tables,
+};
 use nalgebra::Vector3;
 
 const FLEXIBLE: &str = include_str!("listings/flexible.adm");
@@ -15,23 +17,37 @@ const WEIGHT: f64 = 4.8e6;
 fn model(listing: &str, tables: &str) -> AdamsModel {
     let read = |text: &str| DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
     let mut set = read(listing);
-    set.statements.extend(read(tables).statements.into_iter().filter(|one| one.keyword == "SPLINE"));
+    set.statements.extend(
+        read(tables)
+            .statements
+            .into_iter()
+            .filter(|one| one.keyword == "SPLINE"),
+    );
     AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The deflections of the trunnion at positions along the rail.
 fn sinks(model: &AdamsModel, places: &[f64]) -> Vec<f64> {
-    let path = model.quasi_static_path(places).unwrap_or_else(|error| panic!("{error}"));
-    path.iter().map(|one| 1.25 - one.state.parts[&2].origin.y).collect()
+    let path = model
+        .quasi_static_path(places)
+        .unwrap_or_else(|error| panic!("{error}"));
+    path.iter()
+        .map(|one| 1.25 - one.state.parts[&2].origin.y)
+        .collect()
 }
 
 fn peak(listing: &str, tables: &str) -> f64 {
     let places: Vec<f64> = (6..=234).map(|k| 0.25 * f64::from(k)).collect();
-    sinks(&model(listing, tables), &places).into_iter().fold(0.0, f64::max)
+    sinks(&model(listing, tables), &places)
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 fn near(found: f64, expected: f64, within: f64) {
-    assert!((found - expected).abs() <= within, "{found} instead of {expected}");
+    assert!(
+        (found - expected).abs() <= within,
+        "{found} instead of {expected}"
+    );
 }
 
 /// The listing with cross terms: the force of the other wheel is multiplied by the compliance G(x_i, x_j).
@@ -64,8 +80,11 @@ fn fine() -> String {
     };
     let stations: Vec<f64> = (0..=240).map(|k| 0.25 * f64::from(k)).collect();
     let list = |z: &f64| stations.iter().map(|x| influence(*x, *z)).collect();
-    let curves =
-        adams::SplineValues::new(stations.clone(), stations.clone(), stations.iter().map(list).collect());
+    let curves = adams::SplineValues::new(
+        stations.clone(),
+        stations.clone(),
+        stations.iter().map(list).collect(),
+    );
     let vertical = adams::Spline {
         id: 6,
         name: None,
@@ -73,8 +92,15 @@ fn fine() -> String {
         linear_extrapolate: true,
         curves: curves.expect("stations"),
     };
-    let lateral = adams::Spline { id: 7, ..vertical.clone() };
-    let all = tables::write(&adams::Tables { title: None, units: None, splines: vec![vertical, lateral] });
+    let lateral = adams::Spline {
+        id: 7,
+        ..vertical.clone()
+    };
+    let all = tables::write(&adams::Tables {
+        title: None,
+        units: None,
+        splines: vec![vertical, lateral],
+    });
     all.expect("two tables")
 }
 
@@ -97,11 +123,18 @@ fn trunnion_path_of_the_listing_peaks_where_documented_akispl_says() {
 fn readings_and_wheels_move_the_peak() {
     let cross = crossed();
     near(peak(&cross, TABLES), 0.531_63, 1e-5);
-    near(peak(&cross.replace("AKISPL", "CUBSPL"), TABLES), 0.531_29, 1e-5);
+    near(
+        peak(&cross.replace("AKISPL", "CUBSPL"), TABLES),
+        0.531_29,
+        1e-5,
+    );
     let impact = |text: &str, wheel: &str, gap: &str| {
         let linear = format!("FY=-1E8*(VARVAL({gap})-1.25)-1E5*VY({wheel},49,49)");
         assert!(text.contains(&linear));
-        text.replace(&linear, &format!("FY=IMPACT(VARVAL({gap}),VY({wheel},49,49),1.25,1E8,1.1,1E5,.01)"))
+        text.replace(
+            &linear,
+            &format!("FY=IMPACT(VARVAL({gap}),VY({wheel},49,49),1.25,1E8,1.1,1E5,.01)"),
+        )
     };
     let soft = impact(&impact(FLEXIBLE, "216", "171"), "226", "181");
     near(peak(&soft, TABLES), 0.541_87, 1e-5);
@@ -114,9 +147,16 @@ fn readings_and_wheels_move_the_peak() {
 fn listing_differs_from_cross_terms_and_both_from_the_girder() {
     let places: Vec<f64> = (6..=234).map(|k| 0.25 * f64::from(k)).collect();
     let path = |listing: &str, tables: &str| sinks(&model(listing, tables), &places);
-    let (printed, cross, exact) =
-        (path(FLEXIBLE, TABLES), path(&crossed(), TABLES), path(&crossed(), &fine()));
-    let most = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |top: f64, (a, b)| top.max((a - b).abs()));
+    let (printed, cross, exact) = (
+        path(FLEXIBLE, TABLES),
+        path(&crossed(), TABLES),
+        path(&crossed(), &fine()),
+    );
+    let most = |a: &[f64], b: &[f64]| {
+        a.iter()
+            .zip(b)
+            .fold(0.0, |top: f64, (a, b)| top.max((a - b).abs()))
+    };
     near(most(&printed, &cross), 0.002_595, 1e-6);
     near(most(&printed, &exact), 0.033_31, 1e-5);
     near(most(&cross, &exact), 0.034_13, 1e-5);
@@ -156,7 +196,10 @@ fn lifted_wheel_of_the_listing_is_pulled() {
 #[test]
 fn friction_of_the_listing_comes_from_a_smaller_force_than_it_carries() {
     let model = model(FLEXIBLE, TABLES);
-    let mut state = model.equilibrium(30.0, &held(&model, 30.0, 0.72)).expect("an equilibrium").state;
+    let mut state = model
+        .equilibrium(30.0, &held(&model, 30.0, 0.72))
+        .expect("an equilibrium")
+        .state;
     for (part, pose) in &mut state.parts {
         if *part != 2 {
             pose.velocity = Vector3::new(0.0, 0.0, 5.0);
@@ -192,24 +235,39 @@ fn damper_of_the_listing_is_tied_to_ground() {
     let places: Vec<f64> = (0..=240).map(|k| step * f64::from(k)).collect();
     let path = sinks(&model, &places);
     let slopes = path.windows(2).map(|pair| (pair[1] - pair[0]) / step);
-    let work: f64 = slopes.clone().map(|slope| 2.0 * 1e5 * 5.0 * slope * slope * step).sum();
+    let work: f64 = slopes
+        .clone()
+        .map(|slope| 2.0 * 1e5 * 5.0 * slope * slope * step)
+        .sum();
     near(work, 21_113.0, 1.0);
-    let steepest = slopes.clone().fold(0.0, |top: f64, slope| top.max(slope.abs()));
+    let steepest = slopes
+        .clone()
+        .fold(0.0, |top: f64, slope| top.max(slope.abs()));
     near(2.0 * 1e5 * 5.0 * steepest, 33_224.0, 1.0);
     // The longitudinal force W z' / 2, which is missing from the listing.
     near(0.5 * WEIGHT * steepest, 79_737.0, 1.0);
-    let at = model.equilibrium(12.5, &held(&model, 12.5, 1.0)).expect("an equilibrium");
+    let at = model
+        .equilibrium(12.5, &held(&model, 12.5, 1.0))
+        .expect("an equilibrium");
     assert!(at.reactions[&("MOTION", 2)].force.norm() < 1.0);
 }
 
 #[test]
 fn girder_of_the_listing_carries_no_reaction() {
     let model = model(FLEXIBLE, TABLES);
-    let out = model.equilibrium(30.0, &held(&model, 30.0, 0.72)).expect("an equilibrium");
-    let joints = out.reactions.iter().filter(|((keyword, _), _)| *keyword != "JOINT");
+    let out = model
+        .equilibrium(30.0, &held(&model, 30.0, 0.72))
+        .expect("an equilibrium");
+    let joints = out
+        .reactions
+        .iter()
+        .filter(|((keyword, _), _)| *keyword != "JOINT");
     let up: f64 = joints.map(|(_, reaction)| reaction.force.y.abs()).sum();
     assert!(up < 1e-3, "{up}");
-    let wheels: f64 = [17, 18].iter().map(|id| out.solution.loads[&("GFORCE", *id)].force.y).sum();
+    let wheels: f64 = [17, 18]
+        .iter()
+        .map(|id| out.solution.loads[&("GFORCE", *id)].force.y)
+        .sum();
     near(wheels, WEIGHT, 0.1);
     // The rotations of both wheels are not determined.
     assert_eq!(out.rank_deficiency, 2);
@@ -219,7 +277,9 @@ fn girder_of_the_listing_carries_no_reaction() {
 fn table_read_beyond_its_stations_is_said_and_depends_on_the_rule() {
     let all = tables::read(TABLES).expect("two tables");
     let mut spline = all.splines[0].clone();
-    let read = |spline: &adams::Spline| SplineFunction::new(spline, SplineMethod::Akima).read(80.0, 75.0, 0);
+    let read = |spline: &adams::Spline| {
+        SplineFunction::new(spline, SplineMethod::Akima).read(80.0, 75.0, 0)
+    };
     let tangent = read(&spline).expect("a value");
     near(tangent.value, 1.921e-7, 1e-10);
     assert!(tangent.extrapolated);
@@ -241,7 +301,9 @@ fn unread_cross_terms_are_not_symmetric() {
     let family = SplineFunction::new(&all.splines[0], SplineMethod::Akima);
     let read = |x: f64, z: f64| family.read(x, z, 0).expect("inside").value;
     let gap = |x: f64| (read(x, x + 8.0 / 3.0) - read(x + 8.0 / 3.0, x)).abs();
-    let most = (0..=5600).map(|k| gap(0.01 * f64::from(k))).fold(0.0, f64::max);
+    let most = (0..=5600)
+        .map(|k| gap(0.01 * f64::from(k)))
+        .fold(0.0, f64::max);
     near(most, 5.345e-9, 1e-11);
 }
 
@@ -249,7 +311,9 @@ fn unread_cross_terms_are_not_symmetric() {
 fn wheel_of_the_rigid_listing_stands_and_slides_as_its_formulas_say() {
     let model = model(RIGID, TABLES);
     // IMPACT with the exponent 1.1: (W/k)^(1/1.1), not W/k = 0.05 ft.
-    let rest = model.equilibrium(0.0, &model.initial()).unwrap_or_else(|error| panic!("{error}"));
+    let rest = model
+        .equilibrium(0.0, &model.initial())
+        .unwrap_or_else(|error| panic!("{error}"));
     let sunk = 1.25 - rest.state.parts[&3].origin.y;
     near(sunk, 0.05_f64.powf(1.0 / 1.1), 1e-12);
     near(sunk, 0.0656, 1e-4);
@@ -265,5 +329,9 @@ fn wheel_of_the_rigid_listing_stands_and_slides_as_its_formulas_say() {
     // A stopped wheel creeps: friction is linear in slip, 1.5 mu N / 0.1 s/ft at zero.
     let pose = state.parts.get_mut(&3).expect("a wheel");
     pose.velocity.z = 1e-4;
-    near(solved(&model, &state).loads[&("GFORCE", 17)].components[0], -1.5 * 1e6 / 0.1 * 1e-4, 1.0);
+    near(
+        solved(&model, &state).loads[&("GFORCE", 17)].components[0],
+        -1.5 * 1e6 / 0.1 * 1e-4,
+        1.0,
+    );
 }

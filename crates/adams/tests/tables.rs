@@ -3,22 +3,33 @@
 
 use adams::tables::{read, write};
 use adams::{
-    AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, Error, Spline, SplineValues,
-    StatementId, Tables,
+    AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, Error, Spline,
+    SplineValues, StatementId, Tables,
 };
 
 /// A table of the form of the paper's: a sine in both directions, with all digits.
 fn table() -> SplineValues {
     let x: Vec<f64> = (0..7).map(|i| 15.0 * f64::from(i) - 15.0).collect();
-    let y = x.iter().map(|z| x.iter().map(|x| 1e-7 * (x / 19.0).sin() * (z / 19.0).sin()).collect());
+    let y = x.iter().map(|z| {
+        x.iter()
+            .map(|x| 1e-7 * (x / 19.0).sin() * (z / 19.0).sin())
+            .collect()
+    });
     let y = y.collect();
     SplineValues::new(x.clone(), x, y).expect("increasing")
 }
 
 fn set(splines: Vec<Spline>) -> Tables {
-    let units =
-        AdamsUnits { force: AdamsForceUnit::Pound, mass: AdamsMassUnit::Slug, length: AdamsLengthUnit::Foot };
-    Tables { title: Some("bridge_flex".into()), units: Some(units), splines }
+    let units = AdamsUnits {
+        force: AdamsForceUnit::Pound,
+        mass: AdamsMassUnit::Slug,
+        length: AdamsLengthUnit::Foot,
+    };
+    Tables {
+        title: Some("bridge_flex".into()),
+        units: Some(units),
+        splines,
+    }
 }
 
 fn spline(id: u32, curves: SplineValues) -> Spline {
@@ -33,7 +44,11 @@ fn spline(id: u32, curves: SplineValues) -> Spline {
 
 fn bits(set: &Tables) -> Vec<u64> {
     let table = |s: &Spline| [s.curves.x(), s.curves.z(), &s.curves.y().concat()].concat();
-    set.splines.iter().flat_map(table).map(f64::to_bits).collect()
+    set.splines
+        .iter()
+        .flat_map(table)
+        .map(f64::to_bits)
+        .collect()
 }
 
 fn round_trips(set: &Tables) {
@@ -55,15 +70,39 @@ fn data_set_reads_back_bit_for_bit() {
     let mut plain = spline(4, curve.expect("four points"));
     (plain.name, plain.units, plain.linear_extrapolate) = (None, None, false);
     round_trips(&set(vec![spline(6, table()), plain]));
-    round_trips(&Tables { title: None, units: None, splines: vec![] });
+    round_trips(&Tables {
+        title: None,
+        units: None,
+        splines: vec![],
+    });
     for (force, mass, length) in [
-        (AdamsForceUnit::Newton, AdamsMassUnit::Kilogram, AdamsLengthUnit::Meter),
-        (AdamsForceUnit::Kilonewton, AdamsMassUnit::Tonne, AdamsLengthUnit::Millimeter),
-        (AdamsForceUnit::Kilopound, AdamsMassUnit::Slinch, AdamsLengthUnit::Inch),
-        (AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Foot),
+        (
+            AdamsForceUnit::Newton,
+            AdamsMassUnit::Kilogram,
+            AdamsLengthUnit::Meter,
+        ),
+        (
+            AdamsForceUnit::Kilonewton,
+            AdamsMassUnit::Tonne,
+            AdamsLengthUnit::Millimeter,
+        ),
+        (
+            AdamsForceUnit::Kilopound,
+            AdamsMassUnit::Slinch,
+            AdamsLengthUnit::Inch,
+        ),
+        (
+            AdamsForceUnit::Pound,
+            AdamsMassUnit::Pound,
+            AdamsLengthUnit::Foot,
+        ),
     ] {
         let mut set = set(vec![]);
-        set.units = Some(AdamsUnits { force, mass, length });
+        set.units = Some(AdamsUnits {
+            force,
+            mass,
+            length,
+        });
         round_trips(&set);
     }
 }
@@ -82,7 +121,10 @@ fn random_bits_read_back() {
         x.sort_by(f64::total_cmp);
         x.dedup();
         let y = (0..3).map(|_| x.iter().map(|_| any()).collect()).collect();
-        round_trips(&set(vec![spline(1, SplineValues::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted"))]));
+        round_trips(&set(vec![spline(
+            1,
+            SplineValues::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted"),
+        )]));
     }
 }
 
@@ -129,14 +171,32 @@ SPLINE/9, X = nonsense
             length: AdamsLengthUnit::Foot
         })
     );
-    assert_eq!(set.splines.iter().map(|s| s.id).collect::<Vec<_>>(), [6, 7, 8]);
-    let [six, seven, eight] = &set.splines[..] else { panic!("three splines") };
-    assert_eq!((six.name.as_deref(), six.units.as_deref()), (Some("vertical"), Some("no_units")));
+    assert_eq!(
+        set.splines.iter().map(|s| s.id).collect::<Vec<_>>(),
+        [6, 7, 8]
+    );
+    let [six, seven, eight] = &set.splines[..] else {
+        panic!("three splines")
+    };
+    assert_eq!(
+        (six.name.as_deref(), six.units.as_deref()),
+        (Some("vertical"), Some("no_units"))
+    );
     assert_eq!(six.curves.x(), [-15.0, 0.0, 15.0, 30.0, 45.0]);
     assert_eq!(six.curves.z(), [0.0, 10.0]);
-    assert_eq!(six.curves.y(), [vec![1e-7, 2.0, 3.0, 4.0, 5.0], vec![0.5, 0.25, 3.0, 4.0, 5.0]]);
     assert_eq!(
-        (six.linear_extrapolate, seven.linear_extrapolate, eight.linear_extrapolate),
+        six.curves.y(),
+        [
+            vec![1e-7, 2.0, 3.0, 4.0, 5.0],
+            vec![0.5, 0.25, 3.0, 4.0, 5.0]
+        ]
+    );
+    assert_eq!(
+        (
+            six.linear_extrapolate,
+            seven.linear_extrapolate,
+            eight.linear_extrapolate
+        ),
         (true, true, false)
     );
     assert_eq!((seven.curves.y()[0][0], &seven.name), (4.0, &None));
@@ -146,11 +206,27 @@ SPLINE/9, X = nonsense
 /// Each text with the line, column and fault of its error.
 #[test]
 fn faults_have_their_place() {
-    let points = |index| AdamsFault::Spline { id: 6, source: Box::new(AdamsFault::Order { index }) };
-    let few = AdamsFault::Spline { id: 6, source: Box::new(AdamsFault::Points { found: 3, least: 4 }) };
+    let points = |index| AdamsFault::Spline {
+        id: 6,
+        source: Box::new(AdamsFault::Order { index }),
+    };
+    let few = AdamsFault::Spline {
+        id: 6,
+        source: Box::new(AdamsFault::Points { found: 3, least: 4 }),
+    };
     let cases: &[(&str, usize, usize, AdamsFault)] = &[
-        ("t\nSPLINE/6, X=0,1,2,3\n, FILE=force.dac", 3, 3, AdamsFault::File { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3\n, B=1", 3, 3, AdamsFault::File { id: 6 }),
+        (
+            "t\nSPLINE/6, X=0,1,2,3\n, FILE=force.dac",
+            3,
+            3,
+            AdamsFault::File { id: 6 },
+        ),
+        (
+            "t\nSPLINE/6, X=0,1,2,3\n, B=1",
+            3,
+            3,
+            AdamsFault::File { id: 6 },
+        ),
         ("t\nSPLINE/6, X=0,1,2,3, Z=0", 2, 22, AdamsFault::Argument),
         ("t\nSPLINE/6, X=0,1,2,3, X=0", 2, 22, AdamsFault::Repeated),
         ("t\nSPLINE/6, LINEAR, LINEAR", 2, 19, AdamsFault::Repeated),
@@ -159,19 +235,42 @@ fn faults_have_their_place() {
         ("t\nSPLINE/-3", 2, 8, AdamsFault::Id),
         ("t\nSPLINE/99999999999", 2, 8, AdamsFault::Id),
         ("t\nSPLINE/", 2, 7, AdamsFault::Id),
-        ("t\nSPLINE/6, X=0,1,2,3, Y=0,1,2,3\nSPLINE/6", 3, 8, AdamsFault::DuplicateId { id: 6 }),
+        (
+            "t\nSPLINE/6, X=0,1,2,3, Y=0,1,2,3\nSPLINE/6",
+            3,
+            8,
+            AdamsFault::DuplicateId { id: 6 },
+        ),
         ("t\nSPLINE/6, X=0,1,2,3", 2, 8, AdamsFault::NoY { id: 6 }),
         ("t\nSPLINE/6\n, Y=0,1,2,3", 2, 8, AdamsFault::NoX { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2", 3, 3, AdamsFault::Count { id: 6, found: 3, expected: 4 }),
+        (
+            "t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2",
+            3,
+            3,
+            AdamsFault::Count {
+                id: 6,
+                found: 3,
+                expected: 4,
+            },
+        ),
         (
             "t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2,3,4\n, Y=1,2",
             4,
             3,
-            AdamsFault::Count { id: 6, found: 2, expected: 5 },
+            AdamsFault::Count {
+                id: 6,
+                found: 2,
+                expected: 5,
+            },
         ),
         ("t\nSPLINE/6, X=0,1,2, Y=0,1,2", 2, 8, few),
         ("t\nSPLINE/6, X=0,1,1,2, Y=0,1,2,3", 2, 8, points(2)),
-        ("t\nSPLINE/6, X=0,1,2,3\n, Y=1,0,0,0,0\n, Y=1,0,0,0,0", 2, 8, points(1)),
+        (
+            "t\nSPLINE/6, X=0,1,2,3\n, Y=1,0,0,0,0\n, Y=1,0,0,0,0",
+            2,
+            8,
+            points(1),
+        ),
         ("t\nSPLINE/6, X=0,1,2,90D", 2, 19, AdamsFault::Number),
         ("t\nSPLINE/6, X=0,1,2,1e999", 2, 19, AdamsFault::Number),
         ("t\nSPLINE/6, X=0,1,2,1.2.3", 2, 19, AdamsFault::Number),
@@ -186,7 +285,11 @@ fn faults_have_their_place() {
         ("t\nUNITS/SYSTEM=CGS", 2, 14, AdamsFault::Unit),
     ];
     for (text, line, column, fault) in cases {
-        let expected = Error::At { line: *line, column: *column, fault: fault.clone() };
+        let expected = Error::At {
+            line: *line,
+            column: *column,
+            fault: fault.clone(),
+        };
         assert_eq!(read(text), Err(expected), "{text}");
     }
 }
@@ -194,14 +297,23 @@ fn faults_have_their_place() {
 #[test]
 fn first_line_is_a_title_unless_it_is_a_statement() {
     let body = "X=0,1,2,3, Y=0,1,2,3";
-    assert_eq!(read(&format!("SPLINE/6, {body}")).map(|set| set.splines.len()), Ok(1));
+    assert_eq!(
+        read(&format!("SPLINE/6, {body}")).map(|set| set.splines.len()),
+        Ok(1)
+    );
     let set = read("Spline of the girder\nUNITS/SYSTEM=NONE").expect("readable");
-    assert_eq!((set.title.as_deref(), set.units), (Some("Spline of the girder"), None));
+    assert_eq!(
+        (set.title.as_deref(), set.units),
+        (Some("Spline of the girder"), None)
+    );
     assert_eq!(read("").map(|set| set.title), Ok(None));
     let mut set = set;
     set.title = Some("SPLINE/6, X=0\n \u{e9}".into());
     let text = write(&set).expect("writable");
-    assert_eq!(read(&text).map(|set| set.title), Ok(Some("Model: SPLINE/6, X=0? ?".into())));
+    assert_eq!(
+        read(&text).map(|set| set.title),
+        Ok(Some("Model: SPLINE/6, X=0? ?".into()))
+    );
 }
 
 #[test]
@@ -209,15 +321,30 @@ fn writer_refuses_what_could_not_be_read_back() {
     let good = spline(6, table());
     assert_eq!(
         write(&set(vec![good.clone(), good.clone()])),
-        Err(Error::Id { statement: StatementId::new("SPLINE", 6) })
+        Err(Error::Id {
+            statement: StatementId::new("SPLINE", 6)
+        })
     );
     assert_eq!(
-        write(&set(vec![Spline { id: 0, ..good.clone() }])),
-        Err(Error::Id { statement: StatementId::new("SPLINE", 0) })
+        write(&set(vec![Spline {
+            id: 0,
+            ..good.clone()
+        }])),
+        Err(Error::Id {
+            statement: StatementId::new("SPLINE", 0)
+        })
     );
     for name in ["", "it's", "two\nlines", &"x".repeat(80)] {
-        let bad = Spline { name: Some(name.into()), ..good.clone() };
-        assert_eq!(write(&set(vec![bad])), Err(Error::Name { statement: StatementId::new("SPLINE", 6) }));
+        let bad = Spline {
+            name: Some(name.into()),
+            ..good.clone()
+        };
+        assert_eq!(
+            write(&set(vec![bad])),
+            Err(Error::Name {
+                statement: StatementId::new("SPLINE", 6)
+            })
+        );
     }
 }
 
@@ -225,12 +352,14 @@ fn writer_refuses_what_could_not_be_read_back() {
 #[test]
 fn reader_survives_any_order_of_pieces() {
     let pieces = [
-        "SPLINE/", "6", ",", " X", "=", "1.5", "\n", "!", ";", "Y =", "UNITS/", "FORCE", "END", "'", "-",
-        "1D", "\u{e9}", "\t", "&", "/",
+        "SPLINE/", "6", ",", " X", "=", "1.5", "\n", "!", ";", "Y =", "UNITS/", "FORCE", "END",
+        "'", "-", "1D", "\u{e9}", "\t", "&", "/",
     ];
     let mut random = fastrand::Rng::with_seed(4);
     for _ in 0..20_000 {
-        let text: String = (0..12).map(|_| pieces[random.usize(..pieces.len())]).collect();
+        let text: String = (0..12)
+            .map(|_| pieces[random.usize(..pieces.len())])
+            .collect();
         if let Ok(set) = read(&text) {
             assert!(write(&set).is_ok() || set.splines.iter().any(|s| s.name.is_some()));
         }

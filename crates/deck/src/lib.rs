@@ -65,6 +65,13 @@ pub fn deck(plan: &DeckPlan<'_>, known: &[SolvedStructure], model: &str) -> Resu
     words::text::distinct(&mut statements);
     let wheels = plan.wheels.len();
     let s = if wheels == 1 { "" } else { "s" };
-    let title = format!("{}: {wheels} wheel{s}, form {}", plan.scene.name, plan.form.word());
-    Ok(Deck { set: DataSet { title, statements }, commands: statements::solver::commands(plan, model) })
+    let title = format!(
+        "{}: {wheels} wheel{s}, form {}",
+        plan.scene.name,
+        plan.form.word()
+    );
+    Ok(Deck {
+        set: DataSet { title, statements },
+        commands: statements::solver::commands(plan, model),
+    })
 }

@@ -1,7 +1,11 @@
 //! Cases from the groups of crane loads of a code.
 
-use formats::design::{CODE_PARTS, Design, DesignCase, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE};
-use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups};
+use formats::design::{
+    CODE_PARTS, Design, DesignCase, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
+};
+use practice::combination::{
+    CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups,
+};
 use practice::factor::{Release, phi5, test_load};
 use practice::limit_choice::code_name;
 use practice::mill_combination::{asce_group, mill_combinations, mill_fatigue};
@@ -52,7 +56,11 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
                 _ => format!("{}: {code} group {}", case.name, group.name),
             };
             match factors(design, case, group, &dynamic) {
-                Ok(factors) => cases.push(DesignCase { name, factors, ..case.clone() }),
+                Ok(factors) => cases.push(DesignCase {
+                    name,
+                    factors,
+                    ..case.clone()
+                }),
                 Err(why) => {
                     let line = format!("{code}, group {}: {why}", group.name);
                     if !left_out.contains(&line) {
@@ -67,7 +75,9 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
 
 /// The groups whose wind in service is left out.
 fn wind(groups: &[LoadGroup]) -> Option<String> {
-    let with_wind = groups.iter().filter(|group| group.loads.iter().any(|own| own.load == CraneLoad::Wind));
+    let with_wind = groups
+        .iter()
+        .filter(|group| group.loads.iter().any(|own| own.load == CraneLoad::Wind));
     let names: Vec<&str> = with_wind.clone().map(|group| group.name).collect();
     let code = with_wind.map(|group| group.clause.standard).next()?;
     Some(format!(
@@ -78,7 +88,12 @@ fn wind(groups: &[LoadGroup]) -> Option<String> {
 
 /// The groups whose hoisted load is the part that remains without the payload, which is left out.
 fn remaining(groups: &[LoadGroup]) -> Option<String> {
-    let remains = |group: &&LoadGroup| group.loads.iter().any(|own| own.factor == LoadFactor::Remaining);
+    let remains = |group: &&LoadGroup| {
+        group
+            .loads
+            .iter()
+            .any(|own| own.factor == LoadFactor::Remaining)
+    };
     let group = groups.iter().find(remains)?;
     Some(format!(
         "{}, group {}: the part eta of the hoisted load that remains without the payload, which a design does not give, is \
@@ -90,7 +105,10 @@ fn remaining(groups: &[LoadGroup]) -> Option<String> {
 /// The groups of the code, with the dynamic factors of the crane.
 fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
     let code = design.practice.code.as_deref().unwrap_or("");
-    let plain = DynamicFactors { phi: [1.0; 7], remaining: 0.0 };
+    let plain = DynamicFactors {
+        phi: [1.0; 7],
+        remaining: 0.0,
+    };
     match code_name(code) {
         "EN 1991-3" | "EN 1993-6" => {
             let phi2 = design
@@ -98,9 +116,15 @@ fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
                 .phi2()
                 .ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
             let [_, phi5] = phi5(design.practice.drives);
-            let factors =
-                DynamicFactors::of_crane(phi2, phi5, design.practice.release.unwrap_or(Release::Rapid));
-            Ok((eurocode_groups(), factors.map_err(|error| error.to_string())?))
+            let factors = DynamicFactors::of_crane(
+                phi2,
+                phi5,
+                design.practice.release.unwrap_or(Release::Rapid),
+            );
+            Ok((
+                eurocode_groups(),
+                factors.map_err(|error| error.to_string())?,
+            ))
         }
         "AIST TR-13" => {
             let mut all = mill_combinations(GroupUse::AllowableStress);
@@ -120,14 +144,29 @@ fn factors(
     dynamic: &DynamicFactors,
 ) -> Result<Vec<(String, f64)>, String> {
     let of = |load: CraneLoad| group.factor(load, dynamic);
-    let releases = group.loads.iter().any(|factored| factored.factor == LoadFactor::Phi3);
+    let releases = group
+        .loads
+        .iter()
+        .any(|factored| factored.factor == LoadFactor::Phi3);
     if releases && design.practice.release.is_none() {
         return Err("give `release` where grabs or magnets release the load".to_owned());
     }
-    let wheels = || case.trains.iter().flat_map(|&train| &design.trains[train].wheels);
+    let wheels = || {
+        case.trains
+            .iter()
+            .flat_map(|&train| &design.trains[train].wheels)
+    };
     let needed = [
-        (CraneLoad::Skewing, wheels().any(|w| w.skewing != 0.0), "no wheel has a `skewing` force"),
-        (CraneLoad::BufferForce, wheels().any(|w| w.buffer != 0.0), "no train has a `buffer` force"),
+        (
+            CraneLoad::Skewing,
+            wheels().any(|w| w.skewing != 0.0),
+            "no wheel has a `skewing` force",
+        ),
+        (
+            CraneLoad::BufferForce,
+            wheels().any(|w| w.buffer != 0.0),
+            "no train has a `buffer` force",
+        ),
         (
             CraneLoad::TrolleyDrives,
             wheels().any(|w| w.trolley_drives != 0.0),
@@ -144,13 +183,21 @@ fn factors(
             "no wheel has a `tilting` force, which a crane has whose load or lifting attachment is guided",
         ),
     ];
-    if let Some((.., why)) = needed.iter().find(|(load, is_there, _)| of(*load) != 0.0 && !is_there) {
+    if let Some((.., why)) = needed
+        .iter()
+        .find(|(load, is_there, _)| of(*load) != 0.0 && !is_there)
+    {
         return Err((*why).to_owned());
     }
     let is_asce = group.clause.standard.starts_with("ASCE");
     let is_mill = group.clause.standard.starts_with("AIST");
     // TR-13 factors the impact of the kind of crane, ASCE 7 gives it.
-    let impact = of(CraneLoad::Impact) * if is_mill { design.practice.kind.fractions().impact } else { 1.0 };
+    let impact = of(CraneLoad::Impact)
+        * if is_mill {
+            design.practice.kind.fractions().impact
+        } else {
+            1.0
+        };
     let [crane, mut hoist] =
         [of(CraneLoad::SelfWeight), of(CraneLoad::HoistLoad)].map(|factor| factor + impact);
     if of(CraneLoad::TestLoad) != 0.0 {
@@ -158,11 +205,26 @@ fn factors(
         hoist = test_load(dynamic.phi[1]).map_err(|error| error.to_string())?;
     }
     // The factors 0.2 and 0.1 of ASCE 7 make the forces that the trains give already.
-    let given = |factor: f64| if is_asce { f64::from(u8::from(factor != 0.0)) } else { factor };
+    let given = |factor: f64| {
+        if is_asce {
+            f64::from(u8::from(factor != 0.0))
+        } else {
+            factor
+        }
+    };
     let mut out = vec![
-        ("dead".to_owned(), if is_mill { of(CraneLoad::Dead) } else { 1.0 }),
-        ("lateral".to_owned(), given(of(CraneLoad::BridgeDrives) + of(CraneLoad::SideThrust))),
-        ("longitudinal".to_owned(), given(of(CraneLoad::BridgeDrives) + of(CraneLoad::Traction))),
+        (
+            "dead".to_owned(),
+            if is_mill { of(CraneLoad::Dead) } else { 1.0 },
+        ),
+        (
+            "lateral".to_owned(),
+            given(of(CraneLoad::BridgeDrives) + of(CraneLoad::SideThrust)),
+        ),
+        (
+            "longitudinal".to_owned(),
+            given(of(CraneLoad::BridgeDrives) + of(CraneLoad::Traction)),
+        ),
         ("skewing".to_owned(), of(CraneLoad::Skewing)),
         ("buffer".to_owned(), of(CraneLoad::BufferForce)),
     ];

@@ -11,10 +11,27 @@ use crate::words::{clause_json, side_word};
 /// Adds the members `stresses`, `wheel_stresses`, `end_stops` and `pairs`, where there are any.
 pub(crate) fn add_details(summary: &mut Value, design: &Design, result: &DesignResult) {
     let lists = [
-        ("stresses", result.stresses.iter().map(|check| stress(design, check)).collect::<Vec<Value>>()),
-        ("wheel_stresses", result.wheel_stresses.iter().map(wheel_stress).collect()),
+        (
+            "stresses",
+            result
+                .stresses
+                .iter()
+                .map(|check| stress(design, check))
+                .collect::<Vec<Value>>(),
+        ),
+        (
+            "wheel_stresses",
+            result.wheel_stresses.iter().map(wheel_stress).collect(),
+        ),
         ("end_stops", result.end_stops.iter().map(end_stop).collect()),
-        ("pairs", result.pairs.iter().map(|found| pair(design, found)).collect()),
+        (
+            "pairs",
+            result
+                .pairs
+                .iter()
+                .map(|found| pair(design, found))
+                .collect(),
+        ),
     ];
     for (key, rows) in lists {
         if !rows.is_empty() {
@@ -24,7 +41,10 @@ pub(crate) fn add_details(summary: &mut Value, design: &Design, result: &DesignR
 }
 
 fn named(values: &[(&'static str, f64)]) -> Map<String, Value> {
-    values.iter().map(|(name, value)| ((*name).to_owned(), json!(value + 0.0))).collect()
+    values
+        .iter()
+        .map(|(name, value)| ((*name).to_owned(), json!(value + 0.0)))
+        .collect()
 }
 
 fn stress(design: &Design, check: &StressCheck) -> Value {
@@ -116,6 +136,10 @@ fn pair(design: &Design, found: &RailPairResponse) -> Value {
         "span": found.span,
         "sampled": true,
     });
-    add_state(&mut out, &train_names(design, found.case - 1), &found.governing);
+    add_state(
+        &mut out,
+        &train_names(design, found.case - 1),
+        &found.governing,
+    );
     out
 }

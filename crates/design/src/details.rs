@@ -6,7 +6,9 @@ use trains::{DeadLoads, Error, TrainCase};
 
 use crate::end_stops::{self, end_stop_forces};
 use crate::girder_sections::GirderSections;
-use crate::outcome::{EndStopForce, LimitCheck, RailPairResponse, SolvedCase, StressCheck, WheelStress};
+use crate::outcome::{
+    EndStopForce, LimitCheck, RailPairResponse, SolvedCase, StressCheck, WheelStress,
+};
 use crate::placed::RailLines;
 use crate::rail_pairs::{self, pair_limits, pair_responses};
 use crate::state_forces::StateForces;
@@ -37,12 +39,23 @@ impl Details {
     ) -> Result<Details, Error> {
         let ranges: Vec<[f64; 2]> = design.spec.rails().iter().map(|rail| rail.range).collect();
         let lines = RailLines::new(rails, &ranges, model.up);
-        let sections = GirderSections::new(&design.spec, design.practice.lateral_section, model, rails);
-        let basis = StressBasis { design, lines: &lines, sections: &sections, trains, cases };
+        let sections =
+            GirderSections::new(&design.spec, design.practice.lateral_section, model, rails);
+        let basis = StressBasis {
+            design,
+            lines: &lines,
+            sections: &sections,
+            trains,
+            cases,
+        };
         let mut left_out = basis.left_out();
         left_out.extend(wheel_stresses::left_out(&basis));
         left_out.extend(end_stops::left_out(design));
-        let mut out = Details { end_stops: end_stop_forces(design), left_out, ..Details::default() };
+        let mut out = Details {
+            end_stops: end_stop_forces(design),
+            left_out,
+            ..Details::default()
+        };
         let has_pairs = rail_pairs::has_any(design, &lines);
         if !(sections.have_strength() || wheel_stresses::has_any(&basis) || has_pairs) {
             return Ok(out);

@@ -23,7 +23,11 @@ pub(crate) fn end_stop_forces(design: &Design) -> Vec<EndStopForce> {
             for (rail, outline) in rails.iter().enumerate() {
                 let own = train.wheels.iter().filter(|wheel| wheel.rail == rail);
                 let force = factor * own.map(|wheel| wheel.buffer).sum::<f64>();
-                let ends = if train.reverses { vec![false, true] } else { vec![force > 0.0] };
+                let ends = if train.reverses {
+                    vec![false, true]
+                } else {
+                    vec![force > 0.0]
+                };
                 for is_last in ends.into_iter().filter(|_| force != 0.0) {
                     out.push(EndStopForce {
                         case: number + 1,
@@ -43,7 +47,12 @@ pub(crate) fn end_stop_forces(design: &Design) -> Vec<EndStopForce> {
 
 /// Why end stops have no forces although trains have buffers.
 pub(crate) fn left_out(design: &Design) -> Option<String> {
-    let has_buffer = design.trains.iter().flat_map(|train| &train.wheels).any(|wheel| wheel.buffer != 0.0);
+    let has_buffer = design
+        .trains
+        .iter()
+        .flat_map(|train| &train.wheels)
+        .any(|wheel| wheel.buffer != 0.0);
     let is_factored = design.cases.iter().any(|case| case.factor("buffer") != 0.0);
-    (has_buffer && !is_factored).then(|| "forces on end stops: no case has a factor of `buffer`".to_owned())
+    (has_buffer && !is_factored)
+        .then(|| "forces on end stops: no case has a factor of `buffer`".to_owned())
 }

@@ -6,7 +6,9 @@
 
 use fea::{CrossSection, Model};
 use formats::LateralSection;
-use formats::spec::{DrawnSection, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, Spec};
+use formats::spec::{
+    DrawnSection, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, Spec,
+};
 
 use crate::placed::unit;
 use formats::vector::{cross, dot};
@@ -106,9 +108,15 @@ impl Fibres {
         lateral: LateralSection,
         rail: Option<CompositeRail>,
     ) -> Result<Fibres, String> {
-        let OutlinedMember { section, taper } =
-            spec.outline(member).ok_or_else(|| "the spec does not have its members".to_owned())?;
-        let SectionOutline { name, shape, drawn, yield_strength } = section;
+        let OutlinedMember { section, taper } = spec
+            .outline(member)
+            .ok_or_else(|| "the spec does not have its members".to_owned())?;
+        let SectionOutline {
+            name,
+            shape,
+            drawn,
+            yield_strength,
+        } = section;
         let Some(shape) = shape else {
             return Err(format!(
                 "section {name} has no shape: name a rolled section or give the dimensions of its plates"
@@ -130,18 +138,41 @@ impl Fibres {
                         other.name
                     )
                 };
-                let ends = drawn.zip(other.drawn).map(|(a, b)| [a, b]).ok_or_else(unknown)?;
-                let taper = FibreTaper { ends, stretch, turned, rail };
-                let planes: Option<Vec<FibrePlane>> =
-                    [0.0, 1.0].into_iter().map(|place| taper.plane(place)).collect();
-                (format!("{name} to {}", other.name), planes.ok_or_else(unknown)?, Some(taper))
+                let ends = drawn
+                    .zip(other.drawn)
+                    .map(|(a, b)| [a, b])
+                    .ok_or_else(unknown)?;
+                let taper = FibreTaper {
+                    ends,
+                    stretch,
+                    turned,
+                    rail,
+                };
+                let planes: Option<Vec<FibrePlane>> = [0.0, 1.0]
+                    .into_iter()
+                    .map(|place| taper.plane(place))
+                    .collect();
+                (
+                    format!("{name} to {}", other.name),
+                    planes.ok_or_else(unknown)?,
+                    Some(taper),
+                )
             }
         };
         if lateral == LateralSection::TopFlange && planes[0].top_flange.is_none() {
-            return Err(format!("section {name} has no top flange that could take the lateral moments"));
+            return Err(format!(
+                "section {name} has no top flange that could take the lateral moments"
+            ));
         }
         let (yield_strength, is_composite) = (*yield_strength, rail.is_some());
-        Ok(Fibres { name, yield_strength, planes, taper, lateral, is_composite })
+        Ok(Fibres {
+            name,
+            yield_strength,
+            planes,
+            taper,
+            lateral,
+            is_composite,
+        })
     }
 
     /// The fibre of largest stress of either sign under a normal force, a vertical and a lateral moment; `None` where it is not
@@ -168,7 +199,11 @@ impl Fibres {
     /// The section at a place of a part of a tapered member; `None` of other members.
     fn plane_at(&self, place: f64) -> Option<FibrePlane> {
         let taper = self.taper.as_ref()?;
-        taper.plane(if taper.turned.is_reversed { 1.0 - place } else { place })
+        taper.plane(if taper.turned.is_reversed {
+            1.0 - place
+        } else {
+            place
+        })
     }
 
     fn worst_of(&self, planes: &[FibrePlane], forces: [f64; 3]) -> Option<FibreStress> {
@@ -181,7 +216,9 @@ impl Fibres {
                 }
             });
         }
-        worst.filter(|(size, _)| size.is_finite()).map(|(_, stress)| stress)
+        worst
+            .filter(|(size, _)| size.is_finite())
+            .map(|(_, stress)| stress)
     }
 
     /// Whether the section changes along the member.
@@ -198,17 +235,24 @@ impl Fibres {
             widths: std::array::from_fn(|k| a.widths[k].min(b.widths[k])),
             flanges: std::array::from_fn(|k| a.flanges[k].min(b.flanges[k])),
         };
-        self.planes.iter().map(|plane| plane.plates).reduce(|a, b| Some(least(a?, b?)))?
+        self.planes
+            .iter()
+            .map(|plane| plane.plates)
+            .reduce(|a, b| Some(least(a?, b?)))?
     }
 
     /// Thickness of the web times the height over the flanges; of a part of a tapered member the smaller one of both ends.
     pub(crate) fn web_area(&self) -> Option<f64> {
-        self.planes.iter().map(FibrePlane::web_area).reduce(|a, b| Some(a?.min(b?)))?
+        self.planes
+            .iter()
+            .map(FibrePlane::web_area)
+            .reduce(|a, b| Some(a?.min(b?)))?
     }
 
     /// The same at a place of the member, as a fraction of its length in the direction of the rail.
     pub(crate) fn web_area_at(&self, place: f64) -> Option<f64> {
-        self.plane_at(place).map_or_else(|| self.web_area(), |plane| plane.web_area())
+        self.plane_at(place)
+            .map_or_else(|| self.web_area(), |plane| plane.web_area())
     }
 }
 
@@ -218,7 +262,11 @@ impl FibreTaper {
         let [from, to] = self.stretch;
         let [a, b] = &self.ends;
         let own = a.towards(b, from + (to - from) * place)?;
-        let mut second = if self.turned.is_y_up { [own.iz, own.iy] } else { [own.iy, own.iz] };
+        let mut second = if self.turned.is_y_up {
+            [own.iz, own.iy]
+        } else {
+            [own.iy, own.iz]
+        };
         let mut area = own.area;
         if let Some(rail) = &self.rail {
             area += rail.area;
@@ -226,7 +274,12 @@ impl FibreTaper {
             second[0] += rail.second[0] + own.area * shift * rail.height;
             second[1] += rail.second[1];
         }
-        Some(FibrePlane::new(&own.shape, (area, second), &self.turned, self.rail.as_ref()))
+        Some(FibrePlane::new(
+            &own.shape,
+            (area, second),
+            &self.turned,
+            self.rail.as_ref(),
+        ))
     }
 }
 
@@ -238,7 +291,11 @@ impl FibrePlane {
         turned: &Turned,
         rail: Option<&CompositeRail>,
     ) -> FibrePlane {
-        let second = if turned.is_y_up { [whole.iz, whole.iy] } else { [whole.iy, whole.iz] };
+        let second = if turned.is_y_up {
+            [whole.iz, whole.iy]
+        } else {
+            [whole.iy, whole.iz]
+        };
         FibrePlane::new(shape, (whole.area, second), turned, rail)
     }
 
@@ -253,12 +310,22 @@ impl FibrePlane {
         let centroid = rail.map_or(0.0, |rail| rail.height * (rail.area / area));
         let outline = match turned.outline(shape) {
             Outline::Corners(corners) => Outline::Corners(
-                corners.into_iter().map(|(name, [v, w])| (name, [v - centroid, w])).collect(),
+                corners
+                    .into_iter()
+                    .map(|(name, [v, w])| (name, [v - centroid, w]))
+                    .collect(),
             ),
             round @ Outline::Round(..) => round,
         };
         let (plates, top_flange) = (turned.plates(shape), turned.top_flange(shape));
-        FibrePlane { area, second, centroid, outline, plates, top_flange }
+        FibrePlane {
+            area,
+            second,
+            centroid,
+            outline,
+            plates,
+            top_flange,
+        }
     }
 
     fn web_area(&self) -> Option<f64> {
@@ -281,13 +348,18 @@ impl FibrePlane {
             Outline::Corners(corners) => {
                 for &(fibre, [v, w]) in corners {
                     let sideways = match (resists, self.top_flange) {
-                        (LateralSection::TopFlange, Some([width, thickness])) if fibre.starts_with("top") => {
+                        (LateralSection::TopFlange, Some([width, thickness]))
+                            if fibre.starts_with("top") =>
+                        {
                             over(lateral, thickness * width.powi(2) / 6.0) * w.signum()
                         }
                         (LateralSection::TopFlange, _) => 0.0,
                         (LateralSection::Whole, _) => over(lateral, i_lateral) * w,
                     };
-                    take(FibreStress { fibre, parts: [axial, -over(vertical, i_vertical) * v, sideways] });
+                    take(FibreStress {
+                        fibre,
+                        parts: [axial, -over(vertical, i_vertical) * v, sideways],
+                    });
                 }
             }
             Outline::Round(radius) => {
@@ -299,11 +371,21 @@ impl FibrePlane {
                     if size == 0.0 {
                         [axial, 0.0, 0.0]
                     } else {
-                        [axial, sign * radius * a * a / size + below, sign * radius * b * b / size]
+                        [
+                            axial,
+                            sign * radius * a * a / size + below,
+                            sign * radius * b * b / size,
+                        ]
                     }
                 };
-                take(FibreStress { fibre: "tension side", parts: parts(1.0) });
-                take(FibreStress { fibre: "compression side", parts: parts(-1.0) });
+                take(FibreStress {
+                    fibre: "tension side",
+                    parts: parts(1.0),
+                });
+                take(FibreStress {
+                    fibre: "compression side",
+                    parts: parts(-1.0),
+                });
             }
         }
     }
@@ -331,16 +413,28 @@ impl Turned {
         let z = unit(normal);
         let y = cross(z, x);
         // The planes of a member are those of its axis in the direction of the rail, and up.
-        let t = if dot(x, along) < 0.0 { x.map(|part| -part) } else { x };
+        let t = if dot(x, along) < 0.0 {
+            x.map(|part| -part)
+        } else {
+            x
+        };
         let rise = dot(up, t);
         let u = unit(std::array::from_fn(|k| up[k] - rise * t[k]));
         let w = cross(t, u);
         let is_along = |a: [f64; 3], b: [f64; 3]| dot(a, b).abs() > 1.0 - UPRIGHT * UPRIGHT;
         let is_reversed = dot(x, along) < 0.0;
         if is_along(y, u) {
-            Some(Turned { is_y_up: true, signs: [dot(y, u).signum(), dot(z, w).signum()], is_reversed })
+            Some(Turned {
+                is_y_up: true,
+                signs: [dot(y, u).signum(), dot(z, w).signum()],
+                is_reversed,
+            })
         } else if is_along(z, u) {
-            Some(Turned { is_y_up: false, signs: [dot(z, u).signum(), dot(y, w).signum()], is_reversed })
+            Some(Turned {
+                is_y_up: false,
+                signs: [dot(z, u).signum(), dot(y, w).signum()],
+                is_reversed,
+            })
         } else {
             None
         }
@@ -381,7 +475,9 @@ impl Turned {
 
     /// The plates of an I section with an upright web, the upper flange last.
     fn plates(&self, shape: &OutlineShape) -> Option<SectionPlates> {
-        let OutlineShape::I(mut plates) = *shape else { return None };
+        let OutlineShape::I(mut plates) = *shape else {
+            return None;
+        };
         if self.signs[0] < 0.0 {
             plates.widths.reverse();
             plates.flanges.reverse();
@@ -392,7 +488,9 @@ impl Turned {
     fn top_flange(&self, shape: &OutlineShape) -> Option<[f64; 2]> {
         match shape {
             OutlineShape::Box([_, width, flange]) if self.is_y_up => Some([*width, *flange]),
-            _ => self.plates(shape).map(|plates| [plates.widths[1], plates.flanges[1]]),
+            _ => self
+                .plates(shape)
+                .map(|plates| [plates.widths[1], plates.flanges[1]]),
         }
     }
 }

@@ -19,31 +19,55 @@ pub struct GirderSections {
 impl GirderSections {
     /// The sections of all rails of a spec with its model; `lateral` is what resists lateral moments.
     #[must_use]
-    pub fn new(spec: &Spec, lateral: LateralSection, model: &Model, rails: &[Rail]) -> GirderSections {
+    pub fn new(
+        spec: &Spec,
+        lateral: LateralSection,
+        model: &Model,
+        rails: &[Rail],
+    ) -> GirderSections {
         let fibres = |rail: usize, member: usize| {
-            let part = (0..rails.len()).find_map(|own| composite_rail(spec, model, &rails[own], own, member));
-            Fibres::new(spec, model, member, rail_axes(&rails[rail], model.up), lateral, part)
+            let part = (0..rails.len())
+                .find_map(|own| composite_rail(spec, model, &rails[own], own, member));
+            Fibres::new(
+                spec,
+                model,
+                member,
+                rail_axes(&rails[rail], model.up),
+                lateral,
+                part,
+            )
         };
         let of_rail = |(index, rail): (usize, &Rail)| {
-            let mut members: Vec<usize> = rail.segments.iter().map(|segment| segment.member).collect();
+            let mut members: Vec<usize> =
+                rail.segments.iter().map(|segment| segment.member).collect();
             members.sort_unstable();
             members.dedup();
-            members.into_iter().map(|member| (member, fibres(index, member))).collect()
+            members
+                .into_iter()
+                .map(|member| (member, fibres(index, member)))
+                .collect()
         };
-        GirderSections { rails: rails.iter().enumerate().map(of_rail).collect() }
+        GirderSections {
+            rails: rails.iter().enumerate().map(of_rail).collect(),
+        }
     }
 
     /// The fibres of a member under a rail; `None` where they are not known.
     #[must_use]
     pub fn of(&self, rail: usize, member: usize) -> Option<&Fibres> {
-        let found = self.rails[rail].iter().find(|(known, _)| *known == member)?;
+        let found = self.rails[rail]
+            .iter()
+            .find(|(known, _)| *known == member)?;
         found.1.as_ref().ok()
     }
 
     /// The fibres of all members of a rail, each section once.
     pub(crate) fn distinct(&self, rail: usize) -> Vec<&Fibres> {
         let mut out: Vec<&Fibres> = Vec::new();
-        for fibres in self.rails[rail].iter().filter_map(|(_, found)| found.as_ref().ok()) {
+        for fibres in self.rails[rail]
+            .iter()
+            .filter_map(|(_, found)| found.as_ref().ok())
+        {
             if !out.contains(&fibres) {
                 out.push(fibres);
             }
@@ -53,7 +77,11 @@ impl GirderSections {
 
     /// Whether any member of any rail has fibres with a strength.
     pub(crate) fn have_strength(&self) -> bool {
-        (0..self.rails.len()).any(|rail| self.distinct(rail).iter().any(|own| own.yield_strength.is_some()))
+        (0..self.rails.len()).any(|rail| {
+            self.distinct(rail)
+                .iter()
+                .any(|own| own.yield_strength.is_some())
+        })
     }
 
     /// What keeps sections of a rail from having direct stresses, each reason once.
@@ -66,7 +94,12 @@ impl GirderSections {
     pub(crate) fn lacks(&self, rail: usize, needs_strength: bool) -> Vec<String> {
         let weak = |own: &Fibres| {
             let is_weak = own.yield_strength.is_none();
-            is_weak.then(|| format!("the material of section {} has no yield strength `fy`", own.name))
+            is_weak.then(|| {
+                format!(
+                    "the material of section {} has no yield strength `fy`",
+                    own.name
+                )
+            })
         };
         self.reasons(rail, |own| if needs_strength { weak(own) } else { None })
     }
@@ -93,8 +126,16 @@ fn composite_rail(
     index: usize,
     member: usize,
 ) -> Option<CompositeRail> {
-    let carried = spec.crane_rails.get(index).copied().flatten().filter(|own| own.is_composite)?;
-    let segment = rail.segments.iter().find(|segment| segment.member == member)?;
+    let carried = spec
+        .crane_rails
+        .get(index)
+        .copied()
+        .flatten()
+        .filter(|own| own.is_composite)?;
+    let segment = rail
+        .segments
+        .iter()
+        .find(|segment| segment.member == member)?;
     let (plane, centroid) = carried.profile.plane_section().ok()?;
     let one = Length::Millimetre.in_units_of(spec.units.length);
     let top = dot(segment.offset, rail_axes(rail, model.up)[1]);
@@ -119,6 +160,12 @@ pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<String> {
     let word = |count: usize| if count == 1 { "rail" } else { "rails" };
     reasons
         .iter()
-        .map(|(why, rails)| format!("{what} on {} {}: {why}", word(rails.len()), rails.join(", ")))
+        .map(|(why, rails)| {
+            format!(
+                "{what} on {} {}: {why}",
+                word(rails.len()),
+                rails.join(", ")
+            )
+        })
         .collect()
 }

@@ -3,7 +3,9 @@
 use formats::design::Design;
 use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
-use trains::{GirderResponse, Governing, InfluenceLine, SectionSide, SpanExtreme, Structure, TrainCase};
+use trains::{
+    GirderResponse, Governing, InfluenceLine, SectionSide, SpanExtreme, Structure, TrainCase,
+};
 
 use crate::loads::{LoadKind, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes};
@@ -81,7 +83,10 @@ impl GoverningLine {
     /// The part of the value that is due to the vertical wheel forces: the sum of forces times ordinates.
     #[must_use]
     pub fn of_wheels(&self) -> f64 {
-        self.wheels.iter().map(|wheel| wheel.force * wheel.ordinate).sum()
+        self.wheels
+            .iter()
+            .map(|wheel| wheel.force * wheel.ordinate)
+            .sum()
     }
 
     /// Indices of the rails on which loads matter.
@@ -89,7 +94,9 @@ impl GoverningLine {
     pub fn loaded_rails(&self) -> Vec<usize> {
         let sizes: Vec<f64> = self.lines.iter().map(InfluenceLine::size).collect();
         let most = sizes.iter().copied().fold(0.0, f64::max);
-        (0..sizes.len()).filter(|rail| sizes[*rail] > NEGLIGIBLE * most).collect()
+        (0..sizes.len())
+            .filter(|rail| sizes[*rail] > NEGLIGIBLE * most)
+            .collect()
     }
 
     /// Points of the line on a rail, evenly spread; two with the same coordinate where it jumps.
@@ -112,30 +119,59 @@ pub fn governing_lines(
     result: &DesignResult,
 ) -> Result<Vec<GoverningLine>, SolveError> {
     let in_files = |error: trains::Error| solve_error(&error, design, inputs);
-    let (model, rails) = design.spec.model().map_err(|error| in_files(error.into()))?;
+    let (model, rails) = design
+        .spec
+        .model()
+        .map_err(|error| in_files(error.into()))?;
     let structure = Structure::new(&model, &rails, false).map_err(in_files)?;
     let mut out = Vec::new();
     for rail in 0..rails.len() {
         for (quantity, is_max) in SHOWN {
-            let Some((case, found)) = governing_extreme(result, rail, quantity, is_max) else { continue };
+            let Some((case, found)) = governing_extreme(result, rail, quantity, is_max) else {
+                continue;
+            };
             let g = &found.governing;
-            let lines = structure.girder_lines(rail, g.x, g.side, quantity).map_err(in_files)?;
-            let subject = LineSubject::Girder { rail, span: found.span, quantity };
-            out.push(line(design, &structure, (subject, case, found.is_max), g, lines));
+            let lines = structure
+                .girder_lines(rail, g.x, g.side, quantity)
+                .map_err(in_files)?;
+            let subject = LineSubject::Girder {
+                rail,
+                span: found.span,
+                quantity,
+            };
+            out.push(line(
+                design,
+                &structure,
+                (subject, case, found.is_max),
+                g,
+                lines,
+            ));
         }
     }
     let (names, sums) = reactions(design, &model, &structure);
     for is_max in [true, false] {
-        let Some((case, found, governing)) = governing_reaction(design, result, is_max) else { continue };
-        let Some(index) = names.iter().position(|name| *name == found.name) else { continue };
+        let Some((case, found, governing)) = governing_reaction(design, result, is_max) else {
+            continue;
+        };
+        let Some(index) = names.iter().position(|name| *name == found.name) else {
+            continue;
+        };
         if governing.value == 0.0 {
             continue;
         }
         let lines = structure.effect_lines(&sums[index]).map_err(in_files)?;
         let ReactionExtremes { name, .. } = found;
-        let subject =
-            LineSubject::Reaction { support: name.support.clone(), direction: name.direction.clone() };
-        out.push(line(design, &structure, (subject, case, is_max), governing, lines));
+        let subject = LineSubject::Reaction {
+            support: name.support.clone(),
+            direction: name.direction.clone(),
+        };
+        out.push(line(
+            design,
+            &structure,
+            (subject, case, is_max),
+            governing,
+            lines,
+        ));
     }
     out.retain(|line| line.lines.iter().any(|own| own.size() > 0.0));
     Ok(out)
@@ -153,16 +189,35 @@ fn line(
     let TrainCase { trains, .. } = train_case(design, &design.cases[case], LoadKind::All);
     let mut wheels = Vec::new();
     for (train, at) in trains.iter().zip(&governing.trains) {
-        for (given, (rail, x)) in train.wheels.iter().zip(structure.wheel_coordinates(train, at)) {
+        for (given, (rail, x)) in train
+            .wheels
+            .iter()
+            .zip(structure.wheel_coordinates(train, at))
+        {
             // a wheel at a jump counts on the side that makes the value more extreme
             let [before, behind] =
                 [SectionSide::Before, SectionSide::Behind].map(|side| lines[rail].value(x, side));
-            let ordinate =
-                if sign * given.vertical * before > sign * given.vertical * behind { before } else { behind };
-            wheels.push(WheelOrdinate { rail, x, force: given.vertical, ordinate });
+            let ordinate = if sign * given.vertical * before > sign * given.vertical * behind {
+                before
+            } else {
+                behind
+            };
+            wheels.push(WheelOrdinate {
+                rail,
+                x,
+                force: given.vertical,
+                ordinate,
+            });
         }
     }
-    GoverningLine { subject, case, is_max, governing: governing.clone(), lines, wheels }
+    GoverningLine {
+        subject,
+        case,
+        is_max,
+        governing: governing.clone(),
+        lines,
+        wheels,
+    }
 }
 
 /// The extreme of a quantity on a rail over all cases and spans, with the index of its case; a shear force of the largest
@@ -180,14 +235,25 @@ fn governing_extreme(
         if is_shear { value.abs() } else { sign * value }
     };
     let all = result.cases.iter().enumerate();
-    let all = all.flat_map(|(case, own)| own.envelopes.extremes.iter().map(move |found| (case, found)));
+    let all = all.flat_map(|(case, own)| {
+        own.envelopes
+            .extremes
+            .iter()
+            .map(move |found| (case, found))
+    });
     all.filter(|(_, found)| {
         found.rail == rail
             && found.quantity == quantity
             && (is_shear || found.is_max == is_max)
             && size(found) > 0.0
     })
-    .reduce(|best, next| if size(next.1) > size(best.1) { next } else { best })
+    .reduce(|best, next| {
+        if size(next.1) > size(best.1) {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// The largest or the smallest vertical reaction over all cases: the index of its case, the reaction, its value.
@@ -200,10 +266,19 @@ pub fn governing_reaction<'r>(
     let up = upward_direction(design)?;
     let sign = if is_max { 1.0 } else { -1.0 };
     let all = result.cases.iter().enumerate().flat_map(|(case, solved)| {
-        let own = solved.reactions.iter().filter(|reaction| reaction.name.direction == up);
+        let own = solved
+            .reactions
+            .iter()
+            .filter(|reaction| reaction.name.direction == up);
         own.map(move |reaction| (case, reaction, &reaction.extremes[usize::from(!is_max)]))
     });
-    all.reduce(|best, next| if sign * next.2.value > sign * best.2.value { next } else { best })
+    all.reduce(|best, next| {
+        if sign * next.2.value > sign * best.2.value {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// Word of the global direction that is nearest to up.
@@ -240,7 +315,11 @@ pub fn influence_csv(design: &Design, lines: &[GoverningLine]) -> Result<String,
     for (number, line) in lines.iter().enumerate() {
         let g = &line.governing;
         let place = match &line.subject {
-            LineSubject::Girder { rail, span, quantity } => [
+            LineSubject::Girder {
+                rail,
+                span,
+                quantity,
+            } => [
                 quantity_word(*quantity).to_owned(),
                 plane_word(*quantity).to_owned(),
                 kind_word(line.is_max).to_owned(),

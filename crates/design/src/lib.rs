@@ -47,8 +47,8 @@ pub use governing_lines::{
 };
 pub use loads::LoadKind;
 pub use outcome::{
-    DesignResult, EndStopForce, FatigueLoads, LimitCheck, RailPairResponse, ReactionExtremes, ReactionName,
-    SolvedCase, StressCheck, WheelCycle, WheelStress,
+    DesignResult, EndStopForce, FatigueLoads, LimitCheck, RailPairResponse, ReactionExtremes,
+    ReactionName, SolvedCase, StressCheck, WheelCycle, WheelStress,
 };
 pub use solve::{DesignStructures, solve, solve_on};
 pub use summary::{summary, summary_schema};

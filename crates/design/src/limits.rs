@@ -19,14 +19,25 @@ const VERTICAL_ALONE: &str = "vertical wheel loads alone, which move the rail si
 /// and without factors, as the codes want them.
 pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCheck> {
     let rails = design.spec.rails();
-    let metric = Scale { from: design.units, to: Units::SI }.factor(Dimension::LENGTH);
+    let metric = Scale {
+        from: design.units,
+        to: Units::SI,
+    }
+    .factor(Dimension::LENGTH);
     let mut out = Vec::new();
     for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
         if !case.factors.is_empty() {
             continue;
         }
-        let sizes = solved.envelopes.deflections.iter().map(|found| found.governing.value.abs());
-        let is_thrust = case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
+        let sizes = solved
+            .envelopes
+            .deflections
+            .iter()
+            .map(|found| found.governing.value.abs());
+        let is_thrust = case
+            .trains
+            .iter()
+            .any(|&train| design.trains[train].has_lateral_forces());
         let least = ROUNDING * sizes.fold(0.0, f64::max);
         for deflection in &solved.envelopes.deflections {
             let moves = deflection.governing.value.abs() > least;
@@ -36,12 +47,18 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
                 };
                 let is_sideways = deflection.quantity == GirderResponse::LateralDeflection;
                 let span = (deflection.ends[1] - deflection.ends[0]) * metric;
-                let Ok(allowed) = limit.allowable(span) else { continue };
+                let Ok(allowed) = limit.allowable(span) else {
+                    continue;
+                };
                 out.push(LimitCheck {
                     clause: limit.clause,
                     quantity,
                     formula: limit.formula(),
-                    loads: if is_sideways && !is_thrust { VERTICAL_ALONE } else { limit.loads },
+                    loads: if is_sideways && !is_thrust {
+                        VERTICAL_ALONE
+                    } else {
+                        limit.loads
+                    },
                     value: deflection.governing.value.abs(),
                     limit: allowed / metric,
                     case: number + 1,
@@ -58,7 +75,11 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
 /// What a limit bounds, where it bounds this deflection of a runway; `is_lateral` is whether lateral deflections count. One that
 /// is not zero counts also where no lateral force acts: inclined or eccentric rails and unsymmetric structures move sideways
 /// under vertical forces.
-fn words(limit: &DeflectionLimit, quantity: GirderResponse, is_lateral: bool) -> Option<&'static str> {
+fn words(
+    limit: &DeflectionLimit,
+    quantity: GirderResponse,
+    is_lateral: bool,
+) -> Option<&'static str> {
     match (limit.displacement, quantity) {
         (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
             Some("vertical deflection")
@@ -107,14 +128,20 @@ pub(crate) fn left_out(
         };
         let name = limit.displacement.word();
         let clause = limit.clause;
-        out.push(format!("{name} ({} {}): {why}", clause.standard, clause.clause));
+        out.push(format!(
+            "{name} ({} {}): {why}",
+            clause.standard, clause.clause
+        ));
     }
     if design.practice.s_class.is_some() && design.practice.phi2().is_none() {
-        out.push("damage-equivalent wheel loads: give `hoisting` and `hoist_speed` for phi2".to_owned());
+        out.push(
+            "damage-equivalent wheel loads: give `hoisting` and `hoist_speed` for phi2".to_owned(),
+        );
     }
     if design.practice.s_class.is_some() && !design.trains.iter().any(has_parts) {
         out.push(
-            "damage-equivalent wheel loads: give vertical forces in the parts `crane` and `hoist`".to_owned(),
+            "damage-equivalent wheel loads: give vertical forces in the parts `crane` and `hoist`"
+                .to_owned(),
         );
     }
     out.extend(groups.iter().cloned());
@@ -141,14 +168,27 @@ pub(crate) fn fatigue_loads(design: &Design) -> Vec<FatigueLoads> {
                 let factor = dynamic[usize::from(name == CODE_PARTS[1])];
                 equivalent_load(*force, lambda, factor).unwrap_or(0.0)
             };
-            vertical.iter().filter(|(name, _)| name != TILTING).map(part).sum()
+            vertical
+                .iter()
+                .filter(|(name, _)| name != TILTING)
+                .map(part)
+                .sum()
         })
     };
     let loads = |train: &DesignTrain| FatigueLoads {
         train: train.name.clone(),
         lambda,
         dynamic,
-        wheels: train.wheels.iter().map(|wheel| of_wheel(&wheel.vertical)).collect(),
+        wheels: train
+            .wheels
+            .iter()
+            .map(|wheel| of_wheel(&wheel.vertical))
+            .collect(),
     };
-    design.trains.iter().filter(|train| has_parts(train)).map(loads).collect()
+    design
+        .trains
+        .iter()
+        .filter(|train| has_parts(train))
+        .map(loads)
+        .collect()
 }

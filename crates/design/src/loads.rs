@@ -1,6 +1,8 @@
 //! Trains of a case with its factors.
 
-use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE};
+use formats::design::{
+    Design, DesignCase, DesignTrain, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
+};
 use trains::{Train, TrainCase, TrainWheel};
 
 /// Which forces of the trains act.
@@ -40,7 +42,11 @@ impl LoadKind {
 /// The trains of a case under its factors. The dead load acts with its factor where `kind` is all.
 pub(crate) fn train_case(design: &Design, case: &DesignCase, kind: LoadKind) -> TrainCase {
     let all = kind == LoadKind::All;
-    let trains = case.trains.iter().map(|&index| train(&design.trains[index], case, kind)).collect();
+    let trains = case
+        .trains
+        .iter()
+        .map(|&index| train(&design.trains[index], case, kind))
+        .collect();
     TrainCase {
         trains,
         ordered: case.ordered,
@@ -59,8 +65,10 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
         kind if kind == own && !case.factors.iter().any(|(known, _)| known == name) => 1.0,
         _ => share(own) * case.factor(name),
     };
-    let (buffer, skewing) =
-        (on_request(LoadKind::Buffer, "buffer"), on_request(LoadKind::Skewing, "skewing"));
+    let (buffer, skewing) = (
+        on_request(LoadKind::Buffer, "buffer"),
+        on_request(LoadKind::Skewing, "skewing"),
+    );
     let tilting = on_request(LoadKind::Tilting, TILTING);
     // These follow from weights that may be given for other rows: they are listed only in cases that factor them.
     let trolley = share(LoadKind::TrolleyDrives) * case.factor(TROLLEY_DRIVES);
@@ -97,16 +105,27 @@ fn vertical(wheel: &DesignWheel, case: &DesignCase) -> f64 {
 
 /// Change of the vertical force of a wheel while the crane tilts.
 fn tilting_part(wheel: &DesignWheel) -> f64 {
-    wheel.vertical.iter().filter(|(name, _)| name == TILTING).map(|(_, force)| force).sum()
+    wheel
+        .vertical
+        .iter()
+        .filter(|(name, _)| name == TILTING)
+        .map(|(_, force)| force)
+        .sum()
 }
 
 /// Whether any wheel of a case has a force of a kind.
 pub(crate) fn has(design: &Design, case: &DesignCase, kind: LoadKind) -> bool {
-    train_case(design, case, kind).trains.iter().flat_map(|train| &train.wheels).any(|wheel| match kind {
-        LoadKind::All => true,
-        LoadKind::Vertical => wheel.vertical != 0.0,
-        LoadKind::SideThrust | LoadKind::Skewing | LoadKind::TrolleyDrives => wheel.lateral != 0.0,
-        LoadKind::Traction | LoadKind::Buffer => wheel.longitudinal != 0.0,
-        LoadKind::Tilting => wheel.vertical != 0.0 || wheel.lateral != 0.0,
-    })
+    train_case(design, case, kind)
+        .trains
+        .iter()
+        .flat_map(|train| &train.wheels)
+        .any(|wheel| match kind {
+            LoadKind::All => true,
+            LoadKind::Vertical => wheel.vertical != 0.0,
+            LoadKind::SideThrust | LoadKind::Skewing | LoadKind::TrolleyDrives => {
+                wheel.lateral != 0.0
+            }
+            LoadKind::Traction | LoadKind::Buffer => wheel.longitudinal != 0.0,
+            LoadKind::Tilting => wheel.vertical != 0.0 || wheel.lateral != 0.0,
+        })
 }

@@ -240,7 +240,8 @@ impl DesignResult {
     /// Whether all limits are kept and no stress exceeds its strength.
     #[must_use]
     pub fn within(&self) -> bool {
-        self.limits.iter().all(LimitCheck::within) && self.stresses.iter().all(|s| s.utilisation() <= 1.0)
+        self.limits.iter().all(LimitCheck::within)
+            && self.stresses.iter().all(|s| s.utilisation() <= 1.0)
     }
 }
 

@@ -26,7 +26,9 @@ impl RailLines {
             axes: rail_axes(rail, up),
             range: *range,
         };
-        RailLines { lines: rails.iter().zip(ranges).map(line).collect() }
+        RailLines {
+            lines: rails.iter().zip(ranges).map(line).collect(),
+        }
     }
 
     /// Number of rails.
@@ -47,7 +49,10 @@ impl RailLines {
 
     /// Distance of rail `to` from rail `from` along +z of the first.
     pub fn distance(&self, from: usize, to: usize) -> f64 {
-        dot(minus(self.lines[to].origin, self.lines[from].origin), self.lines[from].axes[2])
+        dot(
+            minus(self.lines[to].origin, self.lines[from].origin),
+            self.lines[from].axes[2],
+        )
     }
 
     /// Whether a coordinate is on a rail, and the coordinate without rounding beyond its ends.
@@ -63,23 +68,39 @@ impl RailLines {
     pub fn loads(&self, case: &TrainCase, positions: &[TrainPosition]) -> Vec<RailLoad> {
         let mut out = Vec::new();
         for (train, at) in case.trains.iter().zip(positions) {
-            let Some(first) = train.wheels.first() else { continue };
+            let Some(first) = train.wheels.first() else {
+                continue;
+            };
             let [lateral, longitudinal, side] = at.stance.signs;
             for wheel in &train.wheels {
                 let ahead = if at.stance.turned { -wheel.x } else { wheel.x };
                 let x = self.opposite(first.rail, wheel.rail, at.position) + ahead;
-                let Some(x) = self.on(wheel.rail, x) else { continue };
+                let Some(x) = self.on(wheel.rail, x) else {
+                    continue;
+                };
                 let along = longitudinal * wheel.longitudinal;
                 let lever = side * wheel.eccentricity;
                 let force = [along, -wheel.vertical, lateral * wheel.lateral];
                 if lever == 0.0 {
-                    out.push(RailLoad { rail: wheel.rail, x, force });
+                    out.push(RailLoad {
+                        rail: wheel.rail,
+                        x,
+                        force,
+                    });
                     continue;
                 }
                 let near = [(1.0 - lever) * force[0], (1.0 - lever) * force[1], force[2]];
-                out.push(RailLoad { rail: wheel.rail, x, force: near });
+                out.push(RailLoad {
+                    rail: wheel.rail,
+                    x,
+                    force: near,
+                });
                 let far = [lever * force[0], lever * force[1], 0.0];
-                out.push(RailLoad { rail: wheel.rail + self.count(), x, force: far });
+                out.push(RailLoad {
+                    rail: wheel.rail + self.count(),
+                    x,
+                    force: far,
+                });
             }
         }
         out

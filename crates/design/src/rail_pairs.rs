@@ -22,8 +22,12 @@ const TIE: f64 = 1e-12;
 
 /// Pairs of rails on which a train of the case stands.
 fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2]> {
-    let stands_on =
-        |train: usize, rail: usize| design.trains[train].wheels.iter().any(|wheel| wheel.rail == rail);
+    let stands_on = |train: usize, rail: usize| {
+        design.trains[train]
+            .wheels
+            .iter()
+            .any(|wheel| wheel.rail == rail)
+    };
     let mut out = Vec::new();
     for a in 0..lines.count() {
         for b in a + 1..lines.count() {
@@ -31,7 +35,10 @@ fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2
             let aside = dot(x, lines.axes(b)[2]);
             let apart = dot(z, lines.axes(b)[0]);
             let is_parallel = aside.abs() < PARALLEL && apart.abs() < PARALLEL;
-            let both = case.trains.iter().any(|&train| stands_on(train, a) && stands_on(train, b));
+            let both = case
+                .trains
+                .iter()
+                .any(|&train| stands_on(train, a) && stands_on(train, b));
             if both && is_parallel && lines.distance(a, b) != 0.0 {
                 out.push([a, b]);
             }
@@ -42,7 +49,10 @@ fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2
 
 /// Whether any case without factors has a train on two rails.
 pub(crate) fn has_any(design: &Design, lines: &RailLines) -> bool {
-    design.cases.iter().any(|case| case.factors.is_empty() && !pairs(design, case, lines).is_empty())
+    design
+        .cases
+        .iter()
+        .any(|case| case.factors.is_empty() && !pairs(design, case, lines).is_empty())
 }
 
 /// The responses of all pairs in the cases without factors.
@@ -54,18 +64,25 @@ pub(crate) fn pair_responses(
     cases: &[SolvedCase],
 ) -> Result<Vec<RailPairResponse>, Error> {
     let surface = structure.frame().surface()?.surface;
-    let moved = Moved { lines, structure, surface: &surface };
+    let moved = Moved {
+        lines,
+        structure,
+        surface: &surface,
+    };
     let mut out = Vec::new();
     for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
         if !case.factors.is_empty() {
             continue;
         }
         for pair in pairs(design, case, lines) {
-            for (quantity, axis) in
-                [("change of gauge", Axis::Lateral), ("difference in height", Axis::Vertical)]
-            {
+            for (quantity, axis) in [
+                ("change of gauge", Axis::Lateral),
+                ("difference in height", Axis::Vertical),
+            ] {
                 let found = moved.largest(pair, axis, solved, &trains[number])?;
-                let Some((value, x, governing)) = found else { continue };
+                let Some((value, x, governing)) = found else {
+                    continue;
+                };
                 let rails = design.spec.rails();
                 out.push(RailPairResponse {
                     case: number + 1,
@@ -85,15 +102,26 @@ pub(crate) fn pair_responses(
 
 /// The limits of the code for pairs of rails.
 pub(crate) fn pair_limits(design: &Design, responses: &[RailPairResponse]) -> Vec<LimitCheck> {
-    let metric = Scale { from: design.units, to: Units::SI }.factor(Dimension::LENGTH);
+    let metric = Scale {
+        from: design.units,
+        to: Units::SI,
+    }
+    .factor(Dimension::LENGTH);
     let mut out = Vec::new();
     for found in responses {
         let wanted = match found.quantity {
             "change of gauge" => LimitedDisplacement::GaugeChange,
             _ => LimitedDisplacement::HeightDifference,
         };
-        for limit in design.practice.limits.iter().filter(|limit| limit.displacement == wanted) {
-            let Ok(allowed) = limit.allowable(found.distance * metric) else { continue };
+        for limit in design
+            .practice
+            .limits
+            .iter()
+            .filter(|limit| limit.displacement == wanted)
+        {
+            let Ok(allowed) = limit.allowable(found.distance * metric) else {
+                continue;
+            };
             out.push(LimitCheck {
                 clause: limit.clause,
                 quantity: found.quantity,
@@ -128,23 +156,49 @@ impl Moved<'_> {
         solved: &SolvedCase,
         case: &TrainCase,
     ) -> Result<Option<(f64, f64, Governing)>, Error> {
-        if pair.iter().any(|&rail| !self.structure.frame().resists(rail, axis)) {
+        if pair
+            .iter()
+            .any(|&rail| !self.structure.frame().resists(rail, axis))
+        {
             return Ok(None);
         }
-        let deflections = [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection];
+        let deflections = [
+            GirderResponse::VerticalDeflection,
+            GirderResponse::LateralDeflection,
+        ];
         let found = &solved.envelopes;
-        let spans = found.extremes.iter().map(|e| (e.rail, e.quantity, &e.governing));
-        let places = found.envelopes.iter().map(|e| (e.rail, e.quantity, &e.governing));
-        let chords = found.deflections.iter().map(|e| (e.rail, e.quantity, &e.governing));
+        let spans = found
+            .extremes
+            .iter()
+            .map(|e| (e.rail, e.quantity, &e.governing));
+        let places = found
+            .envelopes
+            .iter()
+            .map(|e| (e.rail, e.quantity, &e.governing));
+        let chords = found
+            .deflections
+            .iter()
+            .map(|e| (e.rail, e.quantity, &e.governing));
         let mut best: Option<(f64, f64, Governing)> = None;
         for (rail, quantity, governing) in spans.chain(places).chain(chords) {
             if !pair.contains(&rail) || !deflections.contains(&quantity) {
                 continue;
             }
-            let x = pair.map(|to| self.lines.on(to, self.lines.opposite(rail, to, governing.x)));
+            let x = pair.map(|to| {
+                self.lines
+                    .on(to, self.lines.opposite(rail, to, governing.x))
+            });
             let [Some(a), Some(b)] = x else { continue };
-            let value = self.difference(pair, [a, b], axis, &self.lines.loads(case, &governing.trains))?;
-            if best.as_ref().is_none_or(|(most, ..)| value.abs() > (1.0 + TIE) * most.abs()) {
+            let value = self.difference(
+                pair,
+                [a, b],
+                axis,
+                &self.lines.loads(case, &governing.trains),
+            )?;
+            if best
+                .as_ref()
+                .is_none_or(|(most, ..)| value.abs() > (1.0 + TIE) * most.abs())
+            {
                 best = Some((value, a, governing.clone()));
             }
         }
@@ -159,14 +213,33 @@ impl Moved<'_> {
         axis: Axis,
         loads: &[RailLoad],
     ) -> Result<f64, Error> {
-        let at = [Probe { rail: a, x: x[0], axis }, Probe { rail: b, x: x[1], axis }];
+        let at = [
+            Probe {
+                rail: a,
+                x: x[0],
+                axis,
+            },
+            Probe {
+                rail: b,
+                x: x[1],
+                axis,
+            },
+        ];
         let mut forces = Vec::new();
         for load in loads {
-            for (axis, force) in
-                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
+            for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
+                .into_iter()
+                .zip(load.force)
             {
                 if force != 0.0 && self.structure.frame().resists(load.rail, axis) {
-                    forces.push((Probe { rail: load.rail, x: load.x, axis }, force));
+                    forces.push((
+                        Probe {
+                            rail: load.rail,
+                            x: load.x,
+                            axis,
+                        },
+                        force,
+                    ));
                 }
             }
         }

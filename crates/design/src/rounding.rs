@@ -19,10 +19,19 @@ impl Sizes {
             let own = envelopes.extremes.iter().filter(|e| is_own(e.quantity));
             own.map(|e| e.governing.value.abs()).fold(0.0, f64::max)
         };
-        let reactions = envelopes.effects.iter().flatten().map(|g| g.value.abs()).fold(0.0, f64::max);
+        let reactions = envelopes
+            .effects
+            .iter()
+            .flatten()
+            .map(|g| g.value.abs())
+            .fold(0.0, f64::max);
         let force = most(&|quantity| kind(quantity) == Kind::Force).max(reactions);
         let moment = most(&|quantity| kind(quantity) == Kind::Moment).max(force * length);
-        Sizes { force, moment, deflection: most(&|quantity| kind(quantity) == Kind::Deflection) }
+        Sizes {
+            force,
+            moment,
+            deflection: most(&|quantity| kind(quantity) == Kind::Deflection),
+        }
     }
 
     fn size(&self, kind: Kind) -> f64 {
@@ -34,14 +43,21 @@ impl Sizes {
     }
 
     fn cleaned(&self, value: f64, kind: Kind) -> f64 {
-        if value.abs() <= ROUNDING * self.size(kind) { 0.0 } else { value }
+        if value.abs() <= ROUNDING * self.size(kind) {
+            0.0
+        } else {
+            value
+        }
     }
 
     fn clean(&self, governing: &mut Governing, kind: Kind) {
         governing.value = self.cleaned(governing.value, kind);
         governing.dead = self.cleaned(governing.dead, kind);
         for (value, kind) in
-            governing.coincident.iter_mut().zip([Kind::Moment, Kind::Force, Kind::Deflection])
+            governing
+                .coincident
+                .iter_mut()
+                .zip([Kind::Moment, Kind::Force, Kind::Deflection])
         {
             *value = self.cleaned(*value, kind);
         }
@@ -49,7 +65,10 @@ impl Sizes {
 
     /// Replaces what is only rounding by zero.
     pub fn clean_all(&self, envelopes: &mut CaseEnvelopes) {
-        envelopes.envelopes.iter_mut().for_each(|e| self.clean(&mut e.governing, kind(e.quantity)));
+        envelopes
+            .envelopes
+            .iter_mut()
+            .for_each(|e| self.clean(&mut e.governing, kind(e.quantity)));
         for (index, governing) in &mut envelopes.other_sides {
             self.clean(governing, kind(envelopes.envelopes[*index].quantity));
         }
@@ -57,9 +76,16 @@ impl Sizes {
             self.clean(&mut extreme.governing, kind(extreme.quantity));
             extreme.bound = self.cleaned(extreme.bound, kind(extreme.quantity));
         }
-        envelopes.deflections.iter_mut().for_each(|d| self.clean(&mut d.governing, Kind::Deflection));
+        envelopes
+            .deflections
+            .iter_mut()
+            .for_each(|d| self.clean(&mut d.governing, Kind::Deflection));
         // A reaction may be a force or a moment: the smaller size leaves more.
-        envelopes.effects.iter_mut().flatten().for_each(|g| self.clean(g, Kind::Force));
+        envelopes
+            .effects
+            .iter_mut()
+            .flatten()
+            .for_each(|g| self.clean(g, Kind::Force));
     }
 }
 
@@ -72,10 +98,12 @@ enum Kind {
 
 const fn kind(quantity: GirderResponse) -> Kind {
     match quantity {
-        GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => Kind::Force,
-        GirderResponse::Torsion | GirderResponse::VerticalMoment | GirderResponse::LateralMoment => {
-            Kind::Moment
+        GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => {
+            Kind::Force
         }
+        GirderResponse::Torsion
+        | GirderResponse::VerticalMoment
+        | GirderResponse::LateralMoment => Kind::Moment,
         GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => Kind::Deflection,
     }
 }

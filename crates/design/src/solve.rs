@@ -41,11 +41,16 @@ impl DesignStructures {
     fn of(&self, design: &Design) -> Result<Arc<DesignStructure>, trains::Error> {
         let mut wheels = design.trains.iter().flat_map(|train| &train.wheels);
         let is_eccentric = wheels.any(|wheel| wheel.eccentricity != 0.0);
-        self.solved.get(&(Arc::clone(&design.spec), is_eccentric), || {
-            let (model, rails) = design.spec.model()?;
-            let structure = Structure::new(&model, &rails, is_eccentric)?;
-            Ok(Arc::new(DesignStructure { model, rails, structure }))
-        })
+        self.solved
+            .get(&(Arc::clone(&design.spec), is_eccentric), || {
+                let (model, rails) = design.spec.model()?;
+                let structure = Structure::new(&model, &rails, is_eccentric)?;
+                Ok(Arc::new(DesignStructure {
+                    model,
+                    rails,
+                    structure,
+                }))
+            })
     }
 }
 
@@ -68,7 +73,11 @@ pub fn solve_on(
 ) -> Result<DesignResult, SolveError> {
     let in_files = |error: trains::Error| solve_error(&error, design, inputs);
     let solved = structures.of(design).map_err(in_files)?;
-    let DesignStructure { model, rails, structure } = &*solved;
+    let DesignStructure {
+        model,
+        rails,
+        structure,
+    } = &*solved;
     let error = structure.error_of_lines().map_err(in_files)?;
     if error > MOST_ERROR {
         let times = (error / NOTED_ERROR).powf(0.25).ceil();
@@ -78,7 +87,10 @@ pub fn solve_on(
             design.spec_file
         )));
     }
-    let dead = DeadLoads { gravity: design.dead.gravity, lines: design.dead.lines.clone() };
+    let dead = DeadLoads {
+        gravity: design.dead.gravity,
+        lines: design.dead.lines.clone(),
+    };
     let (names, reactions) = reactions(design, model, structure);
     let sections = design.sections.iter().map(|section| {
         vec![Effect::InternalForce {
@@ -89,13 +101,22 @@ pub fn solve_on(
     });
     let mut effects = reactions.clone();
     effects.extend(sections);
-    let request = Request { spans: design.spans.clone(), places: places(design, structure), effects };
-    let cases: Vec<TrainCase> =
-        design.cases.iter().map(|case| train_case(design, case, LoadKind::All)).collect();
+    let request = Request {
+        spans: design.spans.clone(),
+        places: places(design, structure),
+        effects,
+    };
+    let cases: Vec<TrainCase> = design
+        .cases
+        .iter()
+        .map(|case| train_case(design, case, LoadKind::All))
+        .collect();
     let found = trains::envelopes(structure, &dead, &cases, &request).map_err(in_files)?;
     let mut solved = Vec::new();
-    let length =
-        (0..structure.rail_count()).map(|rail| structure.range(rail)).map(|[a, b]| b - a).fold(0.0, f64::max);
+    let length = (0..structure.rail_count())
+        .map(|rail| structure.range(rail))
+        .map(|[a, b]| b - a)
+        .fold(0.0, f64::max);
     for (case, mut envelopes) in design.cases.iter().zip(found) {
         Sizes::of(&envelopes, length).clean_all(&mut envelopes);
         let mut all = std::mem::take(&mut envelopes.effects);
@@ -163,7 +184,8 @@ fn by_load(
 
 fn named(names: &[ReactionName], found: Vec<[Governing; 2]>) -> Vec<ReactionExtremes> {
     let each = names.iter().cloned().zip(found);
-    each.map(|(name, extremes)| ReactionExtremes { name, extremes }).collect()
+    each.map(|(name, extremes)| ReactionExtremes { name, extremes })
+        .collect()
 }
 
 /// Names of all reactions, and the sums of restraints that each consists of.
@@ -177,10 +199,15 @@ pub(crate) fn reactions(
     let mut sums = Vec::new();
     for ground in design.spec.supported_points(model) {
         for &dof in &ground.dofs {
-            let own = restraints.iter().filter(|one| one.point == ground.point && one.dof == dof);
+            let own = restraints
+                .iter()
+                .filter(|one| one.point == ground.point && one.dof == dof);
             let sum: Vec<Effect> = own.copied().map(Effect::Reaction).collect();
             if !sum.is_empty() {
-                names.push(ReactionName { support: ground.name.clone(), direction: dof.to_string() });
+                names.push(ReactionName {
+                    support: ground.name.clone(),
+                    direction: dof.to_string(),
+                });
                 sums.push(sum);
             }
         }

@@ -11,7 +11,9 @@ use splines::Axis;
 /// caused it, and no solution otherwise.
 pub(crate) fn solve_error(error: &trains::Error, design: &Design, inputs: &Inputs) -> SolveError {
     let path = |steps: &[(&str, usize)]| {
-        let each = steps.iter().flat_map(|(key, index)| [Step::Key((*key).to_owned()), Step::Index(*index)]);
+        let each = steps
+            .iter()
+            .flat_map(|(key, index)| [Step::Key((*key).to_owned()), Step::Index(*index)]);
         Path(each.collect())
     };
     let fault = |path: Path, expected: String, hint: &str| Fault {
@@ -35,12 +37,17 @@ pub(crate) fn solve_error(error: &trains::Error, design: &Design, inputs: &Input
         ),
         trains::Error::NoStiffness { train, wheel, axis } => fault(
             path(&[("trains", *train), ("wheels", *wheel)]),
-            format!("must have no {} force: the structure does not resist one on this rail", word(*axis)),
+            format!(
+                "must have no {} force: the structure does not resist one on this rail",
+                word(*axis)
+            ),
             "give the spec the stiffness that resists it: A, I_lateral, J in the short form",
         ),
-        trains::Error::TooLong { train, .. } | trains::Error::Wheel { train, .. } => {
-            fault(path(&[("trains", *train)]), error.to_string(), "check its wheels and its rail")
-        }
+        trains::Error::TooLong { train, .. } | trains::Error::Wheel { train, .. } => fault(
+            path(&[("trains", *train)]),
+            error.to_string(),
+            "check its wheels and its rail",
+        ),
         trains::Error::Frame(error) => {
             let source = inputs.find(&design.spec_file).map(Input::source);
             return match source {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use fea::{Effect, Model, Rail};
 use trains::{
-    DeadLoads, Error, GirderResponse, Governing, MemberForces, PassedLoads, RailLoad, SectionSide, Structure,
-    TrainCase,
+    DeadLoads, Error, GirderResponse, Governing, MemberForces, PassedLoads, RailLoad, SectionSide,
+    Structure, TrainCase,
 };
 
 use crate::placed::{RailLines, with_twins};
@@ -47,18 +47,33 @@ impl StateForces {
         eccentric: bool,
     ) -> Result<StateForces, Error> {
         let members = MemberForces::new(model, &with_twins(rails, lines, eccentric))?;
-        let carrying = members.members().enumerate().map(|(index, member)| CarryingMember {
-            rail: member.rail,
-            member: match members.effects(index, 0.0)[0] {
-                Effect::InternalForce { member, .. } => member,
-                Effect::Reaction(_) => usize::MAX,
-            },
-            x: member.x,
-        });
+        let carrying = members
+            .members()
+            .enumerate()
+            .map(|(index, member)| CarryingMember {
+                rail: member.rail,
+                member: match members.effects(index, 0.0)[0] {
+                    Effect::InternalForce { member, .. } => member,
+                    Effect::Reaction(_) => usize::MAX,
+                },
+                x: member.x,
+            });
         let carrying = carrying.collect();
         let mut dead = dead.clone();
-        dead.lines.resize(if eccentric { 2 * lines.count() } else { lines.count() }, 0.0);
-        Ok(StateForces { members, carrying, dead, of_dead: BTreeMap::new() })
+        dead.lines.resize(
+            if eccentric {
+                2 * lines.count()
+            } else {
+                lines.count()
+            },
+            0.0,
+        );
+        Ok(StateForces {
+            members,
+            carrying,
+            dead,
+            of_dead: BTreeMap::new(),
+        })
     }
 
     /// The members under the rails.
@@ -82,7 +97,11 @@ impl StateForces {
             };
             member.rail == rail && x >= low && x <= high
         };
-        self.carrying.iter().enumerate().find(on).map(|(index, _)| index)
+        self.carrying
+            .iter()
+            .enumerate()
+            .find(on)
+            .map(|(index, _)| index)
     }
 
     /// The forces at the section of a governing state, on both sides of a wheel that stands there unless the state says on which
@@ -94,14 +113,19 @@ impl StateForces {
         rail: usize,
         governing: &Governing,
     ) -> Result<Vec<(usize, SectionForces)>, Error> {
-        let Some(carrier) = self.carrier_at(rail, governing.x, governing.side) else { return Ok(Vec::new()) };
+        let Some(carrier) = self.carrier_at(rail, governing.x, governing.side) else {
+            return Ok(Vec::new());
+        };
         let loads = lines.loads(case, &governing.trains);
         let place = self.members.place(carrier, governing.x);
         let mut out = Vec::new();
         for mut forces in self.under(carrier, place, &loads, governing.side) {
             if case.dead != 0.0 && !self.dead.is_empty() {
                 let dead = self.of_dead(carrier, place)?;
-                forces.iter_mut().zip(dead).for_each(|(sum, part)| *sum += case.dead * part);
+                forces
+                    .iter_mut()
+                    .zip(dead)
+                    .for_each(|(sum, part)| *sum += case.dead * part);
             }
             out.push((carrier, forces));
         }
@@ -109,10 +133,18 @@ impl StateForces {
     }
 
     /// The forces under loads alone.
-    fn under(&self, carrier: usize, place: f64, loads: &[RailLoad], side: SectionSide) -> Vec<SectionForces> {
+    fn under(
+        &self,
+        carrier: usize,
+        place: f64,
+        loads: &[RailLoad],
+        side: SectionSide,
+    ) -> Vec<SectionForces> {
         let mut passed = PassedLoads::default();
         self.members.load(carrier, loads, &mut passed);
-        let [first, last] = self.carrying[carrier].x.map(|x| self.members.place(carrier, x));
+        let [first, last] = self.carrying[carrier]
+            .x
+            .map(|x| self.members.place(carrier, x));
         let near = NEAR * (last - first).abs();
         if !passed.places().any(|(_, at)| (at - place).abs() <= near) {
             return vec![passed.quantities(place, None)];
@@ -129,7 +161,10 @@ impl StateForces {
             let step = 2.0 * side * near;
             let mut forces = passed.quantities(place + step, None);
             for (moment, shear) in [
-                (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
+                (
+                    GirderResponse::VerticalMoment,
+                    GirderResponse::VerticalShear,
+                ),
                 (GirderResponse::LateralMoment, GirderResponse::LateralShear),
             ] {
                 forces[index(moment)] -= step * forces[index(shear)];
@@ -145,9 +180,16 @@ impl StateForces {
         if !self.of_dead.contains_key(&carrier) {
             let mut three = [[0.0; 6]; 3];
             for (part, forces) in [0.0, 0.5, 1.0].iter().zip(&mut three) {
-                let effects = self.members.effects(carrier, part * length).map(|effect| vec![effect]);
-                let alone = TrainCase { dead: 1.0, ..TrainCase::default() };
-                let found = trains::effects(self.members.structure(), &self.dead, &[alone], &effects)?;
+                let effects = self
+                    .members
+                    .effects(carrier, part * length)
+                    .map(|effect| vec![effect]);
+                let alone = TrainCase {
+                    dead: 1.0,
+                    ..TrainCase::default()
+                };
+                let found =
+                    trains::effects(self.members.structure(), &self.dead, &[alone], &effects)?;
                 let components = std::array::from_fn(|k| found[0][k][0].value);
                 *forces = self.members.quantities(carrier, components);
             }
@@ -155,8 +197,14 @@ impl StateForces {
         }
         let [first, middle, last] = self.of_dead[&carrier];
         let t = place / length;
-        let weights = [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)];
-        Ok(std::array::from_fn(|k| weights[0] * first[k] + weights[1] * middle[k] + weights[2] * last[k]))
+        let weights = [
+            (1.0 - t) * (1.0 - 2.0 * t),
+            4.0 * t * (1.0 - t),
+            t * (2.0 * t - 1.0),
+        ];
+        Ok(std::array::from_fn(|k| {
+            weights[0] * first[k] + weights[1] * middle[k] + weights[2] * last[k]
+        }))
     }
 }
 
@@ -196,7 +244,13 @@ mod tests {
             eccentricity: 0.02,
         };
         let wheels = vec![wheel(0.0, first), wheel(2.6, 80.0)];
-        Train { wheels, ends, turned: true, reverses: true, enters: false }
+        Train {
+            wheels,
+            ends,
+            turned: true,
+            reverses: true,
+            enters: false,
+        }
     }
 
     /// Analytic: in the state that governs a quantity the section has this quantity, with dead load, signs, eccentricity and
@@ -207,9 +261,16 @@ mod tests {
         let rails = [rail];
         let structure = Structure::new(&model, &rails, true).expect("a structure");
         let lines = RailLines::new(&rails, &[structure.range(0)], model.up);
-        let dead = DeadLoads { gravity: 9.81, lines: vec![0.7] };
+        let dead = DeadLoads {
+            gravity: 9.81,
+            lines: vec![0.7],
+        };
         let cases = [
-            TrainCase { trains: vec![train(120.0, [0.3, 0.6])], dead: 1.35, ..TrainCase::default() },
+            TrainCase {
+                trains: vec![train(120.0, [0.3, 0.6])],
+                dead: 1.35,
+                ..TrainCase::default()
+            },
             TrainCase {
                 trains: vec![train(120.0, [0.3; 2]), train(60.0, [0.2; 2])],
                 gap: 0.4,
@@ -222,7 +283,8 @@ mod tests {
             ..Request::default()
         };
         let found = envelopes(&structure, &dead, &cases, &request).expect("envelopes");
-        let mut forces = StateForces::new(&model, &rails, &lines, &dead, true).expect("a structure");
+        let mut forces =
+            StateForces::new(&model, &rails, &lines, &dead, true).expect("a structure");
         let mut compared = 0;
         for (case, found) in cases.iter().zip(&found) {
             let spans = found.extremes.iter().map(|e| (e.quantity, &e.governing));
@@ -235,8 +297,12 @@ mod tests {
                 let all = forces.at(&lines, case, 0, governing).expect("forces");
                 let size = found.extremes.iter().filter(|e| e.quantity == quantity);
                 let size = size.map(|e| e.governing.value.abs()).fold(1.0, f64::max);
-                let error = |own: &SectionForces| (own[index(quantity)] - governing.value).abs() / size;
-                let nearest = all.iter().map(|(_, own)| error(own)).fold(f64::INFINITY, f64::min);
+                let error =
+                    |own: &SectionForces| (own[index(quantity)] - governing.value).abs() / size;
+                let nearest = all
+                    .iter()
+                    .map(|(_, own)| error(own))
+                    .fold(f64::INFINITY, f64::min);
                 assert!(
                     nearest < 1e-8,
                     "{quantity:?} at {}: {all:?} without {}",

@@ -15,16 +15,22 @@ pub(crate) fn train_names(design: &Design, case: usize) -> Vec<String> {
             if trains.iter().filter(|other| *other == train).count() == 1 {
                 return name.clone();
             }
-            format!("{name}{}", trains[..=k].iter().filter(|other| *other == train).count())
+            format!(
+                "{name}{}",
+                trains[..=k].iter().filter(|other| *other == train).count()
+            )
         })
         .collect()
 }
 
 /// Adds where the trains stand: the first one, and all of them by name.
 pub(crate) fn add_state(out: &mut Value, names: &[String], g: &Governing) {
-    let one =
-        |train: &TrainPosition| json!({ "position": train.position + 0.0, "turned": train.stance.turned });
-    let positions: Map<String, Value> = names.iter().cloned().zip(g.trains.iter().map(one)).collect();
+    let one = |train: &TrainPosition| json!({ "position": train.position + 0.0, "turned": train.stance.turned });
+    let positions: Map<String, Value> = names
+        .iter()
+        .cloned()
+        .zip(g.trains.iter().map(one))
+        .collect();
     let signs: Map<String, Value> = names
         .iter()
         .zip(&g.trains)

@@ -16,8 +16,11 @@ use crate::placed::RailLines;
 use crate::state_forces::{StateForces, index};
 
 /// Forces that cause direct stress.
-const DIRECT: [GirderResponse; 3] =
-    [GirderResponse::Normal, GirderResponse::VerticalMoment, GirderResponse::LateralMoment];
+const DIRECT: [GirderResponse; 3] = [
+    GirderResponse::Normal,
+    GirderResponse::VerticalMoment,
+    GirderResponse::LateralMoment,
+];
 
 /// What the stresses of a design follow from.
 pub(crate) struct StressBasis<'a> {
@@ -48,10 +51,22 @@ impl StressBasis<'_> {
         let (mut lacks, mut no_web, mut in_rail) = (Vec::new(), Vec::new(), Vec::new());
         for (rail, outline) in rails.iter().enumerate() {
             let name = || outline.name.clone();
-            lacks.extend(self.sections.lacks(rail, true).into_iter().map(|why| (name(), why)));
+            lacks.extend(
+                self.sections
+                    .lacks(rail, true)
+                    .into_iter()
+                    .map(|why| (name(), why)),
+            );
             let all = self.sections.distinct(rail);
-            let open = all.iter().filter(|own| own.yield_strength.is_some() && own.plates().is_none());
-            no_web.extend(open.map(|own| (name(), format!("section {} is no upright I section", own.name))));
+            let open = all
+                .iter()
+                .filter(|own| own.yield_strength.is_some() && own.plates().is_none());
+            no_web.extend(open.map(|own| {
+                (
+                    name(),
+                    format!("section {} is no upright I section", own.name),
+                )
+            }));
             let has_rail = |own: &&Fibres| own.yield_strength.is_some() && own.is_composite;
             if all.into_iter().any(|own| has_rail(&own)) {
                 in_rail.push((name(), "the spec does not have its strength".to_owned()));
@@ -59,7 +74,10 @@ impl StressBasis<'_> {
         }
         let mut out = by_reason("stress utilisation", &lacks);
         out.extend(by_reason("shear stress in the web", &no_web));
-        out.extend(by_reason("direct stress of a crane rail that is a part of the section,", &in_rail));
+        out.extend(by_reason(
+            "direct stress of a crane rail that is a part of the section,",
+            &in_rail,
+        ));
         out
     }
 
@@ -71,10 +89,17 @@ impl StressBasis<'_> {
         wanted: &'s [GirderResponse],
     ) -> impl Iterator<Item = (GirderResponse, &'s Governing)> + 's {
         let found = &self.cases[case].envelopes;
-        let spans = found.extremes.iter().map(|e: &SpanExtreme| (e.rail, e.quantity, &e.governing));
-        let places = found.envelopes.iter().map(|e: &EnvelopeValue| (e.rail, e.quantity, &e.governing));
-        let own =
-            spans.chain(places).filter(move |(own, quantity, _)| *own == rail && wanted.contains(quantity));
+        let spans = found
+            .extremes
+            .iter()
+            .map(|e: &SpanExtreme| (e.rail, e.quantity, &e.governing));
+        let places = found
+            .envelopes
+            .iter()
+            .map(|e: &EnvelopeValue| (e.rail, e.quantity, &e.governing));
+        let own = spans
+            .chain(places)
+            .filter(move |(own, quantity, _)| *own == rail && wanted.contains(quantity));
         own.map(|(_, quantity, governing)| (quantity, governing))
     }
 
@@ -88,22 +113,36 @@ impl StressBasis<'_> {
         for (_, governing) in self.states(case, rail, &DIRECT) {
             for (carrier, all) in forces.at(self.lines, &self.trains[case], rail, governing)? {
                 let member = forces.carrying()[carrier].member;
-                let Some((fibres, strength)) = self.strong(rail, member) else { continue };
+                let Some((fibres, strength)) = self.strong(rail, member) else {
+                    continue;
+                };
                 let three = DIRECT.map(|quantity| all[index(quantity)]);
                 let place = place_on(forces.carrying()[carrier].x, governing.x);
-                let Some(worst) = fibres.worst_at(place, three).filter(|worst| worst.value().is_finite())
+                let Some(worst) = fibres
+                    .worst_at(place, three)
+                    .filter(|worst| worst.value().is_finite())
                 else {
                     continue;
                 };
-                if best.as_ref().is_some_and(|best| best.utilisation() >= worst.value().abs() / strength) {
+                if best
+                    .as_ref()
+                    .is_some_and(|best| best.utilisation() >= worst.value().abs() / strength)
+                {
                     continue;
                 }
                 let [normal, vertical, lateral] = three;
                 best = Some(StressCheck {
                     value: worst.value(),
                     fibre: Some(worst.fibre),
-                    parts: ["normal", "vertical", "lateral"].into_iter().zip(worst.parts).collect(),
-                    forces: vec![("normal", normal), ("moment", vertical), ("lateral moment", lateral)],
+                    parts: ["normal", "vertical", "lateral"]
+                        .into_iter()
+                        .zip(worst.parts)
+                        .collect(),
+                    forces: vec![
+                        ("normal", normal),
+                        ("moment", vertical),
+                        ("lateral moment", lateral),
+                    ],
                     lateral_section: Some(self.design.practice.lateral_section),
                     ..self.row("direct stress", (case, rail), fibres, strength, governing)
                 });
@@ -119,15 +158,20 @@ impl StressBasis<'_> {
     fn bound(&self, case: usize, rail: usize, forces: &StateForces) -> Option<f64> {
         let all = &self.cases[case].envelopes.extremes;
         let of = |span: usize, quantity: GirderResponse, is_max: bool| {
-            let own =
-                |e: &&SpanExtreme| (e.rail, e.span, e.quantity, e.is_max) == (rail, span, quantity, is_max);
+            let own = |e: &&SpanExtreme| {
+                (e.rail, e.span, e.quantity, e.is_max) == (rail, span, quantity, is_max)
+            };
             all.iter().find(own).map(|e| e.bound)
         };
-        let last = all.iter().filter(|e| e.rail == rail).map(|e| e.span).max()?;
+        let last = all
+            .iter()
+            .filter(|e| e.rail == rail)
+            .map(|e| e.span)
+            .max()?;
         let mut most: Option<f64> = None;
         for span in 0..=last {
-            let [Some(normal), Some(vertical), Some(lateral)] =
-                DIRECT.map(|quantity| Some([of(span, quantity, true)?, of(span, quantity, false)?]))
+            let [Some(normal), Some(vertical), Some(lateral)] = DIRECT
+                .map(|quantity| Some([of(span, quantity, true)?, of(span, quantity, false)?]))
             else {
                 continue;
             };
@@ -136,15 +180,25 @@ impl StressBasis<'_> {
                 .carrying()
                 .iter()
                 .filter(|c| c.rail == rail && c.x[0] < window[1] && c.x[1] > window[0]);
-            let strong: Vec<(&Fibres, f64)> = here.filter_map(|c| self.strong(rail, c.member)).collect();
+            let strong: Vec<(&Fibres, f64)> =
+                here.filter_map(|c| self.strong(rail, c.member)).collect();
             if strong.iter().any(|(fibres, _)| fibres.is_tapered()) {
                 return None;
             }
             for corner in 0..8 {
-                let three = [normal[corner & 1], vertical[corner >> 1 & 1], lateral[corner >> 2]];
+                let three = [
+                    normal[corner & 1],
+                    vertical[corner >> 1 & 1],
+                    lateral[corner >> 2],
+                ];
                 for (fibres, strength) in &strong {
-                    let stress = fibres.worst(three).map(|worst| worst.value().abs() / strength);
-                    most = most.into_iter().chain(stress.filter(|ratio| ratio.is_finite())).reduce(f64::max);
+                    let stress = fibres
+                        .worst(three)
+                        .map(|worst| worst.value().abs() / strength);
+                    most = most
+                        .into_iter()
+                        .chain(stress.filter(|ratio| ratio.is_finite()))
+                        .reduce(f64::max);
                 }
             }
         }
@@ -155,18 +209,33 @@ impl StressBasis<'_> {
     fn shear(&self, case: usize, rail: usize, forces: &StateForces) -> Option<StressCheck> {
         let mut best: Option<StressCheck> = None;
         for (_, governing) in self.states(case, rail, &[GirderResponse::VerticalShear]) {
-            let Some(carrier) = forces.carrier_at(rail, governing.x, governing.side) else { continue };
-            let Some((fibres, fy)) = self.strong(rail, forces.carrying()[carrier].member) else { continue };
+            let Some(carrier) = forces.carrier_at(rail, governing.x, governing.side) else {
+                continue;
+            };
+            let Some((fibres, fy)) = self.strong(rail, forces.carrying()[carrier].member) else {
+                continue;
+            };
             let place = place_on(forces.carrying()[carrier].x, governing.x);
-            let Some(area) = fibres.web_area_at(place) else { continue };
+            let Some(area) = fibres.web_area_at(place) else {
+                continue;
+            };
             let (stress, strength) = (governing.value / area, fy / 3f64.sqrt());
-            if best.as_ref().is_some_and(|best| best.utilisation() >= stress.abs() / strength) {
+            if best
+                .as_ref()
+                .is_some_and(|best| best.utilisation() >= stress.abs() / strength)
+            {
                 continue;
             }
             best = Some(StressCheck {
                 value: stress,
                 forces: vec![("shear", governing.value)],
-                ..self.row("shear stress in the web", (case, rail), fibres, strength, governing)
+                ..self.row(
+                    "shear stress in the web",
+                    (case, rail),
+                    fibres,
+                    strength,
+                    governing,
+                )
             });
         }
         best
@@ -206,8 +275,12 @@ impl StressBasis<'_> {
     /// Coordinates between which a span lies; overhangs have no outer end.
     fn window(&self, rail: usize, span: usize) -> [f64; 2] {
         let ends = &self.design.spans[rail];
-        let end = |k: Option<usize>, beyond: f64| k.and_then(|k| ends.get(k)).copied().unwrap_or(beyond);
-        [end(span.checked_sub(1), f64::NEG_INFINITY), end(Some(span), f64::INFINITY)]
+        let end =
+            |k: Option<usize>, beyond: f64| k.and_then(|k| ends.get(k)).copied().unwrap_or(beyond);
+        [
+            end(span.checked_sub(1), f64::NEG_INFINITY),
+            end(Some(span), f64::INFINITY),
+        ]
     }
 }
 
@@ -219,7 +292,10 @@ fn place_on([from, to]: [f64; 2], x: f64) -> f64 {
 /// Number of the span in which a coordinate lies: 0 before the first, from 1 on, and one more behind the last. An end belongs to
 /// the span before it, the first end to the first span.
 pub(crate) fn span_of(ends: &[f64], x: f64) -> usize {
-    let (first, last) = (ends.first().copied().unwrap_or(x), ends.last().copied().unwrap_or(x));
+    let (first, last) = (
+        ends.first().copied().unwrap_or(x),
+        ends.last().copied().unwrap_or(x),
+    );
     let slack = 1e-9 * (last - first);
     if x < first - slack {
         return 0;

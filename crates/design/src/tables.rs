@@ -14,9 +14,13 @@ fn text(value: f64) -> String {
 
 /// Positions of the trains of a state, and whether each is turned; separated by semicolons for several trains.
 fn places(trains: &[TrainPosition]) -> [String; 2] {
-    let join =
-        |each: &dyn Fn(&TrainPosition) -> String| trains.iter().map(each).collect::<Vec<_>>().join(";");
-    [join(&|train| text(train.position)), join(&|train| train.stance.turned.to_string())]
+    let join = |each: &dyn Fn(&TrainPosition) -> String| {
+        trains.iter().map(each).collect::<Vec<_>>().join(";")
+    };
+    [
+        join(&|train| text(train.position)),
+        join(&|train| train.stance.turned.to_string()),
+    ]
 }
 
 /// The envelopes of all cases along the rails, as CSV.
@@ -42,7 +46,13 @@ pub fn envelope_csv(design: &Design, result: &DesignResult) -> Result<String, cs
     let rails = design.spec.rails();
     for (number, case) in result.cases.iter().enumerate() {
         for row in &case.envelopes.envelopes {
-            let Governing { value, x, trains, coincident, .. } = &row.governing;
+            let Governing {
+                value,
+                x,
+                trains,
+                coincident,
+                ..
+            } = &row.governing;
             let [position, turned] = places(trains);
             let [moment, shear, deflection] = coincident.map(text);
             let plane = plane_word(row.quantity).to_owned();
@@ -71,13 +81,28 @@ pub fn envelope_csv(design: &Design, result: &DesignResult) -> Result<String, cs
 /// None in practice: the text is written into memory.
 pub fn reactions_csv(result: &DesignResult) -> Result<String, csv::Error> {
     let mut out = csv::Writer::from_writer(Vec::new());
-    out.write_record(["case", "support", "direction", "load", "kind", "value", "position", "turned"])?;
+    out.write_record([
+        "case",
+        "support",
+        "direction",
+        "load",
+        "kind",
+        "value",
+        "position",
+        "turned",
+    ])?;
     for (number, case) in result.cases.iter().enumerate() {
         let number = (number + 1).to_string();
         for reaction in &case.reactions {
             let dead = reaction.extremes[0].dead;
             for kind in ["max", "min"] {
-                let name = [number.as_str(), &reaction.name.support, &reaction.name.direction, "dead", kind];
+                let name = [
+                    number.as_str(),
+                    &reaction.name.support,
+                    &reaction.name.direction,
+                    "dead",
+                    kind,
+                ];
                 out.write_record(name.into_iter().chain([text(dead).as_str(), "", ""]))?;
             }
         }
@@ -86,8 +111,8 @@ pub fn reactions_csv(result: &DesignResult) -> Result<String, csv::Error> {
             for reaction in reactions {
                 for (index, governing) in reaction.extremes.iter().enumerate() {
                     let [position, turned] = places(&governing.trains);
-                    let name =
-                        [&number, &reaction.name.support, &reaction.name.direction].map(String::as_str);
+                    let name = [&number, &reaction.name.support, &reaction.name.direction]
+                        .map(String::as_str);
                     let value = text(governing.value);
                     let rest = [load, kind_word(index == 0), &value, &position, &turned];
                     out.write_record(name.into_iter().chain(rest))?;

@@ -22,9 +22,19 @@ pub(crate) fn wheel_stresses(basis: &StressBasis<'_>, forces: &StateForces) -> V
     let mut out = Vec::new();
     for case in 0..basis.cases.len() {
         for rail in 0..basis.lines.count() {
-            let Ok(seats) = seats(basis, rail) else { continue };
-            let rows = seats.iter().filter_map(|seat| seat.under_wheels(basis, case, rail, forces));
-            out.extend(rows.reduce(|best, next| if next.vertical > best.vertical { next } else { best }));
+            let Ok(seats) = seats(basis, rail) else {
+                continue;
+            };
+            let rows = seats
+                .iter()
+                .filter_map(|seat| seat.under_wheels(basis, case, rail, forces));
+            out.extend(rows.reduce(|best, next| {
+                if next.vertical > best.vertical {
+                    next
+                } else {
+                    best
+                }
+            }));
         }
     }
     out
@@ -57,14 +67,19 @@ fn seats<'a>(basis: &StressBasis<'a>, rail: usize) -> Result<Vec<Seat<'a>>, Stri
     let carried = carried.ok_or("name the `crane_rail`")?;
     let mut out = Vec::new();
     for fibres in basis.sections.distinct(rail) {
-        let Some(plates) = fibres.plates() else { continue };
+        let Some(plates) = fibres.plates() else {
+            continue;
+        };
         out.push(seat(basis, fibres, &plates, &carried)?);
     }
     match out.is_empty() {
         false => Ok(out),
         true => {
             let lacks = basis.sections.lacks(rail, false);
-            Err(lacks.first().cloned().unwrap_or_else(|| "its sections are no upright I sections".to_owned()))
+            Err(lacks
+                .first()
+                .cloned()
+                .unwrap_or_else(|| "its sections are no upright I sections".to_owned()))
         }
     }
 }
@@ -76,7 +91,11 @@ fn seat<'a>(
     carried: &SpecCraneRail,
 ) -> Result<Seat<'a>, String> {
     let profile = carried.profile;
-    let default = if carried.is_composite { RailFixing::Rigid } else { RailFixing::Loose };
+    let default = if carried.is_composite {
+        RailFixing::Rigid
+    } else {
+        RailFixing::Loose
+    };
     let fixing = basis.design.practice.rail_fastening.unwrap_or(default);
     let one = Length::Millimetre.in_units_of(basis.design.units.length);
     let (width, flange) = (plates.widths[1], plates.flanges[1]);
@@ -90,7 +109,10 @@ fn seat<'a>(
         rail_foot: profile.base * one,
     };
     let own = profile.i_vertical.ok_or_else(|| {
-        format!("the tables lack the second moment for vertical bending of the crane rail {}", profile.name)
+        format!(
+            "the tables lack the second moment for vertical bending of the crane rail {}",
+            profile.name
+        )
     })?;
     seat.inertia = own * one.powi(4);
     if fixing == RailFixing::Rigid {
@@ -101,7 +123,13 @@ fn seat<'a>(
             ));
         };
         let effective = seat.effective_width().map_err(|error| error.to_string())?;
-        seat.inertia = with_flange(seat.inertia, area * one.powi(2), centroid * one, effective, flange);
+        seat.inertia = with_flange(
+            seat.inertia,
+            area * one.powi(2),
+            centroid * one,
+            effective,
+            flange,
+        );
     }
     let length = seat.effective_length().map_err(|error| error.to_string())?;
     let (word, table, evidence) = match fixing {
@@ -111,7 +139,14 @@ fn seat<'a>(
     };
     let fastening = (word, basis.design.practice.rail_fastening.is_none());
     let clause = en_1993_6(table, evidence);
-    Ok(Seat { fibres, crane_rail: profile.name, fastening, clause, web: plates.web, length })
+    Ok(Seat {
+        fibres,
+        crane_rail: profile.name,
+        fastening,
+        clause,
+        web: plates.web,
+        length,
+    })
 }
 
 /// I_rf of a rail and the effective flange below it as one section: I_r + b_eff t^3/12 + A_r A_f/(A_r + A_f) d^2 with
@@ -142,7 +177,10 @@ impl Seat<'_> {
                     continue;
                 }
                 let name = (design.trains[index].name.clone(), number + 1);
-                if largest.as_ref().is_none_or(|(_, most)| wheel.vertical > *most) {
+                if largest
+                    .as_ref()
+                    .is_none_or(|(_, most)| wheel.vertical > *most)
+                {
                     largest = Some((name.clone(), wheel.vertical));
                 }
                 // Each train of the case passes; one that is listed twice has the same cycles.
@@ -158,7 +196,10 @@ impl Seat<'_> {
         }
         let (wheel, force) = largest?;
         let trains = &basis.trains[case].trains;
-        let overlapping = trains.iter().map(|train| self.overlapping(train, rail)).fold(force, f64::max);
+        let overlapping = trains
+            .iter()
+            .map(|train| self.overlapping(train, rail))
+            .fold(force, f64::max);
         let found = stresses(overlapping)?;
         Some(WheelStress {
             case: case + 1,
@@ -182,7 +223,12 @@ impl Seat<'_> {
     /// Largest sum of the forces of the wheels of a train on a rail that stand on less than one effective length, so that their
     /// stresses are superposed.
     fn overlapping(&self, train: &Train, rail: usize) -> f64 {
-        let on_rail = || train.wheels.iter().filter(|wheel| wheel.rail == rail && wheel.vertical > 0.0);
+        let on_rail = || {
+            train
+                .wheels
+                .iter()
+                .filter(|wheel| wheel.rail == rail && wheel.vertical > 0.0)
+        };
         let from = |x: f64| -> f64 {
             let near = on_rail().filter(|wheel| wheel.x >= x && wheel.x - x < self.length);
             near.map(|wheel| wheel.vertical).sum()
@@ -191,7 +237,13 @@ impl Seat<'_> {
     }
 
     /// Largest shear stress of the girder in a case where it has this section.
-    fn global_shear(&self, basis: &StressBasis<'_>, case: usize, rail: usize, forces: &StateForces) -> f64 {
+    fn global_shear(
+        &self,
+        basis: &StressBasis<'_>,
+        case: usize,
+        rail: usize,
+        forces: &StateForces,
+    ) -> f64 {
         let area = self.fibres.web_area().unwrap_or(f64::INFINITY);
         let states = basis.states(case, rail, &[GirderResponse::VerticalShear]);
         let own = states.filter(|(_, governing)| {
@@ -199,7 +251,8 @@ impl Seat<'_> {
             let member = carrier.map(|carrier| forces.carrying()[carrier].member);
             member.and_then(|member| basis.sections.of(rail, member)) == Some(self.fibres)
         });
-        own.map(|(_, governing)| governing.value.abs() / area).fold(0.0, f64::max)
+        own.map(|(_, governing)| governing.value.abs() / area)
+            .fold(0.0, f64::max)
     }
 }
 
@@ -212,6 +265,9 @@ mod tests {
     #[test]
     fn a_rigid_rail_and_its_flange_are_one_section() {
         let found = with_flange(720_000.0, 2400.0, 30.0, 200.0, 20.0);
-        assert!((found - (720_000.0 + 400_000.0 / 3.0 + 2_400_000.0)).abs() < 1e-6, "{found}");
+        assert!(
+            (found - (720_000.0 + 400_000.0 / 3.0 + 2_400_000.0)).abs() < 1e-6,
+            "{found}"
+        );
     }
 }

@@ -21,9 +21,9 @@ pub const fn quantity_word(quantity: GirderResponse) -> &'static str {
 #[must_use]
 pub const fn plane_word(quantity: GirderResponse) -> &'static str {
     match quantity {
-        GirderResponse::LateralShear | GirderResponse::LateralMoment | GirderResponse::LateralDeflection => {
-            "lateral"
-        }
+        GirderResponse::LateralShear
+        | GirderResponse::LateralMoment
+        | GirderResponse::LateralDeflection => "lateral",
         _ => "vertical",
     }
 }

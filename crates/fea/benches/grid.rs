@@ -1,8 +1,8 @@
 //! Time from a model to its influence grid.
 
 use fea::{
-    BeamTheory, CrossSection, Girder, Member, Model, Preload, Rail, RailSegment, Support, grid, loaded_frame,
-    surface,
+    BeamTheory, CrossSection, Girder, Member, Model, Preload, Rail, RailSegment, Support, grid,
+    loaded_frame, surface,
 };
 use splines::{Axis, Probe};
 
@@ -29,7 +29,13 @@ fn girder() -> Girder {
 
 fn probes(axis: Axis, count: usize) -> Vec<Probe> {
     let step = 90.0 / (count - 1) as f64;
-    (0..count).map(|k| Probe { rail: 0, x: -15.0 + step * k as f64, axis }).collect()
+    (0..count)
+        .map(|k| Probe {
+            rail: 0,
+            x: -15.0 + step * k as f64,
+            axis,
+        })
+        .collect()
 }
 
 #[divan::bench(args = [7, 61, 400])]
@@ -58,33 +64,54 @@ fn runway(bays: usize) -> (Model, Rail) {
         j: 0.02,
         ..CrossSection::default()
     };
-    let mut model =
-        Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() };
-    let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
+    let mut model = Model {
+        sections: vec![section(4.0), section(1.5)],
+        up: [0.0, 1.0, 0.0],
+        ..Model::default()
+    };
+    let mut rail = Rail {
+        axis: [1.0, 0.0, 0.0],
+        ..Rail::default()
+    };
     for k in 0..=10 * bays {
         model.points.push([4.0 * k as f64, 40.0, 0.0]);
         if k > 0 {
-            rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
-            model.members.push(Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0]));
+            rail.segments.push(RailSegment {
+                member: model.members.len(),
+                offset: [0.0, 3.0, 0.2],
+            });
+            model
+                .members
+                .push(Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0]));
         }
     }
     for bay in 0..=bays {
         let mut above = 10 * bay;
         for level in (0..4).rev() {
-            model.points.push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
+            model
+                .points
+                .push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
             let below = model.points.len() - 1;
-            model.members.push(Member::beam([below, above], 1, [0.0, 0.0, 1.0]));
+            model
+                .members
+                .push(Member::beam([below, above], 1, [0.0, 0.0, 1.0]));
             above = below;
         }
-        model.supports.push(Support { point: above, fixed: [true; 6] });
+        model.supports.push(Support {
+            point: above,
+            fixed: [true; 6],
+        });
     }
     (model, rail)
 }
 
 fn places(bays: usize, count: u32) -> Vec<Probe> {
     let end = 40.0 * bays as f64;
-    let at =
-        |k: u32| Probe { rail: 0, x: end * (f64::from(k) + 0.5) / f64::from(count), axis: Axis::Vertical };
+    let at = |k: u32| Probe {
+        rail: 0,
+        x: end * (f64::from(k) + 0.5) / f64::from(count),
+        axis: Axis::Vertical,
+    };
     (0..count).map(at).collect()
 }
 
@@ -98,8 +125,13 @@ fn runway_400_loads(bencher: divan::Bencher, bays: usize) {
 
 /// Weights on all points of the rail, under which the columns have about a tenth of their critical load.
 fn weights(bays: usize) -> Preload {
-    let points = (0..=10 * bays).map(|point| (point, [0.0, -2e3, 0.0])).collect();
-    Preload { points, ..Preload::default() }
+    let points = (0..=10 * bays)
+        .map(|point| (point, [0.0, -2e3, 0.0]))
+        .collect();
+    Preload {
+        points,
+        ..Preload::default()
+    }
 }
 
 /// The grid about a state that is known.

@@ -38,18 +38,31 @@ fn building(sides: [usize; 3]) -> Model {
         mass: 111.0,
         ..CrossSection::default()
     };
-    let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
+    let mut model = Model {
+        up: [0.0, 1.0, 0.0],
+        sections: vec![section],
+        ..Model::default()
+    };
     let id = |i: usize, j: usize, k: usize| (i * q + j) * r + k;
     let member = |points| Member::beam(points, 0, [0.3, 0.5, 0.81]);
     for i in 0..p {
         for j in 0..q {
             for k in 0..r {
-                model.points.push([5.0 * i as f64, 5.0 * j as f64, 5.0 * k as f64]);
+                model
+                    .points
+                    .push([5.0 * i as f64, 5.0 * j as f64, 5.0 * k as f64]);
                 let next = [(i + 1, j, k), (i, j + 1, k), (i, j, k + 1)];
-                let inside = next.into_iter().filter(|&(i, j, k)| i < p && j < q && k < r);
-                model.members.extend(inside.map(|(a, b, c)| member([id(i, j, k), id(a, b, c)])));
+                let inside = next
+                    .into_iter()
+                    .filter(|&(i, j, k)| i < p && j < q && k < r);
+                model
+                    .members
+                    .extend(inside.map(|(a, b, c)| member([id(i, j, k), id(a, b, c)])));
                 if j == 0 {
-                    model.supports.push(Support { point: id(i, j, k), fixed: [true; 6] });
+                    model.supports.push(Support {
+                        point: id(i, j, k),
+                        fixed: [true; 6],
+                    });
                 }
             }
         }

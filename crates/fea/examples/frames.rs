@@ -54,8 +54,19 @@ impl Case {
                 let length = data.segments.len() as f64;
                 if along < length {
                     let segment = data.segments[along as usize];
-                    let load = Load { member: segment.member, place: along.fract(), offset: segment.offset };
-                    return Some((Probe { rail, x: self.step * along, axis: Axis::Vertical }, load));
+                    let load = Load {
+                        member: segment.member,
+                        place: along.fract(),
+                        offset: segment.offset,
+                    };
+                    return Some((
+                        Probe {
+                            rail,
+                            x: self.step * along,
+                            axis: Axis::Vertical,
+                        },
+                        load,
+                    ));
                 }
                 along -= length;
             }
@@ -66,7 +77,15 @@ impl Case {
 }
 
 fn section(i: f64) -> CrossSection {
-    CrossSection { e: 4.32e9, g: 1.66e9, area: 0.6, iy: 0.3 * i, iz: i, j: 0.02, ..CrossSection::default() }
+    CrossSection {
+        e: 4.32e9,
+        g: 1.66e9,
+        area: 0.6,
+        iy: 0.3 * i,
+        iz: i,
+        j: 0.02,
+        ..CrossSection::default()
+    }
 }
 
 fn member(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Member {
@@ -74,31 +93,52 @@ fn member(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Member {
 }
 
 fn empty() -> Model {
-    Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() }
+    Model {
+        sections: vec![section(4.0), section(1.5)],
+        up: [0.0, 1.0, 0.0],
+        ..Model::default()
+    }
 }
 
 /// A runway with ten members in each bay, on columns of four members.
 fn runway(bays: usize) -> Case {
     let mut model = empty();
-    let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
+    let mut rail = Rail {
+        axis: [1.0, 0.0, 0.0],
+        ..Rail::default()
+    };
     for k in 0..=10 * bays {
         model.points.push([4.0 * k as f64, 40.0, 0.0]);
         if k > 0 {
-            rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
+            rail.segments.push(RailSegment {
+                member: model.members.len(),
+                offset: [0.0, 3.0, 0.2],
+            });
             model.members.push(member([k - 1, k], 0, [0.0, 1.0, 0.0]));
         }
     }
     for bay in 0..=bays {
         let mut above = 10 * bay;
         for level in (0..4).rev() {
-            model.points.push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
+            model
+                .points
+                .push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
             let below = model.points.len() - 1;
-            model.members.push(member([below, above], 1, [0.0, 0.0, 1.0]));
+            model
+                .members
+                .push(member([below, above], 1, [0.0, 0.0, 1.0]));
             above = below;
         }
-        model.supports.push(Support { point: above, fixed: [true; 6] });
+        model.supports.push(Support {
+            point: above,
+            fixed: [true; 6],
+        });
     }
-    Case { model, rails: vec![rail], step: 4.0 }
+    Case {
+        model,
+        rails: vec![rail],
+        step: 4.0,
+    }
 }
 
 /// A building of n columns a side and n storeys; rails on all beams of its middle floor along x.
@@ -109,9 +149,14 @@ fn building(n: usize) -> Case {
     for level in 0..=n {
         for k in 0..n {
             for i in 0..n {
-                model.points.push([20.0 * i as f64, 12.0 * level as f64, 25.0 * k as f64]);
+                model
+                    .points
+                    .push([20.0 * i as f64, 12.0 * level as f64, 25.0 * k as f64]);
                 if level == 0 {
-                    model.supports.push(Support { point: at(i, level, k), fixed: [true; 6] });
+                    model.supports.push(Support {
+                        point: at(i, level, k),
+                        fixed: [true; 6],
+                    });
                 }
             }
         }
@@ -119,15 +164,34 @@ fn building(n: usize) -> Case {
     for level in 1..=n {
         for k in 0..n {
             let origin = [0.0, 12.0 * level as f64, 25.0 * k as f64];
-            let mut rail = Rail { origin, axis: [1.0, 0.0, 0.0], ..Rail::default() };
+            let mut rail = Rail {
+                origin,
+                axis: [1.0, 0.0, 0.0],
+                ..Rail::default()
+            };
             for i in 0..n {
-                model.members.push(member([at(i, level - 1, k), at(i, level, k)], 1, [0.0, 0.0, 1.0]));
+                model.members.push(member(
+                    [at(i, level - 1, k), at(i, level, k)],
+                    1,
+                    [0.0, 0.0, 1.0],
+                ));
                 if i > 0 {
-                    rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 1.5, 0.1] });
-                    model.members.push(member([at(i - 1, level, k), at(i, level, k)], 0, [0.0, 1.0, 0.0]));
+                    rail.segments.push(RailSegment {
+                        member: model.members.len(),
+                        offset: [0.0, 1.5, 0.1],
+                    });
+                    model.members.push(member(
+                        [at(i - 1, level, k), at(i, level, k)],
+                        0,
+                        [0.0, 1.0, 0.0],
+                    ));
                 }
                 if k > 0 {
-                    model.members.push(member([at(i, level, k - 1), at(i, level, k)], 0, [0.0, 1.0, 0.0]));
+                    model.members.push(member(
+                        [at(i, level, k - 1), at(i, level, k)],
+                        0,
+                        [0.0, 1.0, 0.0],
+                    ));
                 }
             }
             if level == n / 2 {
@@ -135,7 +199,11 @@ fn building(n: usize) -> Case {
             }
         }
     }
-    Case { model, rails, step: 20.0 }
+    Case {
+        model,
+        rails,
+        step: 20.0,
+    }
 }
 
 fn csv<const N: usize>(rows: impl Iterator<Item = [f64; N]>) -> Result<String, std::fmt::Error> {
@@ -159,9 +227,15 @@ fn write(folder: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
         [a, b, s, x, y, z]
     });
     fs::write(folder.join("members.csv"), csv(members)?)?;
-    let sections = m.sections.iter().map(|s| [s.e, s.g, s.area, s.iy, s.iz, s.j]);
+    let sections = m
+        .sections
+        .iter()
+        .map(|s| [s.e, s.g, s.area, s.iy, s.iz, s.j]);
     fs::write(folder.join("sections.csv"), csv(sections)?)?;
-    fs::write(folder.join("supports.csv"), csv(m.supports.iter().map(|s| [s.point as f64]))?)?;
+    fs::write(
+        folder.join("supports.csv"),
+        csv(m.supports.iter().map(|s| [s.point as f64]))?,
+    )?;
     for count in LOADS {
         let (probes, loads) = case.loads(count);
         let rows = loads.iter().map(|load| {
@@ -184,7 +258,9 @@ fn write(folder: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
             folder.join(format!("times-{count}.csv")),
             csv([[1e3 * factor, 1e3 * solve]].into_iter())?,
         )?;
-        let Some(value) = value.filter(|_| count == LOADS[0]) else { continue };
+        let Some(value) = value.filter(|_| count == LOADS[0]) else {
+            continue;
+        };
         let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
         let apart = pairs.filter(|&(i, j)| loads[i].member != loads[j].member);
         let rows = apart.map(|(i, j)| [i as f64, j as f64, value[(i, j)]]);
@@ -197,7 +273,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut args = env::args().skip(1);
     let folder = args.next().ok_or("usage: frames DIR NAME...")?;
     for name in args {
-        let (kind, size) = name.split_once('-').ok_or("a name is runway-N or building-N")?;
+        let (kind, size) = name
+            .split_once('-')
+            .ok_or("a name is runway-N or building-N")?;
         let size: usize = size.parse()?;
         let case = match kind {
             "runway" => runway(size),

@@ -4,7 +4,10 @@
 //! then 61 lines of 61 coefficients, ft/lb: row of the displacement, column of the load, both at -15, -13.5, ..., 75 ft.
 //! `fea/bench_peers.py` calls it.
 
-#![allow(clippy::print_stdout, reason = "the figures are what the example is for")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures are what the example is for"
+)]
 
 use fea::{Girder, grid};
 use rustix::time::{ClockId, clock_gettime};
@@ -15,7 +18,11 @@ const REPETITIONS: usize = 51;
 
 fn main() -> Result<(), fea::Error> {
     let at: Vec<Probe> = (0..LOADS)
-        .map(|k| Probe { rail: 0, x: -15.0 + 90.0 * k as f64 / (LOADS - 1) as f64, axis: Axis::Vertical })
+        .map(|k| Probe {
+            rail: 0,
+            x: -15.0 + 90.0 * k as f64 / (LOADS - 1) as f64,
+            axis: Axis::Vertical,
+        })
         .collect();
     let mut times = Vec::with_capacity(REPETITIONS);
     let mut found = None;
@@ -27,7 +34,12 @@ fn main() -> Result<(), fea::Error> {
         found = Some(grid);
     }
     times.sort_by(f64::total_cmp);
-    println!("{},{},{}", times[0], times[REPETITIONS / 2], times[REPETITIONS - 1]);
+    println!(
+        "{},{},{}",
+        times[0],
+        times[REPETITIONS / 2],
+        times[REPETITIONS - 1]
+    );
     for row in found.iter().flat_map(|grid| grid.value.row_iter()) {
         let row: Vec<String> = row.iter().map(|value| format!("{value:e}")).collect();
         println!("{}", row.join(","));
@@ -43,5 +55,11 @@ fn clock() -> f64 {
 
 /// Sixty feet between two supports, overhangs of fifteen.
 fn girder() -> Girder {
-    Girder { spans: vec![60.0], overhangs: [15.0; 2], e: 4.32e9, i_vertical: 9.528, ..Girder::default() }
+    Girder {
+        spans: vec![60.0],
+        overhangs: [15.0; 2],
+        e: 4.32e9,
+        i_vertical: 9.528,
+        ..Girder::default()
+    }
 }

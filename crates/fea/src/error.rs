@@ -154,11 +154,19 @@ pub struct Buckling {
 
 impl fmt::Display for Buckling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Buckling { point, dof, member, between_ends } = self;
+        let Buckling {
+            point,
+            dof,
+            member,
+            between_ends,
+        } = self;
         if *between_ends {
             write!(f, "member {member} buckles between its ends")
         } else {
-            write!(f, "point {point} moves in {dof}, by the axial force of member {member}")
+            write!(
+                f,
+                "point {point} moves in {dof}, by the axial force of member {member}"
+            )
         }
     }
 }
@@ -443,17 +451,29 @@ impl fmt::Display for EntryAttribute {
 
 /// Checks that all numbers are finite.
 pub(crate) fn finite(quantity: EntryAttribute, values: &[f64]) -> Result<(), EntryFault> {
-    if values.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(EntryFault::NotFinite { quantity }) }
+    if values.iter().all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(EntryFault::NotFinite { quantity })
+    }
 }
 
 /// Checks that a number is finite and positive.
 pub(crate) fn positive(quantity: EntryAttribute, value: f64) -> Result<(), EntryFault> {
     finite(quantity, &[value])?;
-    if value > 0.0 { Ok(()) } else { Err(EntryFault::NotPositive { quantity, value }) }
+    if value > 0.0 {
+        Ok(())
+    } else {
+        Err(EntryFault::NotPositive { quantity, value })
+    }
 }
 
 /// Checks that a number is finite and not negative.
 pub(crate) fn not_negative(quantity: EntryAttribute, value: f64) -> Result<(), EntryFault> {
     finite(quantity, &[value])?;
-    if value >= 0.0 { Ok(()) } else { Err(EntryFault::Negative { quantity, value }) }
+    if value >= 0.0 {
+        Ok(())
+    } else {
+        Err(EntryFault::Negative { quantity, value })
+    }
 }

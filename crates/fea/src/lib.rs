@@ -62,19 +62,19 @@ pub use dof::{Dof, DofSet};
 pub use error::{Buckling, EntryAttribute, EntryFault, Error, ModelEntry};
 pub use factor::{Certificate, MEMORY_LIMIT};
 pub use influence::{
-    CertifiedSurface, DEFAULT_ACCURACY, Effect, FactoredFrame, InfluenceGrid, Reactions, Restraint, grid,
-    point_compliance, surface,
+    CertifiedSurface, DEFAULT_ACCURACY, Effect, FactoredFrame, InfluenceGrid, Reactions, Restraint,
+    grid, point_compliance, surface,
 };
 pub use model::{
-    ArmStiffness, BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model, PointMass, Rail,
-    RailSegment, RigidLink, Support, Taper,
+    ArmStiffness, BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model,
+    PointMass, Rail, RailSegment, RigidLink, Support, Taper,
 };
 pub use modes::{
-    ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, ModeInertia, Modes, RefinedModes, Weight, check_full_modes,
-    excited_modes, full_modes, modes, refined_modes, rigid_mass,
+    ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, ModeInertia, Modes, RefinedModes, Weight,
+    check_full_modes, excited_modes, full_modes, modes, refined_modes, rigid_mass,
 };
 pub use preload::{
-    BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload, PreloadedState,
-    RailForce, SecondOrderChange, loaded_frame, preloaded, second_order_change,
+    BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload,
+    PreloadedState, RailForce, SecondOrderChange, loaded_frame, preloaded, second_order_change,
 };
 pub use splines::ForceComponent;

@@ -1,7 +1,8 @@
 //! Results do not depend on the direction of the global axes, where rotations of points are stiffened by nothing.
 
 use fea::{
-    BeamTheory, CrossSection, Dof, Error, FactoredFrame, Member, Model, Support, modes, point_compliance,
+    BeamTheory, CrossSection, Dof, Error, FactoredFrame, Member, Model, Support, modes,
+    point_compliance,
 };
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -19,8 +20,15 @@ fn without_torsion() -> Model {
     Model {
         points: [0.0, 5.0, 10.0].map(|x| [x, 0.0, 0.0]).to_vec(),
         sections: vec![section],
-        members: [[0, 1], [1, 2]].map(|points| Member::beam(points, 0, [0.0, 0.0, 1.0])).to_vec(),
-        supports: [0, 2].map(|point| Support { point, fixed: [true; 6] }).to_vec(),
+        members: [[0, 1], [1, 2]]
+            .map(|points| Member::beam(points, 0, [0.0, 0.0, 1.0]))
+            .to_vec(),
+        supports: [0, 2]
+            .map(|point| Support {
+                point,
+                fixed: [true; 6],
+            })
+            .to_vec(),
         up: [0.0, 0.0, 1.0],
         theory: BeamTheory::EulerBernoulli,
         ..Model::default()
@@ -86,7 +94,8 @@ fn beams_without_torsional_stiffness_have_the_same_compliance_and_modes_in_every
 #[test]
 fn loads_on_a_free_rotation_about_a_skew_axis_are_refused_and_others_are_not() {
     let turn = turns()[0];
-    let (found, _) = point_compliance(&turned(&without_torsion(), &turn, 0.0), &[1]).expect("solvable");
+    let (found, _) =
+        point_compliance(&turned(&without_torsion(), &turn, 0.0), &[1]).expect("solvable");
     let infinite: Vec<bool> = (0..6).map(|k| found[(k, k)].is_infinite()).collect();
     assert_eq!(infinite, [false, false, false, true, true, false]);
 }
@@ -108,7 +117,11 @@ fn a_weak_torsional_stiffness_about_a_skew_axis_is_kept() {
     let (found, _) = point_compliance(&turned(&model, &turn, 0.0), &[1]).expect("solvable");
     let twist = turn.inverse() * Matrix3::from_fn(|i, j| found[(3 + i, 3 + j)]) * turn;
     let exact = 2.5 / (8.1e10 * 1e-16);
-    assert!((twist[(0, 0)] / exact - 1.0).abs() < 1e-6, "{} {exact}", twist[(0, 0)]);
+    assert!(
+        (twist[(0, 0)] / exact - 1.0).abs() < 1e-6,
+        "{} {exact}",
+        twist[(0, 0)]
+    );
 }
 
 #[test]
@@ -121,7 +134,13 @@ fn a_skew_structure_that_turns_as_a_whole_is_a_mechanism() {
     }
     let refused = FactoredFrame::new(&model, &[]).err();
     assert!(
-        matches!(refused, Some(Error::Mechanism { dof: Dof::Rx | Dof::Ry | Dof::Rz, .. })),
+        matches!(
+            refused,
+            Some(Error::Mechanism {
+                dof: Dof::Rx | Dof::Ry | Dof::Rz,
+                ..
+            })
+        ),
         "{refused:?}"
     );
 }

@@ -3,13 +3,16 @@
 //! `fea/hard_frames.py` draws the frames and computes the coefficients by ball arithmetic, with a node at every station.
 //! Each is given as the sum of two doubles.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
 use fea::{
-    BeamTheory, CrossSection, Dof, Error, FactoredFrame, GroundSpring, Member, Model, Rail, RailSegment,
-    RigidLink, Support,
+    BeamTheory, CrossSection, Dof, Error, FactoredFrame, GroundSpring, Member, Model, Rail,
+    RailSegment, RigidLink, Support,
 };
 use nalgebra::DMatrix;
 use serde_json::Value;
@@ -60,13 +63,21 @@ fn member(value: &Value) -> Member {
 
 fn model(value: &Value) -> (Model, Rail, Vec<Probe>) {
     let of = |key: &str| list(&value[key]).iter();
-    let theory =
-        if value["theory"] == "timoshenko" { BeamTheory::Timoshenko } else { BeamTheory::EulerBernoulli };
+    let theory = if value["theory"] == "timoshenko" {
+        BeamTheory::Timoshenko
+    } else {
+        BeamTheory::EulerBernoulli
+    };
     let model = Model {
         points: of("points").map(three).collect(),
         sections: of("sections").map(section).collect(),
         members: of("members").map(member).collect(),
-        supports: of("supports").map(|s| Support { point: index(&s[0]), fixed: six(&s[1]) }).collect(),
+        supports: of("supports")
+            .map(|s| Support {
+                point: index(&s[0]),
+                fixed: six(&s[1]),
+            })
+            .collect(),
         springs: of("springs")
             .map(|s| GroundSpring {
                 point: index(&s[0]),
@@ -74,21 +85,32 @@ fn model(value: &Value) -> (Model, Rail, Vec<Probe>) {
                 stiffness: number(&s[2]),
             })
             .collect(),
-        links: of("links").map(|l| RigidLink { from: index(&l[0]), to: index(&l[1]) }).collect(),
+        links: of("links")
+            .map(|l| RigidLink {
+                from: index(&l[0]),
+                to: index(&l[1]),
+            })
+            .collect(),
         up: three(&value["up"]),
         theory,
         ..Model::default()
     };
     let given = &value["rail"];
-    let segments =
-        list(&given["segments"]).iter().map(|s| RailSegment { member: index(&s[0]), offset: three(&s[1]) });
+    let segments = list(&given["segments"]).iter().map(|s| RailSegment {
+        member: index(&s[0]),
+        offset: three(&s[1]),
+    });
     let rail = Rail {
         origin: three(&given["origin"]),
         axis: three(&given["axis"]),
         segments: segments.collect(),
         stations: Vec::new(),
     };
-    let probe = |p: &Value| Probe { rail: 0, x: number(&p[0]), axis: Axis::ALL[index(&p[1])] };
+    let probe = |p: &Value| Probe {
+        rail: 0,
+        x: number(&p[0]),
+        axis: Axis::ALL[index(&p[1])],
+    };
     (model, rail, of("probes").map(probe).collect())
 }
 
@@ -114,7 +136,10 @@ fn outcome(value: &Value) -> Outcome {
         Err(error) => return Outcome::Refused(error),
     };
     let mut influence = Influence::zeros(at.len());
-    surface.surface.fill(&at, &mut influence).expect("the same places");
+    surface
+        .surface
+        .fill(&at, &mut influence)
+        .expect("the same places");
     let of_surface = worst_error(value, &influence.value, at.len());
     Outcome::Certified {
         error: worst_error(value, &grid.value, at.len()),
@@ -131,10 +156,15 @@ fn worst_error(value: &Value, found: &DMatrix<f64>, n: usize) -> f64 {
     for i in 0..n {
         for j in 0..n {
             let error = (found[(i, j)] - number(&high[i][j])) - number(&low[i][j]);
-            let size = (number(&high[i][i]) * largest).sqrt().min((number(&high[j][j]) * largest).sqrt());
+            let size = (number(&high[i][i]) * largest)
+                .sqrt()
+                .min((number(&high[j][j]) * largest).sqrt());
             // What is exactly zero must be zero to the digits of double-doubles.
             if size == 0.0 {
-                assert!(error.abs() <= 1e-28 * largest, "{i}, {j}: {error:.1e}, largest {largest:.1e}");
+                assert!(
+                    error.abs() <= 1e-28 * largest,
+                    "{i}, {j}: {error:.1e}, largest {largest:.1e}"
+                );
             } else if error != 0.0 {
                 let own = number(&high[i][i]).sqrt() * number(&high[j][j]).sqrt();
                 worst = worst.max(error.abs() / own);
@@ -159,10 +189,15 @@ struct Checked {
 /// Checks all frames of a file: no error above its bound.
 fn check(text: &str) -> Checked {
     let frames: Value = serde_json::from_str(text).expect("frames");
-    let (mut ratios, mut surfaces, mut refused, mut above) = (Vec::new(), Vec::new(), 0, Vec::new());
+    let (mut ratios, mut surfaces, mut refused, mut above) =
+        (Vec::new(), Vec::new(), 0, Vec::new());
     for (k, value) in list(&frames).iter().enumerate() {
         match outcome(value) {
-            Outcome::Certified { error, bound, of_surface } => {
+            Outcome::Certified {
+                error,
+                bound,
+                of_surface,
+            } => {
                 if error > bound {
                     above.push(format!("frame {k}: {error:.2e} > {bound:.2e}"));
                 }
@@ -175,7 +210,13 @@ fn check(text: &str) -> Checked {
             }
         }
     }
-    assert!(above.is_empty(), "{} of {}: {}", above.len(), list(&frames).len(), above.join("\n"));
+    assert!(
+        above.is_empty(),
+        "{} of {}: {}",
+        above.len(),
+        list(&frames).len(),
+        above.join("\n")
+    );
     ratios.sort_by(f64::total_cmp);
     let at = |share: f64| ratios[(share * (ratios.len() - 1) as f64) as usize];
     println!(
@@ -187,15 +228,32 @@ fn check(text: &str) -> Checked {
         at(1.0)
     );
     let inexact = surfaces.iter().filter(|error| **error > 1e-12).count();
-    println!("exact surfaces: {inexact} of {} err by more than 1e-12", surfaces.len());
-    Checked { ratios, refused, inexact, count: list(&frames).len() }
+    println!(
+        "exact surfaces: {inexact} of {} err by more than 1e-12",
+        surfaces.len()
+    );
+    Checked {
+        ratios,
+        refused,
+        inexact,
+        count: list(&frames).len(),
+    }
 }
 
 /// Forty frames of seed 5 and twenty of seed 6, `close`.
 #[test]
 fn bound_is_never_below_the_error_of_hard_frames() {
-    let Checked { ratios, refused, inexact, .. } = check(include_str!("data/hard_frames.json"));
-    assert!(ratios[ratios.len() / 2] <= 20.0 && refused <= 4, "{} {refused}", ratios[ratios.len() / 2]);
+    let Checked {
+        ratios,
+        refused,
+        inexact,
+        ..
+    } = check(include_str!("data/hard_frames.json"));
+    assert!(
+        ratios[ratios.len() / 2] <= 20.0 && refused <= 4,
+        "{} {refused}",
+        ratios[ratios.len() / 2]
+    );
     // 11, where coefficients are far below the terms of N C N^T; 26 with ends rounded to doubles (regression)
     assert!(inexact <= 14, "{inexact}");
 }
@@ -206,26 +264,49 @@ fn bound_is_never_below_the_error_of_hard_frames() {
 fn oblique_cantilevers_far_from_the_origin_keep_their_digits() {
     let (ei, far) = (1e6, 1e6);
     let points = vec![[far, far, 0.0], [far + 6.0, far + 8.0, 0.0]];
-    let section =
-        CrossSection { e: 1.0, g: 1.0, area: 1e9, iy: ei, iz: ei, j: ei, ..CrossSection::default() };
+    let section = CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: 1e9,
+        iy: ei,
+        iz: ei,
+        j: ei,
+        ..CrossSection::default()
+    };
     let model = Model {
         points,
         sections: vec![section],
         members: vec![Member::beam([0, 1], 0, [0.0, 0.0, 1.0])],
-        supports: vec![Support { point: 0, fixed: [true; 6] }],
+        supports: vec![Support {
+            point: 0,
+            fixed: [true; 6],
+        }],
         up: [0.0, 0.0, 1.0],
         ..Model::default()
     };
-    let segments = vec![RailSegment { member: 0, offset: [0.0; 3] }];
-    let rail = Rail { axis: [0.6, 0.8, 0.0], segments, origin: [far, far, 0.0], stations: Vec::new() };
+    let segments = vec![RailSegment {
+        member: 0,
+        offset: [0.0; 3],
+    }];
+    let rail = Rail {
+        axis: [0.6, 0.8, 0.0],
+        segments,
+        origin: [far, far, 0.0],
+        stations: Vec::new(),
+    };
     let frame = FactoredFrame::new(&model, &[rail]).expect("sound");
     for x in [1e-6, 1e-3, 3.0, 10.0 - 1e-6] {
-        let grid = frame.grid(&common::probes(Axis::Vertical, &[x])).expect("on the rail");
+        let grid = frame
+            .grid(&common::probes(Axis::Vertical, &[x]))
+            .expect("on the rail");
         let exact = x * x * x / (3.0 * ei);
         let error = (grid.value[(0, 0)] / exact - 1.0).abs();
         let bound = grid.certificate.error_bound;
         // The closed form itself is rounded four times.
-        assert!(error <= bound + 4.0 * f64::EPSILON && bound < 1e-13, "{x}: {error:.1e}, bound {bound:.1e}");
+        assert!(
+            error <= bound + 4.0 * f64::EPSILON && bound < 1e-13,
+            "{x}: {error:.1e}, bound {bound:.1e}"
+        );
     }
 }
 
@@ -233,9 +314,21 @@ fn oblique_cantilevers_far_from_the_origin_keep_their_digits() {
 #[test]
 fn stations_one_rounding_from_a_clamped_end_are_certified() {
     let (from, length, ei) = (0.3, 3.1, 2e4);
-    let section =
-        CrossSection { e: 1.0, g: 1.0, area: 1.0, iy: ei, iz: ei, j: 1.0, ..CrossSection::default() };
-    let supports = [0, 1].map(|point| Support { point, fixed: [true; 6] }).to_vec();
+    let section = CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: 1.0,
+        iy: ei,
+        iz: ei,
+        j: 1.0,
+        ..CrossSection::default()
+    };
+    let supports = [0, 1]
+        .map(|point| Support {
+            point,
+            fixed: [true; 6],
+        })
+        .to_vec();
     let model = Model {
         points: vec![[from, 0.0, 0.0], [from + length, 0.0, 0.0]],
         sections: vec![section],
@@ -244,17 +337,29 @@ fn stations_one_rounding_from_a_clamped_end_are_certified() {
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    let segments = vec![RailSegment { member: 0, offset: [0.0; 3] }];
-    let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
+    let segments = vec![RailSegment {
+        member: 0,
+        offset: [0.0; 3],
+    }];
+    let rail = Rail {
+        axis: [1.0, 0.0, 0.0],
+        segments,
+        ..Rail::default()
+    };
     let frame = FactoredFrame::new(&model, &[rail]).expect("sound");
     let end = from + length;
     for x in [from.next_up(), end.next_down(), from + 1e-6, end - 1e-6] {
-        let grid = frame.grid(&common::probes(Axis::Vertical, &[x])).expect("certified");
+        let grid = frame
+            .grid(&common::probes(Axis::Vertical, &[x]))
+            .expect("certified");
         let (a, b, l) = (x - from, end - x, end - from);
         let exact = (a * b / l).powi(3) / (3.0 * ei);
         let error = (grid.value[(0, 0)] / exact - 1.0).abs();
         let bound = grid.certificate.error_bound;
-        assert!(error <= bound + 8.0 * f64::EPSILON && bound < 1e-13, "{x}: {error:.1e}, bound {bound:.1e}");
+        assert!(
+            error <= bound + 8.0 * f64::EPSILON && bound < 1e-13,
+            "{x}: {error:.1e}, bound {bound:.1e}"
+        );
     }
 }
 
@@ -263,25 +368,50 @@ fn stations_one_rounding_from_a_clamped_end_are_certified() {
 #[test]
 fn surfaces_keep_their_digits_beside_ends_that_are_no_doubles() {
     let ei = 2e4;
-    let section =
-        CrossSection { e: 1.0, g: 1.0, area: 1.0, iy: ei, iz: ei, j: 1.0, ..CrossSection::default() };
+    let section = CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: 1.0,
+        iy: ei,
+        iz: ei,
+        j: 1.0,
+        ..CrossSection::default()
+    };
     let model = Model {
         points: vec![[1.0, 1.0, 0.0], [4.0, 5.0, 0.0]],
         sections: vec![section],
         members: vec![Member::beam([0, 1], 0, [0.0, 0.0, 1.0])],
-        supports: [0, 1].map(|point| Support { point, fixed: [true; 6] }).to_vec(),
+        supports: [0, 1]
+            .map(|point| Support {
+                point,
+                fixed: [true; 6],
+            })
+            .to_vec(),
         up: [0.0, 0.0, 1.0],
         ..Model::default()
     };
-    let segments = vec![RailSegment { member: 0, offset: [0.0; 3] }];
-    let rail = Rail { axis: [3.0, 4.0, 0.0], segments, ..Rail::default() };
-    let surface = FactoredFrame::new(&model, &[rail]).expect("sound").surface().expect("a rail").surface;
+    let segments = vec![RailSegment {
+        member: 0,
+        offset: [0.0; 3],
+    }];
+    let rail = Rail {
+        axis: [3.0, 4.0, 0.0],
+        segments,
+        ..Rail::default()
+    };
+    let surface = FactoredFrame::new(&model, &[rail])
+        .expect("sound")
+        .surface()
+        .expect("a rail")
+        .surface;
     for apart in [1e-9, 1e-6, 1e-3, 2.0] {
         let x = 1.4 + apart;
         // 1.4 as a double is less than 7/5 by 4/5 of 2^-53
         let a = (x - 1.4) - 0.4 * f64::EPSILON;
         let mut influence = Influence::zeros(1);
-        surface.fill(&common::probes(Axis::Vertical, &[x]), &mut influence).expect("on the rail");
+        surface
+            .fill(&common::probes(Axis::Vertical, &[x]), &mut influence)
+            .expect("on the rail");
         let exact = (a * (5.0 - a) / 5.0).powi(3) / (3.0 * ei);
         let error = (influence.value[(0, 0)] / exact - 1.0).abs();
         assert!(error < 4e-15, "{apart}: {error:.1e}");
@@ -292,8 +422,14 @@ fn surfaces_keep_their_digits_beside_ends_that_are_no_doubles() {
 #[test]
 #[ignore = "needs a file of fea/hard_frames.py"]
 fn bound_is_never_below_the_error_of_any_number_of_hard_frames() {
-    let path = std::env::var("HARD_FRAMES").expect("HARD_FRAMES names a file of fea/hard_frames.py");
+    let path =
+        std::env::var("HARD_FRAMES").expect("HARD_FRAMES names a file of fea/hard_frames.py");
     let text = std::fs::read_to_string(path).expect("a file that can be read");
-    let Checked { ratios, refused, count, .. } = check(&text);
+    let Checked {
+        ratios,
+        refused,
+        count,
+        ..
+    } = check(&text);
     assert!(ratios[ratios.len() / 2] <= 100.0 && 20 * refused <= count);
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use fea::{
-    BeamTheory, CrossSection, Dof, DofSet, Effect, FactoredFrame, ForceComponent, Girder, Member, Model,
-    PointMass, Rail, RailSegment, Restraint, Support, refined_modes,
+    BeamTheory, CrossSection, Dof, DofSet, Effect, FactoredFrame, ForceComponent, Girder, Member,
+    Model, PointMass, Rail, RailSegment, Restraint, Support, refined_modes,
 };
 
 const SPAN: f64 = 12.0;
@@ -29,12 +29,18 @@ fn girder(spans: Vec<f64>, theory: BeamTheory) -> Girder {
 }
 
 fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-9), "{found} for {expected}");
+    assert!(
+        (found - expected).abs() <= tolerance * expected.abs().max(1e-9),
+        "{found} for {expected}"
+    );
 }
 
 /// Effects of the vertical reactions, supports first to last.
 fn vertical(frame: &FactoredFrame, model: &Model) -> Vec<Effect> {
-    let holds = frame.restraints(model).into_iter().filter(|hold| hold.dof == Dof::Uy);
+    let holds = frame
+        .restraints(model)
+        .into_iter()
+        .filter(|hold| hold.dof == Dof::Uy);
     let mut holds: Vec<Restraint> = holds.collect();
     holds.sort_by(|a, b| model.points[a.point][0].total_cmp(&model.points[b.point][0]));
     holds.into_iter().map(Effect::Reaction).collect()
@@ -42,11 +48,16 @@ fn vertical(frame: &FactoredFrame, model: &Model) -> Vec<Effect> {
 
 #[test]
 fn weight_of_two_spans_rests_on_supports_as_the_three_moment_theorem_says() {
-    let (model, rail) =
-        girder(vec![SPAN, SPAN], BeamTheory::EulerBernoulli).model_and_rail().expect("a girder");
+    let (model, rail) = girder(vec![SPAN, SPAN], BeamTheory::EulerBernoulli)
+        .model_and_rail()
+        .expect("a girder");
     let frame = FactoredFrame::new(&model, &[rail]).expect("it stands");
     let mut effects = vertical(&frame, &model);
-    let cut = |place, component| Effect::InternalForce { member: 0, place, component };
+    let cut = |place, component| Effect::InternalForce {
+        member: 0,
+        place,
+        component,
+    };
     effects.extend([
         cut(0.375, ForceComponent::BendingZ),
         cut(0.375, ForceComponent::ShearY),
@@ -90,7 +101,12 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
         sections: vec![section],
         members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0])],
         supports: vec![Support { point: 0, fixed }],
-        masses: vec![PointMass { point: 1, mass: 50.0, inertia: [0.0; 3], offset: [0.0, 0.0, 0.7] }],
+        masses: vec![PointMass {
+            point: 1,
+            mass: 50.0,
+            inertia: [0.0; 3],
+            offset: [0.0, 0.0, 0.7],
+        }],
         up: [0.0, 1.0, 0.0],
         theory: BeamTheory::Timoshenko,
         ..Model::default()
@@ -98,15 +114,26 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
     let rail = Rail {
         origin: model.points[0],
         axis: [1.0, 0.0, 0.0],
-        segments: vec![RailSegment { member: 0, offset: [0.0; 3] }],
+        segments: vec![RailSegment {
+            member: 0,
+            offset: [0.0; 3],
+        }],
         stations: vec![0.0, SPAN],
     };
     let frame = FactoredFrame::new(&model, &[rail]).expect("it stands");
     let places = [0.0, 0.3, 0.8, 1.0];
-    let parts = [ForceComponent::BendingZ, ForceComponent::ShearY, ForceComponent::Torsion];
+    let parts = [
+        ForceComponent::BendingZ,
+        ForceComponent::ShearY,
+        ForceComponent::Torsion,
+    ];
     let mut effects: Vec<Effect> = Vec::new();
     for place in places {
-        effects.extend(parts.map(|component| Effect::InternalForce { member: 0, place, component }));
+        effects.extend(parts.map(|component| Effect::InternalForce {
+            member: 0,
+            place,
+            component,
+        }));
     }
     let all = frame.effects_of_weight(&model, &frame.weight(&model, [0.0, 1.0, 0.0]), &effects);
     let all = all.expect("effects of the weight");
@@ -114,7 +141,10 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
         let beyond = SPAN * (1.0 - place);
         // Forces of the part beyond on the face, for a load upwards: Mz, Vy, and Mx by the arm of the mass.
         let moment = all[3 * k] - 111.0 * beyond * beyond / 2.0 - 50.0 * beyond;
-        assert!(moment.abs() < 1e-11 * 111.0 * SPAN * SPAN, "{moment:e} at {place}");
+        assert!(
+            moment.abs() < 1e-11 * 111.0 * SPAN * SPAN,
+            "{moment:e} at {place}"
+        );
         close(all[3 * k + 1], 111.0 * beyond + 50.0, 1e-11);
         close(all[3 * k + 2], -50.0 * 0.7, 1e-11);
     }
@@ -131,21 +161,36 @@ fn the_first_mode_bends_midspan_by_m_over_pi_squared() {
         let frame = FactoredFrame::new(&refined.model, &refined.rails).expect("it stands");
         let mut effects = vertical(&frame, &refined.model);
         for component in [ForceComponent::BendingZ, ForceComponent::ShearY] {
-            effects.push(refined.effect(Effect::InternalForce { member: 0, place: 0.5, component }));
+            effects.push(refined.effect(Effect::InternalForce {
+                member: 0,
+                place: 0.5,
+                component,
+            }));
         }
         let inertia = frame.inertia_of_modes(&refined.model, &refined.modes.modes);
         let found = frame
             .effects_of_modes(&refined.model, &effects, &refined.modes.modes, &inertia)
             .expect("effects");
-        let mode = refined.modes.modes.iter().position(|mode| mode.coupling[1].abs() > 1.0);
+        let mode = refined
+            .modes
+            .modes
+            .iter()
+            .position(|mode| mode.coupling[1].abs() > 1.0);
         let mode = mode.expect("the first symmetric mode in the vertical plane");
         // Rotary inertia acts at midspan only through the size of the shape, which it changes.
         let size = refined.modes.modes[mode].coupling[1] * PI / (2.0 * LINE_MASS * SPAN);
-        let tolerance = if theory == BeamTheory::EulerBernoulli { 1e-6 } else { 1e-2 };
+        let tolerance = if theory == BeamTheory::EulerBernoulli {
+            1e-6
+        } else {
+            1e-2
+        };
         let load = LINE_MASS * size;
         close(found[(0, mode)], -load * SPAN / PI, tolerance);
         close(found[(2, mode)], -load * (SPAN / PI).powi(2), tolerance);
-        assert!(found[(3, mode)].abs() < 1e-6 * load * SPAN, "no shear at midspan");
+        assert!(
+            found[(3, mode)].abs() < 1e-6 * load * SPAN,
+            "no shear at midspan"
+        );
     }
 }
 
@@ -160,23 +205,32 @@ fn reactions_to_inertia_balance_the_momentum_of_every_mode() {
     let holds = frame.restraints(&refined.model);
     let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
     let inertia = frame.inertia_of_modes(&refined.model, &refined.modes.modes);
-    let found =
-        frame.effects_of_modes(&refined.model, &effects, &refined.modes.modes, &inertia).expect("effects");
+    let found = frame
+        .effects_of_modes(&refined.model, &effects, &refined.modes.modes, &inertia)
+        .expect("effects");
     for (k, freedom) in [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().enumerate() {
         let own = |value: &dyn Fn(usize) -> f64| -> f64 {
-            let rows = holds.iter().enumerate().filter(|(_, hold)| hold.dof == freedom);
+            let rows = holds
+                .iter()
+                .enumerate()
+                .filter(|(_, hold)| hold.dof == freedom);
             rows.map(|(row, _)| value(row)).sum()
         };
         for (mode, shape) in refined.modes.modes.iter().enumerate() {
             let sum = own(&|row| found[(row, mode)]);
             let whole = own(&|row| found[(row, mode)].abs());
             let apart = (sum + shape.coupling[k]).abs();
-            assert!(apart <= 1e-9 * whole.max(1.0), "mode {mode}, axis {k}: {sum} for {}", shape.coupling[k]);
+            assert!(
+                apart <= 1e-9 * whole.max(1.0),
+                "mode {mode}, axis {k}: {sum} for {}",
+                shape.coupling[k]
+            );
         }
         let along = std::array::from_fn(|axis| f64::from(u8::from(axis == k)));
         let weight = frame.weight(&refined.model, along);
-        let under =
-            frame.effects_of_weight(&refined.model, &weight, &effects).expect("effects of the weight");
+        let under = frame
+            .effects_of_weight(&refined.model, &weight, &effects)
+            .expect("effects of the weight");
         let sum = own(&|row| under[row]);
         close(sum, -refined.modes.rigid_mass[k][k], 1e-10);
     }

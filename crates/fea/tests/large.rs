@@ -24,7 +24,12 @@ impl Rod {
         let h = self.length / f64::from(steps);
         let rate = |[_, _, t, m]: [f64; 4]| {
             let one = 1.0 + self.stretch * (fx * t.cos() + fy * t.sin());
-            [one * t.cos(), one * t.sin(), m / self.ei, one * (fx * t.sin() - fy * t.cos())]
+            [
+                one * t.cos(),
+                one * t.sin(),
+                m / self.ei,
+                one * (fx * t.sin() - fy * t.cos()),
+            ]
         };
         let plus = |a: [f64; 4], h: f64, b: [f64; 4]| std::array::from_fn(|k| a[k] + h * b[k]);
         let mut at = [0.0, 0.0, self.angle, moment];
@@ -51,7 +56,10 @@ fn solve(f: impl Fn([f64; 2]) -> [f64; 2], mut x: [f64; 2], sizes: [f64; 2]) -> 
         };
         let ([a, c], [b, d]) = (column(0), column(1));
         let determinant = a * d - b * c;
-        x = [x[0] - (d * at[0] - b * at[1]) / determinant, x[1] - (a * at[1] - c * at[0]) / determinant];
+        x = [
+            x[0] - (d * at[0] - b * at[1]) / determinant,
+            x[1] - (a * at[1] - c * at[0]) / determinant,
+        ];
     }
     x
 }
@@ -59,7 +67,12 @@ fn solve(f: impl Fn([f64; 2]) -> [f64; 2], mut x: [f64; 2], sizes: [f64; 2]) -> 
 /// Deflection of the tip of a cantilever along x, of length 1 and EI = 1, under a force across it and one that presses it
 /// along its first axis.
 fn tip(across: f64, pressing: f64) -> [f64; 2] {
-    let rod = Rod { length: 1.0, ei: 1.0, stretch: 0.0, angle: 0.0 };
+    let rod = Rod {
+        length: 1.0,
+        ei: 1.0,
+        stretch: 0.0,
+        angle: 0.0,
+    };
     let force = [-pressing, across];
     // One unknown, the moment at the start, so that the tip has none; from small forces on.
     let mut moment = 0.0;
@@ -96,7 +109,11 @@ fn elastica_is_that_of_elliptic_integrals() {
                 2.0
             }
         };
-        (0..=parts).map(|k| weight(k) * of(from + h * f64::from(k))).sum::<f64>() * h / 3.0
+        (0..=parts)
+            .map(|k| weight(k) * of(from + h * f64::from(k)))
+            .sum::<f64>()
+            * h
+            / 3.0
     };
     let closed = |p: f64| {
         let of_angle = |t: f64| {
@@ -109,21 +126,36 @@ fn elastica_is_that_of_elliptic_integrals() {
         let (mut low, mut high) = (1e-6, 0.5 * PI - 1e-6);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if of_angle(middle).0 < p.sqrt() { low = middle } else { high = middle }
+            if of_angle(middle).0 < p.sqrt() {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let (a, second) = of_angle(low);
         [1.0 - (2.0 * low.sin()).sqrt() / a, 1.0 - 2.0 * second / a]
     };
     for p in [0.5, 1.0, 2.0, 5.0] {
         let (found, known) = (tip(p, 0.0), closed(p));
-        assert!((0..2).all(|k| (found[k] - known[k]).abs() < 1e-9), "{p}: {found:?}, not {known:?}");
+        assert!(
+            (0..2).all(|k| (found[k] - known[k]).abs() < 1e-9),
+            "{p}: {found:?}, not {known:?}"
+        );
     }
     let of_mattiasson = [0.056_433_236, 0.301_720_774];
     assert!((0..2).all(|k| (tip(1.0, 0.0)[k] - of_mattiasson[k]).abs() < 1e-8));
 }
 
 fn section(ei: f64, ea: f64) -> CrossSection {
-    CrossSection { e: 1.0, g: 1.0, area: ea, iy: ei, iz: ei, j: ei, ..CrossSection::default() }
+    CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: ea,
+        iy: ei,
+        iz: ei,
+        j: ei,
+        ..CrossSection::default()
+    }
 }
 
 fn estimate(
@@ -132,34 +164,58 @@ fn estimate(
     clamped: &[usize],
     load: (usize, [f64; 3]),
 ) -> SecondOrderChange {
-    let fixed = |point: &usize| Support { point: *point, fixed: [true; 6] };
+    let fixed = |point: &usize| Support {
+        point: *point,
+        fixed: [true; 6],
+    };
     let model = Model {
-        members: (1..points.len()).map(|k| Member::beam([k - 1, k], 0, [0.0, 0.0, 1.0])).collect(),
+        members: (1..points.len())
+            .map(|k| Member::beam([k - 1, k], 0, [0.0, 0.0, 1.0]))
+            .collect(),
         points,
         sections: vec![section],
         supports: clamped.iter().map(fixed).collect(),
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    second_order_change(&model, &[], &Preload { points: vec![load], ..Preload::default() })
-        .expect("it stands")
+    second_order_change(
+        &model,
+        &[],
+        &Preload {
+            points: vec![load],
+            ..Preload::default()
+        },
+    )
+    .expect("it stands")
 }
 
 fn cantilever(force: [f64; 3]) -> SecondOrderChange {
-    estimate(vec![[0.0; 3], [1.0, 0.0, 0.0]], section(1.0, 1e9), &[0], (1, force))
+    estimate(
+        vec![[0.0; 3], [1.0, 0.0, 0.0]],
+        section(1.0, 1e9),
+        &[0],
+        (1, force),
+    )
 }
 
 /// Numbers of the table in docs/theory/second.md: the exact change of a deflection and its estimate.
 fn is_as_listed(found: [f64; 2], listed: [f64; 2]) {
-    assert!((0..2).all(|k| (found[k] - listed[k]).abs() < 6e-6), "{found:?}, not {listed:?}");
+    assert!(
+        (0..2).all(|k| (found[k] - listed[k]).abs() < 6e-6),
+        "{found:?}, not {listed:?}"
+    );
 }
 
 /// Large rotations: deflections of the cantilever are smaller than those of first order. The axial force is zero, the rotation
 /// alone estimates it.
 #[test]
 fn estimate_of_a_cantilever_that_bends_far() {
-    let known =
-        [(0.2, -0.00453, 0.005), (0.5, -0.02714, 0.03125), (1.0, -0.09484, 0.125), (2.0, -0.25981, 0.5)];
+    let known = [
+        (0.2, -0.00453, 0.005),
+        (0.5, -0.02714, 0.03125),
+        (1.0, -0.09484, 0.125),
+        (2.0, -0.25981, 0.5),
+    ];
     for (p, exact, estimated) in known {
         let change = cantilever([0.0, p, 0.0]);
         let found = tip(p, 0.0)[1] / (p / 3.0) - 1.0;
@@ -171,7 +227,12 @@ fn estimate_of_a_cantilever_that_bends_far() {
 /// A column that is pressed and pushed across by a thousandth of EI/L^2: second order is nearly all.
 #[test]
 fn estimate_of_a_column() {
-    for (share, exact) in [(0.01, 0.00997), (0.1, 0.10965), (0.3, 0.42281), (0.5, 0.98629)] {
+    for (share, exact) in [
+        (0.01, 0.00997),
+        (0.1, 0.10965),
+        (0.3, 0.42281),
+        (0.5, 0.98629),
+    ] {
         let (q, p) = (0.001, share * PI * PI / 4.0);
         let change = cantilever([-p, q, 0.0]);
         let found = tip(q, p)[1] / (q / 3.0) - 1.0;
@@ -184,7 +245,12 @@ fn estimate_of_a_column() {
 fn toggle(load: f64) -> f64 {
     let (length, rise): (f64, f64) = (12.943, 0.386);
     let angle = (rise / length).asin();
-    let rod = Rod { length, ei: 9.27e3, stretch: 1.0 / 1.885e6, angle };
+    let rod = Rod {
+        length,
+        ei: 9.27e3,
+        stretch: 1.0 / 1.885e6,
+        angle,
+    };
     let mut x = [0.0, 0.0];
     for step in 1..=10 {
         let now = load * f64::from(step) / 10.0;
@@ -206,10 +272,19 @@ fn estimate_of_the_toggle_of_williams() {
     let half = (length * length - rise * rise).sqrt();
     let points = vec![[0.0; 3], [half, rise, 0.0], [2.0 * half, 0.0, 0.0]];
     let linear = toggle(1e-3) / 1e-3;
-    let known =
-        [(0.5, 0.00464, 0.00309), (2.0, 0.01906, 0.01247), (8.0, 0.08497, 0.05190), (16.0, 0.20314, 0.10975)];
+    let known = [
+        (0.5, 0.00464, 0.00309),
+        (2.0, 0.01906, 0.01247),
+        (8.0, 0.08497, 0.05190),
+        (16.0, 0.20314, 0.10975),
+    ];
     for (load, exact, estimated) in known {
-        let change = estimate(points.clone(), section(9.27e3, 1.885e6), &[0, 2], (1, [0.0, -load, 0.0]));
+        let change = estimate(
+            points.clone(),
+            section(9.27e3, 1.885e6),
+            &[0, 2],
+            (1, [0.0, -load, 0.0]),
+        );
         let found = toggle(load) / (linear * load) - 1.0;
         is_as_listed([found, change.of_displacements()], [exact, estimated]);
     }

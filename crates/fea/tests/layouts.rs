@@ -36,7 +36,13 @@ fn cases() -> [Case; 3] {
     let building = surface(&model, &[rail]).expect("solvable").surface;
     let case = |name, surface: ExactSurface, axes| {
         let range = surface.range(0).expect("a rail");
-        Case { name, surface, range, axes, wheels: [1e4, 1e12] }
+        Case {
+            name,
+            surface,
+            range,
+            axes,
+            wheels: [1e4, 1e12],
+        }
     };
     [
         case("one span", straight(&paper()), &Axis::ALL[1..2]),
@@ -53,8 +59,16 @@ fn layout(case: &Case, random: &mut Stream) -> Vec<Probe> {
     let close = random.next() < 0.5;
     let start = random.between(first, last);
     let place = |random: &mut Stream, k: usize| {
-        let x = if close { start + pitch * k as f64 } else { random.between(first, last) };
-        if x > last { first + (x - last) % (last - first) } else { x }
+        let x = if close {
+            start + pitch * k as f64
+        } else {
+            random.between(first, last)
+        };
+        if x > last {
+            first + (x - last) % (last - first)
+        } else {
+            x
+        }
     };
     (0..n)
         .map(|k| {
@@ -76,13 +90,23 @@ fn check(case: &Case, layouts: usize, seed: u64) -> f64 {
         case.surface.fill(&at, &mut out).expect("on the rail");
         for i in 0..n {
             for j in 0..i {
-                assert_eq!(out.value[(i, j)].to_bits(), out.value[(j, i)].to_bits(), "{} {at:?}", case.name);
+                assert_eq!(
+                    out.value[(i, j)].to_bits(),
+                    out.value[(j, i)].to_bits(),
+                    "{} {at:?}",
+                    case.name
+                );
             }
         }
         for k in 0..=4 {
-            let stiffness = case.wheels[0] * (case.wheels[1] / case.wheels[0]).powf(f64::from(k) / 4.0);
+            let stiffness =
+                case.wheels[0] * (case.wheels[1] / case.wheels[0]).powf(f64::from(k) / 4.0);
             let sum = &out.value + DMatrix::from_diagonal_element(n, n, 1.0 / stiffness);
-            assert!(Cholesky::new(sum).is_some(), "{} k = {stiffness:e} {at:?}", case.name);
+            assert!(
+                Cholesky::new(sum).is_some(),
+                "{} k = {stiffness:e} {at:?}",
+                case.name
+            );
         }
         let eigenvalues = out.value.symmetric_eigenvalues();
         let share = eigenvalues.min() / eigenvalues.max();
@@ -105,6 +129,10 @@ fn ten_thousand_layouts_are_symmetric_positive_and_factorise() {
 #[ignore = "slow: a million layouts on each of three structures"]
 fn a_million_layouts_are_symmetric_positive_and_factorise() {
     for (seed, case) in cases().iter().enumerate() {
-        println!("{}: {:e}", case.name, check(case, 1_000_000, 100 + seed as u64));
+        println!(
+            "{}: {:e}",
+            case.name,
+            check(case, 1_000_000, 100 + seed as u64)
+        );
     }
 }

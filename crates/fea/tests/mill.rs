@@ -19,7 +19,10 @@ fn block(value: &DMatrix<f64>, row: usize, column: usize) -> DMatrix<f64> {
 /// Largest difference from the expected grids, relative to sqrt(Gii Gjj).
 fn worst(theory: BeamTheory, expected: &str) -> f64 {
     let (model, rail) = mill(theory);
-    let at: Vec<Probe> = Axis::ALL.iter().flat_map(|&axis| probes(axis, &rail.stations)).collect();
+    let at: Vec<Probe> = Axis::ALL
+        .iter()
+        .flat_map(|&axis| probes(axis, &rail.stations))
+        .collect();
     let value = grid(&model, &[rail], &at).expect("solvable").value;
     let expected: Value = serde_json::from_str(expected).expect("valid");
     let names = [
@@ -37,7 +40,9 @@ fn worst(theory: BeamTheory, expected: &str) -> f64 {
         let mut part = 0.0_f64;
         for i in 0..found.nrows() {
             for j in 0..found.ncols() {
-                let entry = expected["influence"][name][i][j].as_f64().expect("a number");
+                let entry = expected["influence"][name][i][j]
+                    .as_f64()
+                    .expect("a number");
                 let scale = (rows[(i, i)] * columns[(j, j)]).sqrt();
                 part = part.max((found[(i, j)] - entry).abs() / scale);
             }
@@ -63,8 +68,13 @@ fn surface_and_grid_are_the_same_function() {
     let rails = [rail];
     let exact = surface(&model, &rails).expect("solvable");
     // Places inside members, at their ends, and in the gaps over columns.
-    let places = [0.75, 3.3, 39.25, 39.7, 40.0, 40.4, 41.0, 169.5, 170.0, 170.5, 171.0, 324.25];
-    let at: Vec<Probe> = Axis::ALL.iter().flat_map(|&axis| probes(axis, &places)).collect();
+    let places = [
+        0.75, 3.3, 39.25, 39.7, 40.0, 40.4, 41.0, 169.5, 170.0, 170.5, 171.0, 324.25,
+    ];
+    let at: Vec<Probe> = Axis::ALL
+        .iter()
+        .flat_map(|&axis| probes(axis, &places))
+        .collect();
     let value = grid(&model, &rails, &at).expect("solvable").value;
     let mut out = Influence::zeros(at.len());
     exact.surface.fill(&at, &mut out).expect("on the rail");

@@ -4,8 +4,9 @@ mod common;
 
 use common::{mill, probes};
 use fea::{
-    BeamTheory, CrossSection, Dof, Effect, FactoredFrame, ForceComponent, GroundSpring, Member, MemberKind,
-    Model, PointMass, Rail, RailSegment, Restraint, RigidLink, Support, grid, point_compliance,
+    BeamTheory, CrossSection, Dof, Effect, FactoredFrame, ForceComponent, GroundSpring, Member,
+    MemberKind, Model, PointMass, Rail, RailSegment, Restraint, RigidLink, Support, grid,
+    point_compliance,
 };
 use splines::{Axis, Probe};
 
@@ -16,7 +17,15 @@ const SPAN: f64 = 12.0;
 const HELD: [bool; 6] = [true; 6];
 
 fn section() -> CrossSection {
-    CrossSection { e: 1.0, g: 1.0, area: EA, iy: EI, iz: EI, j: EI, ..CrossSection::default() }
+    CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: EA,
+        iy: EI,
+        iz: EI,
+        j: EI,
+        ..CrossSection::default()
+    }
 }
 
 fn member(points: [usize; 2]) -> Member {
@@ -26,7 +35,12 @@ fn member(points: [usize; 2]) -> Member {
 /// A beam along x through `x`, and a rail over all its members.
 fn beam(x: &[f64]) -> (Model, Rail) {
     let members: Vec<Member> = (1..x.len()).map(|k| member([k - 1, k])).collect();
-    let segments = (0..members.len()).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
+    let segments = (0..members.len())
+        .map(|member| RailSegment {
+            member,
+            offset: [0.0; 3],
+        })
+        .collect();
     let model = Model {
         points: x.iter().map(|&x| [x, 0.0, 0.0]).collect(),
         sections: vec![section()],
@@ -34,7 +48,15 @@ fn beam(x: &[f64]) -> (Model, Rail) {
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    (model, Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() })
+    (
+        model,
+        Rail {
+            origin: [0.0; 3],
+            axis: [1.0, 0.0, 0.0],
+            segments,
+            stations: Vec::new(),
+        },
+    )
 }
 
 fn support(point: usize, names: &str) -> Support {
@@ -43,15 +65,28 @@ fn support(point: usize, names: &str) -> Support {
 }
 
 fn spring(point: usize, freedom: Dof, stiffness: f64) -> GroundSpring {
-    GroundSpring { point, dof: freedom, stiffness }
+    GroundSpring {
+        point,
+        dof: freedom,
+        stiffness,
+    }
 }
 
 fn vertical(model: &Model, rail: &Rail, x: f64) -> f64 {
-    grid(model, std::slice::from_ref(rail), &probes(Axis::Vertical, &[x])).expect("solvable").value[(0, 0)]
+    grid(
+        model,
+        std::slice::from_ref(rail),
+        &probes(Axis::Vertical, &[x]),
+    )
+    .expect("solvable")
+    .value[(0, 0)]
 }
 
 fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!((found - exact).abs() <= tolerance * exact.abs().max(1.0), "{found} {exact}");
+    assert!(
+        (found - exact).abs() <= tolerance * exact.abs().max(1.0),
+        "{found} {exact}"
+    );
 }
 
 /// Simple beam: a^2 b^2/(3 EI L).
@@ -71,8 +106,16 @@ fn beam_on_springs_sinks_with_them_by_the_lever_rule() {
         near(vertical(&model, &rail, x) / exact, 1.0, 1e-13);
     }
     let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
-    let hold = Restraint { point: 1, dof: Dof::Uy, spring: Some(1) };
-    let found = frame.effects(&model, &[Effect::Reaction(hold)], &probes(Axis::Vertical, &[3.0]));
+    let hold = Restraint {
+        point: 1,
+        dof: Dof::Uy,
+        spring: Some(1),
+    };
+    let found = frame.effects(
+        &model,
+        &[Effect::Reaction(hold)],
+        &probes(Axis::Vertical, &[3.0]),
+    );
     near(found.expect("on the rail")[(0, 0)], -0.25, 1e-13);
 }
 
@@ -101,7 +144,12 @@ fn masses_do_not_change_statics_by_a_bit() {
     let (mut model, rail) = mill(BeamTheory::Timoshenko);
     let at = probes(Axis::Vertical, &[12.0, 150.0]);
     let bare = grid(&model, std::slice::from_ref(&rail), &at).expect("solvable");
-    model.masses = vec![PointMass { point: 9, mass: 2e5, inertia: [1.0, 2.0, 3.0], offset: [0.0, 1.0, 0.0] }];
+    model.masses = vec![PointMass {
+        point: 9,
+        mass: 2e5,
+        inertia: [1.0, 2.0, 3.0],
+        offset: [0.0, 1.0, 0.0],
+    }];
     assert!(grid(&model, &[rail], &at).expect("solvable").value == bare.value);
 }
 
@@ -111,11 +159,20 @@ fn two_bar_truss_sinks_as_published() {
     let mut model = Model {
         points: vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, -4.0, 0.0]],
         sections: vec![section()],
-        members: [[0, 2], [1, 2]].map(|ends| Member { kind: MemberKind::Truss, ..member(ends) }).to_vec(),
+        members: [[0, 2], [1, 2]]
+            .map(|ends| Member {
+                kind: MemberKind::Truss,
+                ..member(ends)
+            })
+            .to_vec(),
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    model.supports = vec![support(0, "ux uy uz"), support(1, "ux uy uz"), support(2, "uz")];
+    model.supports = vec![
+        support(0, "ux uy uz"),
+        support(1, "ux uy uz"),
+        support(2, "uz"),
+    ];
     let (found, _) = point_compliance(&model, &[2]).expect("solvable");
     near(found[(1, 1)] / (5.0 / (2.0 * EA * 0.64)), 1.0, 1e-13);
     // Bars transmit no moment: nothing stiffens the rotations.
@@ -128,8 +185,15 @@ fn two_bar_truss_sinks_as_published() {
 fn inclined_support_by_a_strut_pulls_the_beam() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.points.push([SPAN + 2.0, -2.0, 0.0]);
-    model.members.push(Member { kind: MemberKind::Truss, ..member([1, 2]) });
-    model.supports = vec![support(0, "ux uy uz rx"), support(1, "uz rx"), support(2, "ux uy uz")];
+    model.members.push(Member {
+        kind: MemberKind::Truss,
+        ..member([1, 2])
+    });
+    model.supports = vec![
+        support(0, "ux uy uz rx"),
+        support(1, "uz rx"),
+        support(2, "ux uy uz"),
+    ];
     let strut = 8f64.sqrt();
     for x in [3.0, 9.0] {
         let share = x / SPAN;
@@ -137,8 +201,16 @@ fn inclined_support_by_a_strut_pulls_the_beam() {
         near(vertical(&model, &rail, x) / exact, 1.0, 1e-12);
     }
     let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
-    let axial = |member| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
-    let found = frame.effects(&model, &[axial(0), axial(1)], &probes(Axis::Vertical, &[3.0, 9.0]));
+    let axial = |member| Effect::InternalForce {
+        member,
+        place: 0.5,
+        component: ForceComponent::Axial,
+    };
+    let found = frame.effects(
+        &model,
+        &[axial(0), axial(1)],
+        &probes(Axis::Vertical, &[3.0, 9.0]),
+    );
     let found = found.expect("on the rail");
     for (j, share) in [0.25, 0.75].into_iter().enumerate() {
         near(found[(0, j)], share, 1e-12);
@@ -151,18 +223,29 @@ fn inclined_support_by_a_strut_pulls_the_beam() {
 #[test]
 fn inclined_support_by_a_rigid_link_guides_across_the_link() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
-    model.points.extend([[SPAN, 0.0, 0.0], [SPAN + 2.0, -2.0, 0.0]]);
+    model
+        .points
+        .extend([[SPAN, 0.0, 0.0], [SPAN + 2.0, -2.0, 0.0]]);
     model.links = vec![RigidLink { from: 2, to: 3 }];
     // A short stiff joint with a hinge, so that the lever can rotate relative to the beam.
-    model.members[0] = Member { points: [0, 2], ..model.members[0] };
+    model.members[0] = Member {
+        points: [0, 2],
+        ..model.members[0]
+    };
     model.members[0].releases[1][5] = true;
     model.points[1] = [SPAN, 5.0, 0.0];
-    model.supports = vec![support(0, "ux uy uz rx ry rz"), support(1, "ux uy uz rx ry rz")];
+    model.supports = vec![
+        support(0, "ux uy uz rx ry rz"),
+        support(1, "ux uy uz rx ry rz"),
+    ];
     model.supports.push(support(3, "ux uy uz rx ry"));
     let (moved, _) = point_compliance(&model, &[2]).expect("solvable");
     // Displacements at the joint lie along (1, 1)/sqrt 2.
     for k in 0..6 {
-        assert!((moved[(0, k)] - moved[(1, k)]).abs() <= 1e-12 * moved.amax(), "degree of freedom {k}");
+        assert!(
+            (moved[(0, k)] - moved[(1, k)]).abs() <= 1e-12 * moved.amax(),
+            "degree of freedom {k}"
+        );
     }
     // Cantilever bending 3EI/L^3 and stretch EA/L resist the motion s along it, each by s/sqrt 2.
     let stiffness = 0.5 * (3.0 * EI / SPAN.powi(3) + EA / SPAN);
@@ -177,10 +260,22 @@ fn inclined_support_by_a_rigid_link_guides_across_the_link() {
 fn hinges_at_both_clamps_make_a_simple_beam() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.supports = [0, 1].map(|point| Support { point, fixed: HELD }).to_vec();
-    near(vertical(&model, &rail, 0.5 * SPAN) * 192.0 * EI / SPAN.powi(3), 1.0, 1e-13);
+    near(
+        vertical(&model, &rail, 0.5 * SPAN) * 192.0 * EI / SPAN.powi(3),
+        1.0,
+        1e-13,
+    );
     model.members[0].releases = [[false, false, false, false, false, true]; 2];
-    near(vertical(&model, &rail, 0.5 * SPAN) * 48.0 * EI / SPAN.powi(3), 1.0, 1e-13);
-    near(vertical(&model, &rail, 0.3 * SPAN) / simple(0.3 * SPAN), 1.0, 1e-13);
+    near(
+        vertical(&model, &rail, 0.5 * SPAN) * 48.0 * EI / SPAN.powi(3),
+        1.0,
+        1e-13,
+    );
+    near(
+        vertical(&model, &rail, 0.3 * SPAN) / simple(0.3 * SPAN),
+        1.0,
+        1e-13,
+    );
 }
 
 /// Source: statics of a Gerber beam: cantilever of length a, hinge, span b to a roller.
@@ -188,14 +283,30 @@ fn hinges_at_both_clamps_make_a_simple_beam() {
 fn rail_runs_across_a_hinge_and_its_influence_lines_break_there() {
     let (a, b) = (5.0, 7.0);
     let (mut model, rail) = beam(&[0.0, a, a + b]);
-    model.supports = vec![Support { point: 0, fixed: HELD }, support(2, "uy uz rx")];
+    model.supports = vec![
+        Support {
+            point: 0,
+            fixed: HELD,
+        },
+        support(2, "uy uz rx"),
+    ];
     model.members[1].releases[0][5] = true;
     let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
-    let moment = |member, place| Effect::InternalForce { member, place, component: ForceComponent::BendingZ };
-    let shear = Effect::InternalForce { member: 0, place: 1.0, component: ForceComponent::ShearY };
+    let moment = |member, place| Effect::InternalForce {
+        member,
+        place,
+        component: ForceComponent::BendingZ,
+    };
+    let shear = Effect::InternalForce {
+        member: 0,
+        place: 1.0,
+        component: ForceComponent::ShearY,
+    };
     let x = [0.0, 2.0, 4.0, a, 6.0, 9.0, 12.0];
     let effects = [moment(0, 0.0), moment(0, 1.0), moment(1, 0.0), shear];
-    let found = frame.effects(&model, &effects, &probes(Axis::Vertical, &x)).expect("on the rail");
+    let found = frame
+        .effects(&model, &effects, &probes(Axis::Vertical, &x))
+        .expect("on the rail");
     let given = |z: f64| if z <= a { 1.0 } else { (a + b - z) / b };
     for (j, &z) in x.iter().enumerate() {
         near(found[(0, j)], if z <= a { z } else { a * given(z) }, 1e-12);
@@ -204,12 +315,19 @@ fn rail_runs_across_a_hinge_and_its_influence_lines_break_there() {
         near(found[(3, j)], if z < a { 0.0 } else { given(z) }, 1e-12);
     }
     // Deflection is continuous across the hinge, its slope is not.
-    let at = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
+    let at = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
     let places = [a - 2e-6, a - 1e-6, a, a + 1e-6, a + 2e-6, 9.0].map(at);
     let value = frame.grid(&places).expect("on the rail").value;
     near((value[(3, 5)] - value[(1, 5)]) / value[(2, 5)], 0.0, 1e-5);
     let slopes = [value[(1, 5)] - value[(0, 5)], value[(4, 5)] - value[(3, 5)]].map(|d| d / 1e-6);
-    assert!((slopes[1] - slopes[0]).abs() > 0.1 * slopes[0].abs(), "{slopes:?}");
+    assert!(
+        (slopes[1] - slopes[0]).abs() > 0.1 * slopes[0].abs(),
+        "{slopes:?}"
+    );
 }
 
 /// Source: statics. An expansion joint passes bending and shear and no thrust.
@@ -221,9 +339,15 @@ fn expansion_joint_passes_no_thrust() {
     model.members[1].releases[0][0] = true;
     near(vertical(&model, &rail, 7.0) / whole, 1.0, 1e-12);
     let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
-    let axial = |member| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
+    let axial = |member| Effect::InternalForce {
+        member,
+        place: 0.5,
+        component: ForceComponent::Axial,
+    };
     let at = probes(Axis::Longitudinal, &[5.0, 8.0]);
-    let found = frame.effects(&model, &[axial(0), axial(1)], &at).expect("on the rail");
+    let found = frame
+        .effects(&model, &[axial(0), axial(1)], &at)
+        .expect("on the rail");
     let exact = [[1.0, 0.0], [0.0, -1.0]];
     for i in 0..2 {
         for j in 0..2 {
@@ -244,19 +368,45 @@ fn rail_over_a_bent_member_chain_follows_the_projection() {
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    model.supports = vec![Support { point: 0, fixed: HELD }];
-    let segments = [0, 1].map(|member| RailSegment { member, offset: [0.0; 3] }).to_vec();
-    let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() };
+    model.supports = vec![Support {
+        point: 0,
+        fixed: HELD,
+    }];
+    let segments = [0, 1]
+        .map(|member| RailSegment {
+            member,
+            offset: [0.0; 3],
+        })
+        .to_vec();
+    let rail = Rail {
+        origin: [0.0; 3],
+        axis: [1.0, 0.0, 0.0],
+        segments,
+        stations: Vec::new(),
+    };
     // Each leg 5 long; turned by 2 x 53.13 degrees: cos = -0.28 between them (unit-load theorem).
     let (l, c, s) = (5.0_f64, -0.28_f64, 0.96_f64);
     let second = l.powi(3) / (3.0 * EI);
     let first = l.powi(3) / (3.0 * EI) + l * (c * l).powi(2) / EI + l * l * (c * l) / EI;
     let torsion = l * (s * l).powi(2) / EI;
-    near(vertical(&model, &rail, 6.0) / (second + first + torsion), 1.0, 1e-12);
+    near(
+        vertical(&model, &rail, 6.0) / (second + first + torsion),
+        1.0,
+        1e-12,
+    );
     let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
-    let root = |component| Effect::InternalForce { member: 0, place: 0.0, component };
-    let effects = [root(ForceComponent::BendingZ), root(ForceComponent::Torsion)];
-    let found = frame.effects(&model, &effects, &probes(Axis::Vertical, &[6.0])).expect("on the rail");
+    let root = |component| Effect::InternalForce {
+        member: 0,
+        place: 0.0,
+        component,
+    };
+    let effects = [
+        root(ForceComponent::BendingZ),
+        root(ForceComponent::Torsion),
+    ];
+    let found = frame
+        .effects(&model, &effects, &probes(Axis::Vertical, &[6.0]))
+        .expect("on the rail");
     near(found[(0, 0)], l + c * l, 1e-12);
     near(found[(1, 0)].abs(), s * l, 1e-12);
 }

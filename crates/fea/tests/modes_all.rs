@@ -19,9 +19,24 @@ fn lowest_of_all_modes_are_those_that_the_search_finds() {
     let lowest = modes(&model, &[rail], 30).expect("a building of bars with mass");
     assert!(all.modes.len() > 100 && all.next.is_none());
     for (a, b) in all.modes.iter().zip(&lowest.modes) {
-        assert!((a.omega / b.omega - 1.0).abs() < 1e-9, "{} {}", a.omega, b.omega);
-        let largest = b.states.iter().flatten().fold(0.0_f64, |max, u| max.max(u.abs()));
-        let sign = a.states.iter().flatten().zip(b.states.iter().flatten()).map(|(a, b)| a * b).sum::<f64>();
+        assert!(
+            (a.omega / b.omega - 1.0).abs() < 1e-9,
+            "{} {}",
+            a.omega,
+            b.omega
+        );
+        let largest = b
+            .states
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |max, u| max.max(u.abs()));
+        let sign = a
+            .states
+            .iter()
+            .flatten()
+            .zip(b.states.iter().flatten())
+            .map(|(a, b)| a * b)
+            .sum::<f64>();
         for (a, b) in a.states.iter().flatten().zip(b.states.iter().flatten()) {
             assert!((a * sign.signum() - b).abs() < 1e-6 * largest);
         }
@@ -45,7 +60,10 @@ fn all_modes_carry_every_load_at_the_nodes() {
     splines::Compliance::fill(&rest, &at, &mut influence).expect("on the rail");
     // All places are nodes of eight elements over 60 ft.
     let left = influence.value.amax();
-    println!("{} modes leave {left:.1e} of {largest:.1e}", refined.modes.modes.len());
+    println!(
+        "{} modes leave {left:.1e} of {largest:.1e}",
+        refined.modes.modes.len()
+    );
     assert!(left < 1e-9 * largest);
 }
 
@@ -55,11 +73,19 @@ fn too_many_unknowns_are_refused_before_they_are_solved() {
     girder.mass_per_length = Some(15.2);
     let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
     let rails = [rail];
-    let refused = full_modes(&model, &rails, &ExcitingForces::vertical(), 1000).expect_err("6,000 unknowns");
-    assert!(matches!(refused, Error::TooManyModes { unknowns, most: 3000 } if unknowns > 3000), "{refused}");
+    let refused =
+        full_modes(&model, &rails, &ExcitingForces::vertical(), 1000).expect_err("6,000 unknowns");
+    assert!(
+        matches!(refused, Error::TooManyModes { unknowns, most: 3000 } if unknowns > 3000),
+        "{refused}"
+    );
     // the check without a factor counts the same unknowns
-    let check = |elements: usize| check_full_modes(&model, &rails, &ExcitingForces::vertical(), elements);
+    let check =
+        |elements: usize| check_full_modes(&model, &rails, &ExcitingForces::vertical(), elements);
     assert_eq!(check(1000), Err(refused));
     assert_eq!(check(500), Ok(()));
-    assert!(matches!(check(1_000_000), Err(Error::Elements { most: 100_000, .. })));
+    assert!(matches!(
+        check(1_000_000),
+        Err(Error::Elements { most: 100_000, .. })
+    ));
 }

@@ -35,23 +35,49 @@ fn compare(found: &DVector<f64>, expected: &[f64]) {
 
 #[test]
 fn released_bars_move_as_published() {
-    let section =
-        CrossSection { e: 1e7, g: 4e6, area: 0.1, iz: 0.01, iy: 0.02, j: 0.03, ..CrossSection::default() };
+    let section = CrossSection {
+        e: 1e7,
+        g: 4e6,
+        area: 0.1,
+        iz: 0.01,
+        iy: 0.02,
+        j: 0.03,
+        ..CrossSection::default()
+    };
     let mut model = line(5, 1.0, section);
     model.supports = [0, 4].map(|point| Support { point, fixed: HELD }).to_vec();
     model.members[2].releases[0] = [false, true, true, true, true, true];
     let found = solve(&model, &[2, 1, 3], [200.0, 300.0, 600.0, 0.0, 0.0, 0.0]);
-    compare(&found.rows(0, 6).into_owned(), &[0.0002, 0.008, 0.008, 0.0, -0.006, 0.006]);
-    compare(&found.rows(6, 6).into_owned(), &[0.0001, 0.0025, 0.0025, 0.0, -0.0045, 0.0045]);
-    compare(&found.rows(12, 6).into_owned(), &[0.0001, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    compare(
+        &found.rows(0, 6).into_owned(),
+        &[0.0002, 0.008, 0.008, 0.0, -0.006, 0.006],
+    );
+    compare(
+        &found.rows(6, 6).into_owned(),
+        &[0.0001, 0.0025, 0.0025, 0.0, -0.0045, 0.0045],
+    );
+    compare(
+        &found.rows(12, 6).into_owned(),
+        &[0.0001, 0.0, 0.0, 0.0, 0.0, 0.0],
+    );
 }
 
 #[test]
 fn offset_bars_move_as_published() {
-    let section =
-        CrossSection { e: 1e7, g: 4e6, area: 0.1, iz: 0.1, iy: 0.1, j: 0.1, ..CrossSection::default() };
+    let section = CrossSection {
+        e: 1e7,
+        g: 4e6,
+        area: 0.1,
+        iz: 0.1,
+        iy: 0.1,
+        j: 0.1,
+        ..CrossSection::default()
+    };
     let mut model = line(2, 10.0, section);
-    model.supports = vec![Support { point: 0, fixed: HELD }];
+    model.supports = vec![Support {
+        point: 0,
+        fixed: HELD,
+    }];
     model.members[0].offsets = [[0.0, 2.0, 0.0]; 2];
     let found = solve(&model, &[1], [200.0, 300.0, 600.0, 0.0, 0.0, 0.0]);
     compare(&found, &[0.04, 0.12, 0.26, -0.03, -0.03, 0.019]);

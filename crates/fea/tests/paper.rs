@@ -81,7 +81,11 @@ const VERTICAL: [[f64; 7]; 7] = [
 
 /// One unit of the last of three printed digits of `value`.
 fn digit(value: f64) -> f64 {
-    if value == 0.0 { 1e-21 } else { 10f64.powf(value.abs().log10().floor() - 2.0) }
+    if value == 0.0 {
+        1e-21
+    } else {
+        10f64.powf(value.abs().log10().floor() - 2.0)
+    }
 }
 
 #[test]
@@ -93,7 +97,11 @@ fn vertical_table_agrees_with_every_printed_entry() {
         for j in 0..7 {
             let printed = VERTICAL[i][j] * 1e-10;
             let error = (value[(i, j)] - printed).abs();
-            assert!(error <= digit(printed) * (1.0 + 1e-9), "({i}, {j}): {} {printed}", value[(i, j)]);
+            assert!(
+                error <= digit(printed) * (1.0 + 1e-9),
+                "({i}, {j}): {} {printed}",
+                value[(i, j)]
+            );
         }
     }
 }
@@ -103,14 +111,20 @@ fn lateral_table_agrees_with_every_printed_entry() {
     // Rebuilt from the record of the printed digits: all are the truncated closed form with 1/EI = 2.6456e-10 and h^2/GJ = 1.2315e-8.
     let (model, rail) = paper().model_and_rail().expect("sound");
     let stations = rail.stations.clone();
-    let value = grid(&model, &[rail], &probes(Axis::Lateral, &stations)).expect("solvable").value;
+    let value = grid(&model, &[rail], &probes(Axis::Lateral, &stations))
+        .expect("solvable")
+        .value;
     for (i, &x) in stations.iter().enumerate() {
         for (j, &z) in stations.iter().enumerate() {
             let exact = 2.6456e-10 * bending(x, z) + 1.2315e-8 * torsion(x, z);
             let unit = digit(exact);
             let printed = (exact / unit * (1.0 + 1e-12)).trunc() * unit;
             let error = (value[(i, j)] - printed).abs();
-            assert!(error <= unit * (1.0 + 1e-9), "({i}, {j}): {} {printed}", value[(i, j)]);
+            assert!(
+                error <= unit * (1.0 + 1e-9),
+                "({i}, {j}): {} {printed}",
+                value[(i, j)]
+            );
         }
     }
 }
@@ -120,8 +134,13 @@ fn grids_agree_with_closed_forms_to_1e_13() {
     let (model, rail) = paper().model_and_rail().expect("sound");
     let stations: Vec<f64> = (0..61).map(|k| -15.0 + 1.5 * f64::from(k)).collect();
     let rails = [rail];
-    for (axis, exact) in [(Axis::Vertical, vertical as fn(f64, f64) -> f64), (Axis::Lateral, lateral)] {
-        let value = grid(&model, &rails, &probes(axis, &stations)).expect("solvable").value;
+    for (axis, exact) in [
+        (Axis::Vertical, vertical as fn(f64, f64) -> f64),
+        (Axis::Lateral, lateral),
+    ] {
+        let value = grid(&model, &rails, &probes(axis, &stations))
+            .expect("solvable")
+            .value;
         let largest = value.amax();
         let mut worst = 0.0_f64;
         for (i, &x) in stations.iter().enumerate() {
@@ -137,14 +156,24 @@ fn grids_agree_with_closed_forms_to_1e_13() {
 #[test]
 fn nodes_at_every_station_cost_no_more_digits_than_known() {
     let (model, _) = paper().model_and_rail().expect("sound");
-    for (count, known) in [(7, 1.8e-15), (13, 2.9e-14), (19, 2e-13), (37, 4.6e-12), (73, 6.2e-12)] {
-        let stations: Vec<f64> =
-            (0..count).map(|k| -15.0 + 90.0 * f64::from(k) / f64::from(count - 1)).collect();
+    for (count, known) in [
+        (7, 1.8e-15),
+        (13, 2.9e-14),
+        (19, 2e-13),
+        (37, 4.6e-12),
+        (73, 6.2e-12),
+    ] {
+        let stations: Vec<f64> = (0..count)
+            .map(|k| -15.0 + 90.0 * f64::from(k) / f64::from(count - 1))
+            .collect();
         let mut places = Vec::new();
         let mut inside = Vec::new();
         for (m, member) in model.members.iter().enumerate() {
             let ends = member.points.map(|point| model.points[point][0]);
-            for x in stations.iter().filter(|x| **x > ends[0] + 1e-9 && **x < ends[1] - 1e-9) {
+            for x in stations
+                .iter()
+                .filter(|x| **x > ends[0] + 1e-9 && **x < ends[1] - 1e-9)
+            {
                 places.push((m, (x - ends[0]) / (ends[1] - ends[0]), [0.0; 3]));
                 inside.push(*x);
             }
@@ -168,7 +197,10 @@ fn surface_agrees_with_closed_forms_at_ten_thousand_pairs() {
     let (model, rail) = paper().model_and_rail().expect("sound");
     let exact = surface(&model, &[rail]).expect("solvable");
     let mut stream = Stream::new(1);
-    for (axis, form) in [(Axis::Vertical, vertical as fn(f64, f64) -> f64), (Axis::Lateral, lateral)] {
+    for (axis, form) in [
+        (Axis::Vertical, vertical as fn(f64, f64) -> f64),
+        (Axis::Lateral, lateral),
+    ] {
         let largest = form(-15.0, -15.0);
         let mut worst = 0.0_f64;
         for _ in 0..10_000 {
@@ -194,8 +226,13 @@ fn grid_agrees_with_published_values_between_stations() {
         (-7.0, 33.0, -3.661_904_387_069_692_6e-8),
         (31.0, 44.0, 7.976_598_321_429_928e-8),
     ] {
-        let found = grid(&model, &rails, &probes(Axis::Vertical, &[x, z])).expect("solvable").value[(0, 1)];
-        assert!((found - value).abs() < 1e-13 * 1.37e-7, "G({x}, {z}) = {found}");
+        let found = grid(&model, &rails, &probes(Axis::Vertical, &[x, z]))
+            .expect("solvable")
+            .value[(0, 1)];
+        assert!(
+            (found - value).abs() < 1e-13 * 1.37e-7,
+            "G({x}, {z}) = {found}"
+        );
     }
 }
 
@@ -205,7 +242,9 @@ fn longitudinal_load_at_the_rail_bends_the_girder() {
     // moment, which is d2 g/(dx dz) of the bending form (analytic: (l^2 - 3 x l + 3 x^2)/(3 l) at x = z).
     let (model, rail) = paper().model_and_rail().expect("sound");
     let x = 22.0;
-    let found = grid(&model, &[rail], &probes(Axis::Longitudinal, &[x])).expect("solvable").value[(0, 0)];
+    let found = grid(&model, &[rail], &probes(Axis::Longitudinal, &[x]))
+        .expect("solvable")
+        .value[(0, 0)];
     let slope = (SPAN * SPAN - 3.0 * x * SPAN + 3.0 * x * x) / (3.0 * SPAN * 9.528 * 4.32e9);
     let exact = x / 4.32e9 + 3.6615 * 3.6615 * slope;
     assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");

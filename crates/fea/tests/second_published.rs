@@ -7,8 +7,8 @@
 use std::f64::consts::PI;
 
 use fea::{
-    BeamTheory, CriticalFactor, CrossSection, Dof, FactoredFrame, GroundSpring, Member, MemberKind, Model,
-    Preload, Rail, RailSegment, Support, preloaded,
+    BeamTheory, CriticalFactor, CrossSection, Dof, FactoredFrame, GroundSpring, Member, MemberKind,
+    Model, Preload, Rail, RailSegment, Support, preloaded,
 };
 use nalgebra::DMatrix;
 use splines::{Axis, Probe};
@@ -37,8 +37,14 @@ fn chain(parts: &[[f64; 2]], supports: &[[bool; 6]]) -> Model {
         });
     }
     Model {
-        members: (0..parts.len()).map(|k| Member::beam([k, k + 1], k, [0.0, 1.0, 0.0])).collect(),
-        supports: supports.iter().enumerate().map(|(point, &fixed)| Support { point, fixed }).collect(),
+        members: (0..parts.len())
+            .map(|k| Member::beam([k, k + 1], k, [0.0, 1.0, 0.0]))
+            .collect(),
+        supports: supports
+            .iter()
+            .enumerate()
+            .map(|(point, &fixed)| Support { point, fixed })
+            .collect(),
         up: [0.0, 1.0, 0.0],
         points,
         sections,
@@ -48,7 +54,10 @@ fn chain(parts: &[[f64; 2]], supports: &[[bool; 6]]) -> Model {
 
 fn pushed(forces: &[(usize, f64)]) -> Preload {
     Preload {
-        points: forces.iter().map(|&(point, p)| (point, [-p, 0.0, 0.0])).collect(),
+        points: forces
+            .iter()
+            .map(|&(point, p)| (point, [-p, 0.0, 0.0]))
+            .collect(),
         ..Preload::default()
     }
 }
@@ -71,13 +80,20 @@ fn root(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     assert_ne!(below, f(high) < 0.0, "a root between {low} and {high}");
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
-        if (f(middle) < 0.0) == below { low = middle } else { high = middle }
+        if (f(middle) < 0.0) == below {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     0.5 * (low + high)
 }
 
 fn close(found: f64, known: f64, name: &str) {
-    assert!((found / known - 1.0).abs() < 2e-9, "{name}: {found}, not {known}");
+    assert!(
+        (found / known - 1.0).abs() < 2e-9,
+        "{name}: {found}, not {known}"
+    );
 }
 
 /// Stiffness of a compressed member of length and EI one against the rotation of one end, the other pinned and fixed; LC.
@@ -93,10 +109,21 @@ fn far_fixed(u: f64) -> f64 {
 #[test]
 fn columns_buckle_at_their_published_loads() {
     let one = [[1.0, 1.0]];
-    close(critical(&chain(&one, &[FIXED, SWAYING]), 1.0), PI * PI, "fixed, swaying");
-    close(critical(&chain(&one, &[PINNED, SWAYING]), 0.5), PI * PI / 4.0, "pinned, swaying");
     close(
-        critical(&chain(&[[1.0, 1.0], [1.0, 1.0]], &[PINNED, ROLLER, ROLLER]), 2.0),
+        critical(&chain(&one, &[FIXED, SWAYING]), 1.0),
+        PI * PI,
+        "fixed, swaying",
+    );
+    close(
+        critical(&chain(&one, &[PINNED, SWAYING]), 0.5),
+        PI * PI / 4.0,
+        "pinned, swaying",
+    );
+    close(
+        critical(
+            &chain(&[[1.0, 1.0], [1.0, 1.0]], &[PINNED, ROLLER, ROLLER]),
+            2.0,
+        ),
         PI * PI,
         "two equal spans",
     );
@@ -104,7 +131,10 @@ fn columns_buckle_at_their_published_loads() {
     let two = |p: f64| far_pinned(p.sqrt()) + far_pinned(0.6 * p.sqrt()) / 0.6;
     let known = root(two, [9.9, 20.0]);
     close(
-        critical(&chain(&[[1.0, 1.0], [0.6, 1.0]], &[PINNED, ROLLER, ROLLER]), 2.0),
+        critical(
+            &chain(&[[1.0, 1.0], [0.6, 1.0]], &[PINNED, ROLLER, ROLLER]),
+            2.0,
+        ),
         known,
         "two unequal spans",
     );
@@ -112,13 +142,21 @@ fn columns_buckle_at_their_published_loads() {
     let known = root(|u| u * u.tan() - 1.0, [0.1, 1.5]).powi(2);
     let base = [true, true, true, true, true, false];
     let mut m = chain(&one, &[base, FREE]);
-    m.springs.push(GroundSpring { point: 0, dof: Dof::Rz, stiffness: 1.0 });
+    m.springs.push(GroundSpring {
+        point: 0,
+        dof: Dof::Rz,
+        stiffness: 1.0,
+    });
     close(critical(&m, 0.2), known, "rotational spring at the base");
     assert!((known - 0.740_174).abs() < 1e-6);
     // A cantilever whose tip is held by a spring k across: tan u = u - u^3 EI/(k L^3); TG 2.3.
     let known = root(|u| u.sin() - (u - u.powi(3) / 10.0) * u.cos(), [1.7, 4.0]).powi(2);
     let mut m = chain(&one, &[FIXED, FREE]);
-    m.springs.push(GroundSpring { point: 1, dof: Dof::Uy, stiffness: 10.0 });
+    m.springs.push(GroundSpring {
+        point: 1,
+        dof: Dof::Uy,
+        stiffness: 10.0,
+    });
     close(critical(&m, 1.0), known, "spring across the tip");
     // Two sections, 1 being the upper one: tan(k1 l1) tan(k2 l2) = k1/k2; TG 2.14.
     let (lower, upper) = ([0.6, 3.0], [0.4, 1.0]);
@@ -147,11 +185,18 @@ fn columns_buckle_at_their_published_loads() {
 /// Engesser's column with fixed ends and as a cantilever, TG 2.17: 1/P = 1/P_E + 1/(G As).
 #[test]
 fn shear_lowers_critical_loads_of_other_columns() {
-    for (ends, euler) in [([FIXED, ROLLER_GUIDED], 4.0 * PI * PI), ([FIXED, FREE], PI * PI / 4.0)] {
+    for (ends, euler) in [
+        ([FIXED, ROLLER_GUIDED], 4.0 * PI * PI),
+        ([FIXED, FREE], PI * PI / 4.0),
+    ] {
         let mut m = chain(&[[1.0, 1.0]], &ends);
         m.theory = BeamTheory::Timoshenko;
         (m.sections[0].shear_y, m.sections[0].g) = (Some(15.0), 1.0);
-        close(critical(&m, 0.4), 1.0 / (1.0 / euler + 1.0 / 15.0), "Engesser");
+        close(
+            critical(&m, 0.4),
+            1.0 / (1.0 / euler + 1.0 / 15.0),
+            "Engesser",
+        );
     }
 }
 
@@ -160,14 +205,24 @@ const ROLLER_GUIDED: [bool; 6] = [false, true, true, true, true, true];
 /// A portal in the x-y plane, P down on both columns; lengths and EI one.
 fn portal(feet: [bool; 6], top: [bool; 6]) -> Model {
     let beam = |points| Member::beam(points, 0, [0.0, 0.0, 1.0]);
-    let section =
-        CrossSection { e: 1.0, g: 1.0, area: 1e9, iy: 1.0, iz: 1e3, j: 1.0, ..CrossSection::default() };
+    let section = CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: 1e9,
+        iy: 1.0,
+        iz: 1e3,
+        j: 1.0,
+        ..CrossSection::default()
+    };
     let supports = [(0, feet), (3, feet), (1, top), (2, top)];
     Model {
         points: vec![[0.0; 3], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
         sections: vec![CrossSection { iy: 1.0, ..section }],
         members: vec![beam([0, 1]), beam([1, 2]), beam([2, 3])],
-        supports: supports.iter().map(|&(point, fixed)| Support { point, fixed }).collect(),
+        supports: supports
+            .iter()
+            .map(|&(point, fixed)| Support { point, fixed })
+            .collect(),
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     }
@@ -177,13 +232,23 @@ fn portal(feet: [bool; 6], top: [bool; 6]) -> Model {
 #[test]
 fn braced_frames_buckle_at_their_published_loads() {
     let held = [true, false, true, true, true, false];
-    let down =
-        |p: f64| Preload { points: vec![(1, [0.0, -p, 0.0]), (2, [0.0, -p, 0.0])], ..Preload::default() };
+    let down = |p: f64| Preload {
+        points: vec![(1, [0.0, -p, 0.0]), (2, [0.0, -p, 0.0])],
+        ..Preload::default()
+    };
     let hinged = [true, true, true, true, true, false];
     let known = root(|u| far_pinned(u) + 2.0, [3.2, 4.4]).powi(2);
-    close(critical_under(&portal(hinged, held), &down(1.0)), known, "braced, hinged feet");
+    close(
+        critical_under(&portal(hinged, held), &down(1.0)),
+        known,
+        "braced, hinged feet",
+    );
     let known = root(|u| far_fixed(u) + 2.0, [4.6, 6.2]).powi(2);
-    close(critical_under(&portal(FIXED, held), &down(1.0)), known, "braced, fixed feet");
+    close(
+        critical_under(&portal(FIXED, held), &down(1.0)),
+        known,
+        "braced, fixed feet",
+    );
     assert!((known - 25.182).abs() < 1e-2, "{known}");
 }
 
@@ -191,9 +256,19 @@ fn braced_frames_buckle_at_their_published_loads() {
 /// one when both share: the stiffness of the loaded tip is P u/(L (tan u - u)).
 #[test]
 fn leaning_columns_fall_on_what_holds_them() {
-    let section =
-        CrossSection { e: 1.0, g: 1.0, area: 1e9, iy: 1.0, iz: 1.0, j: 1.0, ..CrossSection::default() };
-    let post = |points, kind| Member { kind, ..Member::beam(points, 0, [0.0, 0.0, 1.0]) };
+    let section = CrossSection {
+        e: 1.0,
+        g: 1.0,
+        area: 1e9,
+        iy: 1.0,
+        iz: 1.0,
+        j: 1.0,
+        ..CrossSection::default()
+    };
+    let post = |points, kind| Member {
+        kind,
+        ..Member::beam(points, 0, [0.0, 0.0, 1.0])
+    };
     let plane = [false, false, true, true, true, false];
     let hinge = [true, true, true, true, true, true];
     let m = Model {
@@ -204,9 +279,14 @@ fn leaning_columns_fall_on_what_holds_them() {
             post([2, 3], MemberKind::Truss),
             post([1, 3], MemberKind::Truss),
         ],
-        supports: [(0, FIXED), (1, plane), (2, hinge), (3, [false, false, true, true, true, true])]
-            .map(|(point, fixed)| Support { point, fixed })
-            .to_vec(),
+        supports: [
+            (0, FIXED),
+            (1, plane),
+            (2, hinge),
+            (3, [false, false, true, true, true, true]),
+        ]
+        .map(|(point, fixed)| Support { point, fixed })
+        .to_vec(),
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
@@ -221,13 +301,18 @@ fn leaning_columns_fall_on_what_holds_them() {
         u / (u.tan() - u) - 1.0
     };
     let found = critical_under(&m, &on(0.5, 0.5)) * 0.5;
-    assert!((found / root(both, [0.5, 2.4]) - 1.0).abs() < 1e-7, "{found}");
+    assert!(
+        (found / root(both, [0.5, 2.4]) - 1.0).abs() < 1e-7,
+        "{found}"
+    );
 }
 
 /// Compliance of points of a chain under the force p (compression) at its last point.
 fn compliance(m: &Model, p: f64, points: &[usize]) -> DMatrix<f64> {
     let state = preloaded(m, &[], &pushed(&[(m.points.len() - 1, p)])).expect("stable");
-    FactoredFrame::new(&state.model, &[]).and_then(|frame| frame.point_compliance(points)).expect("points")
+    FactoredFrame::new(&state.model, &[])
+        .and_then(|frame| frame.point_compliance(points))
+        .expect("points")
 }
 
 /// TG 1.3, 1.5, 1.7 and 1.11: deflections and rotations of beam-columns under forces and moments.
@@ -238,12 +323,24 @@ fn beam_columns_deflect_as_published() {
     // Cantilever, u = k L: tip force 3 (tan u - u)/u^3, tip moment 2 (1 - cos u)/(u^2 cos u), rotation tan u/u.
     let u = 1.1_f64;
     let c = compliance(&chain(&one, &[FIXED, FREE]), u * u, &[1]);
-    close(c[(v, v)] * 3.0, 3.0 * (u.tan() - u) / u.powi(3), "tip force");
-    close(c[(v, r)] * 2.0, 2.0 * (1.0 - u.cos()) / (u * u * u.cos()), "tip moment");
+    close(
+        c[(v, v)] * 3.0,
+        3.0 * (u.tan() - u) / u.powi(3),
+        "tip force",
+    );
+    close(
+        c[(v, r)] * 2.0,
+        2.0 * (1.0 - u.cos()) / (u * u * u.cos()),
+        "tip moment",
+    );
     close(c[(r, r)], u.tan() / u, "rotation under a tip moment");
     // Cantilever tie: 2 (cosh u - 1)/(u^2 cosh u) and tanh u/u.
     let c = compliance(&chain(&one, &[FIXED, FREE]), -u * u, &[1]);
-    close(c[(v, r)] * 2.0, 2.0 * (u.cosh() - 1.0) / (u * u * u.cosh()), "tip moment in tension");
+    close(
+        c[(v, r)] * 2.0,
+        2.0 * (u.cosh() - 1.0) / (u * u * u.cosh()),
+        "tip moment in tension",
+    );
     close(c[(r, r)], u.tanh() / u, "rotation in tension");
     // Pinned, 2 u = k L: end rotations M L/(3 EI) psi and M L/(6 EI) phi.
     let u = 0.9_f64;
@@ -256,11 +353,20 @@ fn beam_columns_deflect_as_published() {
     let u = 2.0_f64;
     let m = chain(&[[0.5, 1.0], [0.5, 1.0]], &[FIXED, FREE, ROLLER_GUIDED]);
     let c = compliance(&m, 4.0 * u * u, &[1]);
-    close(c[(v, v)] * 192.0, 12.0 * (2.0 * (0.5 * u).tan() - u) / u.powi(3), "fixed ends");
+    close(
+        c[(v, v)] * 192.0,
+        12.0 * (2.0 * (0.5 * u).tan() - u) / u.powi(3),
+        "fixed ends",
+    );
     // A force at the fraction a of a pinned beam: sin(k a) sin(k b)/(P k sin k) - a b/P at its place; TG 1.3.
     let (k, a) = (2.2_f64, 0.3);
-    let c = compliance(&chain(&[[a, 1.0], [1.0 - a, 1.0]], &[PINNED, FREE, ROLLER]), k * k, &[1]);
-    let known = (k * a).sin() * (k * (1.0 - a)).sin() / (k.powi(3) * k.sin()) - a * (1.0 - a) / (k * k);
+    let c = compliance(
+        &chain(&[[a, 1.0], [1.0 - a, 1.0]], &[PINNED, FREE, ROLLER]),
+        k * k,
+        &[1],
+    );
+    let known =
+        (k * a).sin() * (k * (1.0 - a)).sin() / (k.powi(3) * k.sin()) - a * (1.0 - a) / (k * k);
     close(c[(v, v)], known, "force at a third");
 }
 
@@ -275,9 +381,20 @@ fn uniform_load_is_the_integral_of_the_influence_function() {
         [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
     ];
     let m = chain(&[[1.0, 1.0]], &[PINNED, ROLLER]);
-    let segments = vec![RailSegment { member: 0, offset: [0.0; 3] }];
-    let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
-    let at = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
+    let segments = vec![RailSegment {
+        member: 0,
+        offset: [0.0; 3],
+    }];
+    let rail = Rail {
+        axis: [1.0, 0.0, 0.0],
+        segments,
+        ..Rail::default()
+    };
+    let at = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
     for p in [6.0_f64, -20.0] {
         let u = 0.5 * p.abs().sqrt();
         let known = if p > 0.0 {
@@ -291,7 +408,8 @@ fn uniform_load_is_the_integral_of_the_influence_function() {
         for [place, weight] in GAUSS.into_iter().flat_map(|[x, w]| [[x, w], [-x, w]]) {
             for part in 0..4 {
                 let x = (f64::from(part) + 0.5 * (1.0 + place)) / 4.0;
-                sum += weight / 8.0 * frame.grid(&[at(0.5), at(x)]).expect("on the rail").value[(0, 1)];
+                sum += weight / 8.0
+                    * frame.grid(&[at(0.5), at(x)]).expect("on the rail").value[(0, 1)];
             }
         }
         close(sum * 384.0 / 5.0, known, "uniform load");
@@ -302,14 +420,23 @@ fn uniform_load_is_the_integral_of_the_influence_function() {
 #[test]
 fn taut_cables_resist_across() {
     let (a, b, t) = (1.5, 2.5, 40.0);
-    let mut m = chain(&[[a, 1.0], [b, 1.0]], &[FIXED, FREE, [false, true, true, true, true, true]]);
-    m.members.iter_mut().for_each(|member| member.kind = MemberKind::Cable);
+    let mut m = chain(
+        &[[a, 1.0], [b, 1.0]],
+        &[FIXED, FREE, [false, true, true, true, true, true]],
+    );
+    m.members
+        .iter_mut()
+        .for_each(|member| member.kind = MemberKind::Cable);
     let state = preloaded(&m, &[], &pushed(&[(2, -t)])).expect("taut");
     let c = FactoredFrame::new(&state.model, &[])
         .and_then(|frame| frame.point_compliance(&[1]))
         .expect("a point");
     close(1.0 / c[(1, 1)], t * (1.0 / a + 1.0 / b), "across");
-    close(1.0 / c[(2, 2)], t * (1.0 / a + 1.0 / b), "across, the other way");
+    close(
+        1.0 / c[(2, 2)],
+        t * (1.0 / a + 1.0 / b),
+        "across, the other way",
+    );
 }
 
 /// Errors of cubic elements with the consistent geometric stiffness, P/P_E = 0.5, for midspan of the pinned beam: 3.5e-3, 2.5e-4, 1.6e-5
@@ -345,11 +472,19 @@ fn one_member_replaces_many_cubic_elements() {
         }
         let free: Vec<usize> = (0..2 * n + 2).filter(|&k| k != 0 && k != 2 * n).collect();
         let reduced = DMatrix::from_fn(free.len(), free.len(), |i, j| k[(free[i], free[j])]);
-        let at = free.iter().position(|&k| k == n).expect("the middle node is free");
+        let at = free
+            .iter()
+            .position(|&k| k == n)
+            .expect("the middle node is free");
         (1.0 - reduced.try_inverse().expect("stable")[(at, at)] / exact).abs()
     });
     for (error, known) in errors.iter().zip([3.5e-3, 2.5e-4, 1.6e-5, 1.0e-6]) {
         assert!((error / known - 1.0).abs() < 0.06, "{errors:?}");
     }
-    assert!(errors.windows(2).all(|pair| ((pair[0] / pair[1]).log2() - 4.0).abs() < 0.25), "{errors:?}");
+    assert!(
+        errors
+            .windows(2)
+            .all(|pair| ((pair[0] / pair[1]).log2() - 4.0).abs() < 0.25),
+        "{errors:?}"
+    );
 }

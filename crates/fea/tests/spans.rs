@@ -24,10 +24,22 @@ impl Primary {
     fn section(&self, s: f64, side: f64, z: f64) -> [f64; 2] {
         let l = self.length();
         let right = z / l;
-        let beyond = |place: f64| if s > place || (s == place && side > 0.0) { 1.0 } else { 0.0 };
+        let beyond = |place: f64| {
+            if s > place || (s == place && side > 0.0) {
+                1.0
+            } else {
+                0.0
+            }
+        };
         let forces = [(0.0, 1.0 - right), (l, right), (z, -1.0)];
-        let shear = forces.iter().map(|&(place, force)| force * beyond(place)).sum();
-        let moment = forces.iter().map(|&(place, force)| force * beyond(place) * (s - place)).sum();
+        let shear = forces
+            .iter()
+            .map(|&(place, force)| force * beyond(place))
+            .sum();
+        let moment = forces
+            .iter()
+            .map(|&(place, force)| force * beyond(place) * (s - place))
+            .sum();
         [moment, shear]
     }
 
@@ -49,7 +61,9 @@ impl Primary {
     fn grid(&self, at: &[f64]) -> DMatrix<f64> {
         let inner = &self.supports[1..self.supports.len() - 1];
         let simple = DMatrix::from_fn(at.len(), at.len(), |i, j| self.simple(at[i], at[j]));
-        let between = DMatrix::from_fn(inner.len(), inner.len(), |i, j| self.simple(inner[i], inner[j]));
+        let between = DMatrix::from_fn(inner.len(), inner.len(), |i, j| {
+            self.simple(inner[i], inner[j])
+        });
         let across = DMatrix::from_fn(inner.len(), at.len(), |i, j| self.simple(inner[i], at[j]));
         if inner.is_empty() {
             return simple;
@@ -86,11 +100,20 @@ fn worst(theory: BeamTheory) -> f64 {
         for span in spans {
             supports.push(supports[supports.len() - 1] + span);
         }
-        let shear = if theory == BeamTheory::Timoshenko { 1.0 / (1.661_538e9 * 0.35) } else { 0.0 };
-        let primary = Primary { supports, bending: 1.0 / (4.32e9 * 9.528), shear };
+        let shear = if theory == BeamTheory::Timoshenko {
+            1.0 / (1.661_538e9 * 0.35)
+        } else {
+            0.0
+        };
+        let primary = Primary {
+            supports,
+            bending: 1.0 / (4.32e9 * 9.528),
+            shear,
+        };
         let mut stream = Stream::new(7);
-        let mut at: Vec<f64> =
-            (0..60).map(|_| stream.between(-overhangs[0], primary.length() + overhangs[1])).collect();
+        let mut at: Vec<f64> = (0..60)
+            .map(|_| stream.between(-overhangs[0], primary.length() + overhangs[1]))
+            .collect();
         at.extend(&primary.supports);
         let exact = primary.grid(&at);
         let (model, rail) = girder.model_and_rail().expect("sound");
@@ -98,7 +121,11 @@ fn worst(theory: BeamTheory) -> f64 {
         let probes = probes(Axis::Vertical, &at);
         let value = grid(&model, &rails, &probes).expect("solvable").value;
         let mut out = Influence::zeros(at.len());
-        surface(&model, &rails).expect("solvable").surface.fill(&probes, &mut out).expect("on the rail");
+        surface(&model, &rails)
+            .expect("solvable")
+            .surface
+            .fill(&probes, &mut out)
+            .expect("on the rail");
         let grid_error = (&value - &exact).amax() / exact.amax();
         let surface_error = (&out.value - &exact).amax() / exact.amax();
         worst = worst.max(grid_error).max(surface_error);
@@ -119,9 +146,16 @@ fn timoshenko_girders_agree_with_the_force_method_to_1e_12() {
 #[test]
 fn two_equal_spans_give_23_over_1536() {
     // Midspan deflection of a two-span beam, G EI/L^3 = 23/1536 and -9/1536 (analytic).
-    let girder = Girder { spans: vec![60.0, 60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
+    let girder = Girder {
+        spans: vec![60.0, 60.0],
+        e: 4.32e9,
+        i_vertical: 9.528,
+        ..Girder::default()
+    };
     let (model, rail) = girder.model_and_rail().expect("sound");
-    let value = grid(&model, &[rail], &probes(Axis::Vertical, &[30.0, 90.0])).expect("solvable").value;
+    let value = grid(&model, &[rail], &probes(Axis::Vertical, &[30.0, 90.0]))
+        .expect("solvable")
+        .value;
     let unit = 60.0_f64.powi(3) / (4.32e9 * 9.528);
     assert!((value[(0, 0)] / unit - 23.0 / 1536.0).abs() < 1e-15);
     assert!((value[(0, 1)] / unit + 9.0 / 1536.0).abs() < 1e-15);

@@ -21,7 +21,10 @@ impl Check<'_> {
     pub fn number(&mut self, value: f64, place: &Place<'_>, dimension: Dimension) -> f64 {
         let [_, largest] = MAGNITUDES;
         if value.abs() > largest {
-            let fault = Fault::new(place, format!("must be at most {} in magnitude", number(largest)));
+            let fault = Fault::new(
+                place,
+                format!("must be at most {} in magnitude", number(largest)),
+            );
             self.faults.add(fault.got(number(value)).of_value());
         }
         self.scaled(value, place, self.scale.factor(dimension))
@@ -36,26 +39,47 @@ impl Check<'_> {
         }
         if !converted.is_finite() || (value != 0.0 && converted == 0.0) {
             let expected = "must stay within double precision after conversion of its unit";
-            self.faults.add(Fault::new(place, expected).got(number(value)).of_value());
+            self.faults
+                .add(Fault::new(place, expected).got(number(value)).of_value());
         }
         converted
     }
 
     /// A number above zero.
-    pub fn positive(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
+    pub fn positive(
+        &mut self,
+        value: f64,
+        place: &Place<'_>,
+        dimension: Dimension,
+        hint: &str,
+    ) -> f64 {
         if value <= 0.0 {
-            self.faults
-                .add(hinted(Fault::new(place, "must be positive").got(number(value)).of_value(), hint));
+            self.faults.add(hinted(
+                Fault::new(place, "must be positive")
+                    .got(number(value))
+                    .of_value(),
+                hint,
+            ));
         }
         self.magnitude(value, place, hint);
         self.scaled(value, place, self.scale.factor(dimension))
     }
 
     /// A number that is zero or above.
-    pub fn not_negative(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
+    pub fn not_negative(
+        &mut self,
+        value: f64,
+        place: &Place<'_>,
+        dimension: Dimension,
+        hint: &str,
+    ) -> f64 {
         if value < 0.0 {
-            self.faults
-                .add(hinted(Fault::new(place, "must not be negative").got(number(value)).of_value(), hint));
+            self.faults.add(hinted(
+                Fault::new(place, "must not be negative")
+                    .got(number(value))
+                    .of_value(),
+                hint,
+            ));
         }
         self.magnitude(value, place, hint);
         self.scaled(value, place, self.scale.factor(dimension))
@@ -74,17 +98,32 @@ impl Check<'_> {
 
     /// Checks a count. Returns whether it is within the limit.
     pub(crate) fn count(&mut self, count: usize, limit: &Limit, place: &Place<'_>) -> bool {
-        self.limit(count, limit, format!("must be at most {}", limit.most), place)
+        self.limit(
+            count,
+            limit,
+            format!("must be at most {}", limit.most),
+            place,
+        )
     }
 
     /// Checks the number of items of a list. Returns whether it is within the limit.
     pub(crate) fn items(&mut self, count: usize, limit: &Limit, place: &Place<'_>) -> bool {
-        self.limit(count, limit, format!("must have at most {} items", limit.most), place)
+        self.limit(
+            count,
+            limit,
+            format!("must have at most {} items", limit.most),
+            place,
+        )
     }
 
     fn limit(&mut self, count: usize, limit: &Limit, expected: String, place: &Place<'_>) -> bool {
         if count > limit.most {
-            self.faults.add(Fault::new(place, expected).got(count).hint(limit.reason).of_value());
+            self.faults.add(
+                Fault::new(place, expected)
+                    .got(count)
+                    .hint(limit.reason)
+                    .of_value(),
+            );
         }
         count <= limit.most
     }
@@ -132,5 +171,9 @@ fn is_within(value: f64) -> bool {
 }
 
 fn hinted(fault: Fault, hint: &str) -> Fault {
-    if hint.is_empty() { fault } else { fault.hint(hint) }
+    if hint.is_empty() {
+        fault
+    } else {
+        fault.hint(hint)
+    }
 }

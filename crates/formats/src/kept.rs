@@ -29,7 +29,9 @@ pub struct KeptValues<K, V> {
 
 impl<K, V> Default for KeptValues<K, V> {
     fn default() -> Self {
-        KeptValues { entries: Mutex::default() }
+        KeptValues {
+            entries: Mutex::default(),
+        }
     }
 }
 

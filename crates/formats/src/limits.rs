@@ -35,8 +35,10 @@ pub(crate) const HISTORY_BYTES: f64 = 2e9;
 pub(crate) const ROW_NUMBERS: [f64; 3] = [10.0, 20.0, 40.0];
 
 /// Spans of a straight girder; each adds equations of six degrees of freedom.
-pub(crate) const SPANS: Limit =
-    Limit { most: 10_000, reason: "long runways are divided at their expansion joints" };
+pub(crate) const SPANS: Limit = Limit {
+    most: 10_000,
+    reason: "long runways are divided at their expansion joints",
+};
 
 /// Stations of a rail. The grids have n x n numbers for each direction and each coupling.
 pub(crate) const STATIONS: Limit = Limit {
@@ -45,7 +47,10 @@ pub(crate) const STATIONS: Limit = Limit {
 };
 
 /// Rigid parts of the foundation "parts". Their compliance has 36 n^2 numbers, and all its eigenvectors are computed.
-pub(crate) const PARTS: Limit = Limit { most: 500, reason: "the matrices of n parts have 36 n^2 numbers" };
+pub(crate) const PARTS: Limit = Limit {
+    most: 500,
+    reason: "the matrices of n parts have 36 n^2 numbers",
+};
 
 /// Elements of each member of the foundation "full". All modes of the mesh are computed.
 pub(crate) const ELEMENTS: Limit = Limit {
@@ -54,34 +59,55 @@ pub(crate) const ELEMENTS: Limit = Limit {
 };
 
 /// Natural modes of the foundations "modal" and "ties". The modes are stored at every node of the mesh.
-pub(crate) const MODES: Limit = Limit { most: 2000, reason: "5 to 50 modes are usual" };
+pub(crate) const MODES: Limit = Limit {
+    most: 2000,
+    reason: "5 to 50 modes are usual",
+};
 
 /// Wheels of a scene. Contact forces follow from matrices of n x n numbers for n wheels.
-pub(crate) const WHEELS: Limit = Limit { most: 1000, reason: "the matrices of n wheels have n^2 numbers" };
+pub(crate) const WHEELS: Limit = Limit {
+    most: 1000,
+    reason: "the matrices of n wheels have n^2 numbers",
+};
 
 /// Bodies of a scene. The mass matrix has 36 n^2 numbers.
-pub(crate) const BODIES: Limit =
-    Limit { most: 500, reason: "the mass matrix of n bodies has up to 36 n^2 numbers" };
+pub(crate) const BODIES: Limit = Limit {
+    most: 500,
+    reason: "the mass matrix of n bodies has up to 36 n^2 numbers",
+};
 
 /// Rows of a table over time and of the profile of a rail. Time steps end at every row.
-pub(crate) const ROWS: Limit =
-    Limit { most: 1_000_000, reason: "time steps end at every row: resample the table" };
+pub(crate) const ROWS: Limit = Limit {
+    most: 1_000_000,
+    reason: "time steps end at every row: resample the table",
+};
 
 /// Trains of a design. Each stands in up to sixteen ways.
-pub(crate) const TRAINS: Limit = Limit { most: 100, reason: "each train is tried in up to 16 ways" };
+pub(crate) const TRAINS: Limit = Limit {
+    most: 100,
+    reason: "each train is tried in up to 16 ways",
+};
 
 /// Wheels of a train of a design.
-pub(crate) const TRAIN_WHEELS: Limit =
-    Limit { most: 500, reason: "every wheel is followed along every member; cranes have 4 to 64 wheels" };
+pub(crate) const TRAIN_WHEELS: Limit = Limit {
+    most: 500,
+    reason: "every wheel is followed along every member; cranes have 4 to 64 wheels",
+};
 
 /// Trains of a case of a design, which are tried in every order.
-pub(crate) const CASE_TRAINS: Limit =
-    Limit { most: 5, reason: "n trains are tried in n! orders, each turned both ways" };
+pub(crate) const CASE_TRAINS: Limit = Limit {
+    most: 5,
+    reason: "n trains are tried in n! orders, each turned both ways",
+};
 
 /// Runs of a sweep. A shard of a larger one is a sweep of its own.
-pub(crate) const SWEEP_RUNS: Limit =
-    Limit { most: 10_000_000, reason: "the results of each run are a row of one table" };
+pub(crate) const SWEEP_RUNS: Limit = Limit {
+    most: 10_000_000,
+    reason: "the results of each run are a row of one table",
+};
 
 /// Axes of a sweep; the parameters of Sobol sequences are known for this number of dimensions.
-pub(crate) const SWEEP_AXES: Limit =
-    Limit { most: 100, reason: "each axis is a dimension of the space that the runs must fill" };
+pub(crate) const SWEEP_AXES: Limit = Limit {
+    most: 100,
+    reason: "each axis is a dimension of the space that the runs must fill",
+};

@@ -60,14 +60,19 @@ pub(crate) const DRIVES: [(&str, DriveOnset); 4] = [
 ];
 
 /// Keywords of the rate at which a payload is released.
-pub(crate) const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
+pub(crate) const RELEASE: [(&str, Release); 2] =
+    [("slow", Release::Slow), ("rapid", Release::Rapid)];
 
 /// Keywords of the fastening of crane rails to flanges.
-pub(crate) const FASTENINGS: [(&str, RailFixing); 3] =
-    [("rigid", RailFixing::Rigid), ("loose", RailFixing::Loose), ("pad", RailFixing::ElasticPad)];
+pub(crate) const FASTENINGS: [(&str, RailFixing); 3] = [
+    ("rigid", RailFixing::Rigid),
+    ("loose", RailFixing::Loose),
+    ("pad", RailFixing::ElasticPad),
+];
 
 /// Keywords of the guidance of a crane.
-pub(crate) const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
+pub(crate) const GUIDE: [(&str, Guide); 2] =
+    [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
 
 /// Keywords of the kinds of cranes.
 pub(crate) const KINDS: [(&str, CraneKind); 8] = [
@@ -92,8 +97,12 @@ pub(crate) const CLASSES: [(&str, ServiceClass); 6] = [
 ];
 
 /// Keywords of the classes of mill buildings.
-pub(crate) const BUILDINGS: [(&str, BuildingClass); 4] =
-    [("A", BuildingClass::A), ("B", BuildingClass::B), ("C", BuildingClass::C), ("D", BuildingClass::D)];
+pub(crate) const BUILDINGS: [(&str, BuildingClass); 4] = [
+    ("A", BuildingClass::A),
+    ("B", BuildingClass::B),
+    ("C", BuildingClass::C),
+    ("D", BuildingClass::D),
+];
 
 /// Keywords of the classes of load effect history, in their order.
 const S_CLASSES: [&str; 10] = ["S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];

@@ -40,8 +40,12 @@ pub enum Force {
 }
 
 impl Length {
-    const WORDS: [(&'static str, Length); 4] =
-        [("ft", Length::Foot), ("in", Length::Inch), ("m", Length::Metre), ("mm", Length::Millimetre)];
+    const WORDS: [(&'static str, Length); 4] = [
+        ("ft", Length::Foot),
+        ("in", Length::Inch),
+        ("m", Length::Metre),
+        ("mm", Length::Millimetre),
+    ];
 
     /// The unit as a whole multiple of 0.1 mm.
     const fn count(self) -> u128 {
@@ -54,7 +58,12 @@ impl Length {
     }
 
     /// All units.
-    pub const ALL: [Length; 4] = [Length::Foot, Length::Inch, Length::Metre, Length::Millimetre];
+    pub const ALL: [Length; 4] = [
+        Length::Foot,
+        Length::Inch,
+        Length::Metre,
+        Length::Millimetre,
+    ];
 
     /// The unit as a multiple of `other`: one foot is 12 inches.
     #[must_use]
@@ -66,7 +75,10 @@ impl Length {
     /// The unit with this keyword in files.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Length> {
-        Length::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
+        Length::WORDS
+            .iter()
+            .find(|(known, _)| *known == word)
+            .map(|(_, unit)| *unit)
     }
 
     /// The keyword of the unit in files.
@@ -82,8 +94,12 @@ impl Length {
 }
 
 impl Force {
-    const WORDS: [(&'static str, Force); 4] =
-        [("lbf", Force::Pound), ("kip", Force::Kip), ("N", Force::Newton), ("kN", Force::Kilonewton)];
+    const WORDS: [(&'static str, Force); 4] = [
+        ("lbf", Force::Pound),
+        ("kip", Force::Kip),
+        ("N", Force::Newton),
+        ("kN", Force::Kilonewton),
+    ];
 
     /// The unit as a whole multiple of 1e-13 N.
     const fn count(self) -> u128 {
@@ -98,7 +114,10 @@ impl Force {
     /// The unit with this keyword in files.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Force> {
-        Force::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
+        Force::WORDS
+            .iter()
+            .find(|(known, _)| *known == word)
+            .map(|(_, unit)| *unit)
     }
 
     /// The keyword of the unit in files.
@@ -147,7 +166,10 @@ pub struct RawUnits {
 
 /// Units that are not available, and what to write in their place.
 const OTHER_UNITS: [(&str, &str); 22] = [
-    ("cm", "write lengths in m or mm: 1 cm = 0.01 m, 1 cm^4 = 1e-8 m^4"),
+    (
+        "cm",
+        "write lengths in m or mm: 1 cm = 0.01 m, 1 cm^4 = 1e-8 m^4",
+    ),
     ("dm", "write lengths in m or mm: 1 dm = 0.1 m"),
     ("km", "write lengths in m"),
     ("meter", "write \"m\""),
@@ -159,7 +181,10 @@ const OTHER_UNITS: [(&str, &str); 22] = [
     ("t", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
     ("to", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
     ("tf", "write forces in kN: 1 tf = 9.80665 kN"),
-    ("kg", "kilograms are masses; forces in N: 1 kg weighs 9.81 N"),
+    (
+        "kg",
+        "kilograms are masses; forces in N: 1 kg weighs 9.81 N",
+    ),
     ("kgf", "write forces in N: 1 kgf = 9.80665 N"),
     ("daN", "write forces in N: 1 daN = 10 N"),
     ("MN", "write forces in kN: 1 MN = 1000 kN"),
@@ -172,7 +197,12 @@ const OTHER_UNITS: [(&str, &str); 22] = [
 ];
 
 /// The value of the keyword of a unit; a fault with what to write instead if it is unknown.
-fn unit<T: Copy>(word: &str, place: &Place<'_>, words: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+fn unit<T: Copy>(
+    word: &str,
+    place: &Place<'_>,
+    words: &[(&str, T)],
+    faults: &mut Faults,
+) -> Option<T> {
     let value = faults.one_of(word, place, words);
     let other = OTHER_UNITS.iter().find(|(other, _)| *other == word);
     if let (None, Some((_, hint)), Some(fault)) = (value, other, faults.0.last_mut()) {
@@ -183,14 +213,21 @@ fn unit<T: Copy>(word: &str, place: &Place<'_>, words: &[(&str, T)], faults: &mu
 
 impl Units {
     /// Metre and newton.
-    pub const SI: Units = Units { length: Length::Metre, force: Force::Newton };
+    pub const SI: Units = Units {
+        length: Length::Metre,
+        force: Force::Newton,
+    };
 
     /// Reads the member `units` of the object at `place`; a fault if it is missing or a keyword is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
             let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
                         or in, m, mm; kip, N, kN";
-            faults.add(Fault::new(place, "missing key `units`").hint(hint).of_value());
+            faults.add(
+                Fault::new(place, "missing key `units`")
+                    .hint(hint)
+                    .of_value(),
+            );
             return None;
         };
         let at = place.key("units");
@@ -202,9 +239,16 @@ impl Units {
             .and_then(|word| unit(word, &at.key("force"), &Force::WORDS, faults));
         match &raw.time {
             Some(word) => drop(unit(word, &at.key("time"), &[("s", ())], faults)),
-            None => faults.add(Fault::new(&at, "missing key `time`").hint("\"time\": \"s\"").of_value()),
+            None => faults.add(
+                Fault::new(&at, "missing key `time`")
+                    .hint("\"time\": \"s\"")
+                    .of_value(),
+            ),
         }
-        Some(Units { length: length?, force: force? })
+        Some(Units {
+            length: length?,
+            force: force?,
+        })
     }
 
     /// The member `units` of a file in these units.
@@ -222,21 +266,32 @@ impl Units {
             ("s", dimension.time),
         ];
         let join = |sign: i32| {
-            let words: Vec<String> =
-                powers
-                    .iter()
-                    .filter(|(_, power)| power * sign > 0)
-                    .map(|(word, power)| {
-                        if power.abs() == 1 { (*word).to_owned() } else { format!("{word}^{}", power.abs()) }
-                    })
-                    .collect();
+            let words: Vec<String> = powers
+                .iter()
+                .filter(|(_, power)| power * sign > 0)
+                .map(|(word, power)| {
+                    if power.abs() == 1 {
+                        (*word).to_owned()
+                    } else {
+                        format!("{word}^{}", power.abs())
+                    }
+                })
+                .collect();
             words.join(" ")
         };
         match (join(1), join(-1)) {
             (over, under) if under.is_empty() => over,
             (over, under) => {
-                let over = if over.is_empty() { "1".to_owned() } else { over };
-                if under.contains(' ') { format!("{over}/({under})") } else { format!("{over}/{under}") }
+                let over = if over.is_empty() {
+                    "1".to_owned()
+                } else {
+                    over
+                };
+                if under.contains(' ') {
+                    format!("{over}/({under})")
+                } else {
+                    format!("{over}/{under}")
+                }
             }
         }
     }
@@ -267,8 +322,14 @@ impl Units {
         let (length, mass) = match self.length {
             Length::Foot => (adams::AdamsLengthUnit::Foot, adams::AdamsMassUnit::Slug),
             Length::Inch => (adams::AdamsLengthUnit::Inch, adams::AdamsMassUnit::Pound),
-            Length::Metre => (adams::AdamsLengthUnit::Meter, adams::AdamsMassUnit::Kilogram),
-            Length::Millimetre => (adams::AdamsLengthUnit::Millimeter, adams::AdamsMassUnit::Kilogram),
+            Length::Metre => (
+                adams::AdamsLengthUnit::Meter,
+                adams::AdamsMassUnit::Kilogram,
+            ),
+            Length::Millimetre => (
+                adams::AdamsLengthUnit::Millimeter,
+                adams::AdamsMassUnit::Kilogram,
+            ),
         };
         let force = match self.force {
             Force::Pound => adams::AdamsForceUnit::Pound,
@@ -276,13 +337,19 @@ impl Units {
             Force::Newton => adams::AdamsForceUnit::Newton,
             Force::Kilonewton => adams::AdamsForceUnit::Kilonewton,
         };
-        adams::AdamsUnits { force, mass, length }
+        adams::AdamsUnits {
+            force,
+            mass,
+            length,
+        }
     }
 
     /// The units in a text whose first two words are those of length and force, such as `ft, lbf, s` or `ft/lbf`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Units> {
-        let mut words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let mut words = text
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty());
         let length = Length::of_word(words.next()?)?;
         let force = Force::of_word(words.next()?)?;
         Some(Units { length, force })
@@ -304,7 +371,11 @@ impl Dimension {
     /// The dimension with these powers of length, force and time.
     #[must_use]
     pub const fn of(length: i32, force: i32, time: i32) -> Self {
-        Dimension { length, force, time }
+        Dimension {
+            length,
+            force,
+            time,
+        }
     }
 
     /// A pure number, or radians.
@@ -359,8 +430,16 @@ impl Scale {
     /// units), each of which is rounded at most once.
     #[must_use]
     pub fn factor(&self, dimension: Dimension) -> f64 {
-        let length = power(self.from.length.count(), self.to.length.count(), dimension.length);
-        let force = power(self.from.force.count(), self.to.force.count(), dimension.force);
+        let length = power(
+            self.from.length.count(),
+            self.to.length.count(),
+            dimension.length,
+        );
+        let force = power(
+            self.from.force.count(),
+            self.to.force.count(),
+            dimension.force,
+        );
         let (over, under) = reduced(length.0 * force.0, length.1 * force.1);
         over as f64 / under as f64
     }
@@ -378,8 +457,15 @@ impl Scale {
 /// (from / to)^exponent as a fraction in lowest terms.
 fn power(from: u128, to: u128, exponent: i32) -> (u128, u128) {
     let (from, to) = reduced(from, to);
-    let raised = (from.pow(exponent.unsigned_abs()), to.pow(exponent.unsigned_abs()));
-    if exponent < 0 { (raised.1, raised.0) } else { raised }
+    let raised = (
+        from.pow(exponent.unsigned_abs()),
+        to.pow(exponent.unsigned_abs()),
+    );
+    if exponent < 0 {
+        (raised.1, raised.0)
+    } else {
+        raised
+    }
 }
 
 /// a / b in lowest terms, by Euclid's algorithm.
@@ -395,9 +481,18 @@ fn reduced(a: u128, b: u128) -> (u128, u128) {
 mod tests {
     use super::*;
 
-    const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
-    const IN_KIP: Units = Units { length: Length::Inch, force: Force::Kip };
-    const MM_KN: Units = Units { length: Length::Millimetre, force: Force::Kilonewton };
+    const FT_LBF: Units = Units {
+        length: Length::Foot,
+        force: Force::Pound,
+    };
+    const IN_KIP: Units = Units {
+        length: Length::Inch,
+        force: Force::Kip,
+    };
+    const MM_KN: Units = Units {
+        length: Length::Millimetre,
+        force: Force::Kilonewton,
+    };
 
     const ALL: [Dimension; 6] = [
         Dimension::LENGTH,
@@ -412,20 +507,34 @@ mod tests {
     fn equal_units_have_a_factor_of_exactly_one() {
         for units in [FT_LBF, IN_KIP, Units::SI, MM_KN] {
             for dimension in ALL {
-                assert_eq!(Scale { from: units, to: units }.factor(dimension).to_bits(), 1f64.to_bits());
+                assert_eq!(
+                    Scale {
+                        from: units,
+                        to: units
+                    }
+                    .factor(dimension)
+                    .to_bits(),
+                    1f64.to_bits()
+                );
             }
         }
     }
 
     #[test]
     fn factors_are_the_defining_values() {
-        let to_si = Scale { from: FT_LBF, to: Units::SI };
+        let to_si = Scale {
+            from: FT_LBF,
+            to: Units::SI,
+        };
         assert_eq!(to_si.factor(Dimension::LENGTH), 0.3048);
         assert_eq!(to_si.factor(Dimension::FORCE), 4.4482216152605);
         // pascals in a pound-force per square foot, from the definitions of the foot and the pound
         let psf = 4.448_221_615_260_5 / 0.092_903_04;
         assert!((to_si.factor(Dimension::STRESS) / psf - 1.0).abs() < 4.0 * f64::EPSILON);
-        let to_inch = Scale { from: FT_LBF, to: IN_KIP };
+        let to_inch = Scale {
+            from: FT_LBF,
+            to: IN_KIP,
+        };
         assert_eq!(to_inch.factor(Dimension::LENGTH), 12.0);
         assert_eq!(to_inch.factor(Dimension::SECOND_MOMENT), 20736.0);
         assert_eq!(to_inch.factor(Dimension::FORCE), 1e-3);
@@ -441,7 +550,10 @@ mod tests {
                 for dimension in ALL {
                     let there = Scale { from, to }.factor(dimension);
                     let back = Scale { from: to, to: from }.factor(dimension);
-                    assert!((there * back - 1.0).abs() < 1e-15, "{from:?} {to:?} {dimension:?}");
+                    assert!(
+                        (there * back - 1.0).abs() < 1e-15,
+                        "{from:?} {to:?} {dimension:?}"
+                    );
                 }
             }
         }
@@ -449,7 +561,10 @@ mod tests {
 
     #[test]
     fn power_law_of_exponent_one_is_a_stiffness() {
-        let scale = Scale { from: FT_LBF, to: Units::SI };
+        let scale = Scale {
+            from: FT_LBF,
+            to: Units::SI,
+        };
         assert_eq!(scale.power_law(1.0), scale.factor(Dimension::STIFFNESS));
         let cubic = scale.power_law(3.0);
         assert!((cubic / (4.4482216152605 / 0.3048f64.powi(3)) - 1.0).abs() < 1e-15);

@@ -10,7 +10,9 @@ use formats::text::source::Source;
 use serde_json::{Value, json};
 
 fn repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(path)
 }
 
 fn parsed(path: &str) -> Value {
@@ -24,7 +26,11 @@ fn places(value: &Value, pointer: &str, path: &str, found: &mut Vec<(String, Str
         Value::Object(members) => {
             for (key, value) in members {
                 let pointer = format!("{pointer}/{}", key.replace('~', "~0").replace('/', "~1"));
-                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                let path = if path.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{path}.{key}")
+                };
                 found.push((pointer.clone(), path.clone()));
                 places(value, &pointer, &path, found);
             }
@@ -51,12 +57,18 @@ fn one_fault_each(file: &str, stride: usize, read: impl Fn(String) -> Vec<Diagno
     for (pointer, path) in all.into_iter().step_by(stride) {
         let mut wrong = right.clone();
         let value = wrong.pointer_mut(&pointer).expect("the pointer of a value");
-        *value =
-            if value.is_string() || value.is_array() || value.is_object() { json!(7) } else { json!("x") };
+        *value = if value.is_string() || value.is_array() || value.is_object() {
+            json!(7)
+        } else {
+            json!("x")
+        };
         let told = read(wrong.to_string());
         let is_type = |one: &Diagnostic| {
             one.path.replace("[\"", ".").replace("\"]", "") == path
-                && matches!(one.found.as_deref(), Some("the number 7" | "the text \"x\""))
+                && matches!(
+                    one.found.as_deref(),
+                    Some("the number 7" | "the text \"x\"")
+                )
         };
         if told.iter().any(is_type) {
             refused += 1;
@@ -66,7 +78,12 @@ fn one_fault_each(file: &str, stride: usize, read: impl Fn(String) -> Vec<Diagno
             }
         }
     }
-    assert!(failures.is_empty(), "{file}: {} of {refused}\n{}", failures.len(), failures.concat());
+    assert!(
+        failures.is_empty(),
+        "{file}: {} of {refused}\n{}",
+        failures.len(),
+        failures.concat()
+    );
     refused
 }
 
@@ -75,15 +92,23 @@ fn faults(result: Result<impl Sized, Vec<Diagnostic>>) -> Vec<Diagnostic> {
 }
 
 fn spec(name: &str, text: String) -> Vec<Diagnostic> {
-    faults(Spec::read(&Source { name: name.to_owned(), text }, None))
+    faults(Spec::read(
+        &Source {
+            name: name.to_owned(),
+            text,
+        },
+        None,
+    ))
 }
 
 #[test]
 fn a_wrong_type_in_a_spec_is_one_fault() {
     let mut refused = 0;
-    for file in
-        ["examples/bogie/spec.json", "examples/mill_girderway/spec.json", "tests/malformed/base/frame.json"]
-    {
+    for file in [
+        "examples/bogie/spec.json",
+        "examples/mill_girderway/spec.json",
+        "tests/malformed/base/frame.json",
+    ] {
         refused += one_fault_each(file, 1, |text| spec(file, text));
     }
     assert!(refused > 150, "only {refused} values have a type");
@@ -121,10 +146,16 @@ fn a_wrong_type_does_not_hide_the_other_faults() {
     text["stations"][2] = json!(null);
     text["units"]["force"] = json!("lb");
     text["theory"] = json!("timoshenk");
-    let told: Vec<(String, String)> =
-        spec("spec.json", text.to_string()).into_iter().map(|one| (one.path, one.expected)).collect();
+    let told: Vec<(String, String)> = spec("spec.json", text.to_string())
+        .into_iter()
+        .map(|one| (one.path, one.expected))
+        .collect();
     let has = |path: &str, expected: &str| {
-        assert!(told.iter().any(|one| one.0 == path && one.1.starts_with(expected)), "{path}: {told:?}");
+        assert!(
+            told.iter()
+                .any(|one| one.0 == path && one.1.starts_with(expected)),
+            "{path}: {told:?}"
+        );
     };
     has("girder.E", "must be a number");
     has("girder.J", "must be positive");

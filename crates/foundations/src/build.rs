@@ -56,25 +56,40 @@ pub(super) fn build_with_modes(
     let irregularities = structure.irregularities.clone();
     let mut carrier = mount::mount(structure)?;
     let is_loaded_along = structure.longitudinal;
-    let BuiltFoundation { mut foundation, basis: motion } =
-        build_on_ground(cache, structure, solved, lateral, accuracy)?;
+    let BuiltFoundation {
+        mut foundation,
+        basis: motion,
+    } = build_on_ground(cache, structure, solved, lateral, accuracy)?;
     // where the degrees of freedom represent the mass, their mass matrix replaces the rigid mass of the spec
     if let (Some(carrier), Some(moving)) = (&mut carrier, foundation.carrier.take()) {
         (carrier.mass, carrier.coupling) = (moving.mass, moving.coupling);
     }
-    if let (true, Some(compliance), Some(rail)) =
-        (is_loaded_along, &foundation.compliance, structure.rails.first())
-    {
-        let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
+    if let (true, Some(compliance), Some(rail)) = (
+        is_loaded_along,
+        &foundation.compliance,
+        structure.rails.first(),
+    ) {
+        let probe = Probe {
+            rail: 0,
+            x: rail.range[0],
+            axis: Axis::Longitudinal,
+        };
         let mut influence = Influence::zeros(1);
-        let is_known =
-            compliance.fill(&[probe], &mut influence).is_ok() && influence.value[(0, 0)].is_finite();
+        let is_known = compliance.fill(&[probe], &mut influence).is_ok()
+            && influence.value[(0, 0)].is_finite();
         if !is_known {
-            return Err(Error::NoLongitudinal { structure: structure.name.clone() });
+            return Err(Error::NoLongitudinal {
+                structure: structure.name.clone(),
+            });
         }
     }
     Ok(BuiltFoundation {
-        foundation: Foundation { carrier, irregularities, is_loaded_along, ..foundation },
+        foundation: Foundation {
+            carrier,
+            irregularities,
+            is_loaded_along,
+            ..foundation
+        },
         basis: motion,
     })
 }
@@ -89,18 +104,30 @@ fn build_on_ground(
     accuracy: f64,
 ) -> Result<BuiltFoundation, Error> {
     let extents = || {
-        let extent =
-            |rail: &formats::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
+        let extent = |rail: &formats::spec::RailOutline| Extent {
+            range: Some(rail.range),
+            breaks: Vec::new(),
+        };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
     let excitation = Excitation::of(structure, lateral);
     match structure.foundation {
-        scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
+        scene::Foundation::Rigid => Ok(Foundation {
+            rails: extents(),
+            ..Foundation::rigid()
+        }
+        .into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
-        scene::Foundation::Parts { count, handover, damping } => {
+        scene::Foundation::Parts {
+            count,
+            handover,
+            damping,
+        } => {
             let girder = solved
                 .and_then(|solved| solved.girder.as_ref())
-                .ok_or_else(|| Error::NoGirder { structure: structure.name.clone() })?;
+                .ok_or_else(|| Error::NoGirder {
+                    structure: structure.name.clone(),
+                })?;
             parts::foundation(girder, count, handover, damping, excitation)
         }
         scene::Foundation::Modal { modes, damping } => cache.lowest(
@@ -119,8 +146,15 @@ fn build_on_ground(
             Dampers::NONE,
             excitation,
         ),
-        scene::Foundation::Ties { has_mass: false, .. } => Ok(influence(structure, solved)?.into()),
-        scene::Foundation::Ties { has_mass: true, modes, damping, c } => {
+        scene::Foundation::Ties {
+            has_mass: false, ..
+        } => Ok(influence(structure, solved)?.into()),
+        scene::Foundation::Ties {
+            has_mass: true,
+            modes,
+            damping,
+            c,
+        } => {
             let pads = match &structure.origin {
                 Origin::Spec { spec, .. } => spec.pads(),
                 Origin::Tables { .. } => &[],
@@ -128,7 +162,14 @@ fn build_on_ground(
             let (name, dampers) = (&structure.name, Dampers { pads, c });
             let solved = required_solution(structure, solved)?;
             match modes {
-                Some(count) => cache.lowest(name, solved, (count, ACCURACY), damping, dampers, excitation),
+                Some(count) => cache.lowest(
+                    name,
+                    solved,
+                    (count, ACCURACY),
+                    damping,
+                    dampers,
+                    excitation,
+                ),
                 // members between ties are not subdivided
                 None => cache.full(name, solved, 1, damping, dampers, excitation),
             }
@@ -148,14 +189,22 @@ pub(super) fn coarse_modes(
     lateral: bool,
     count: usize,
 ) -> Result<BuiltFoundation, Error> {
-    cache.coarse(&structure.name, solved, count, structure.damping, Excitation::of(structure, lateral))
+    cache.coarse(
+        &structure.name,
+        solved,
+        count,
+        structure.damping,
+        Excitation::of(structure, lateral),
+    )
 }
 
 fn required_solution<'s>(
     structure: &Structure,
     solved: Option<&'s SolvedModel>,
 ) -> Result<&'s SolvedModel, Error> {
-    solved.ok_or_else(|| Error::NoSpec { structure: structure.name.clone() })
+    solved.ok_or_else(|| Error::NoSpec {
+        structure: structure.name.clone(),
+    })
 }
 
 /// A girder as `count` massless rigid parts. Within the length `window` about a joint the displacements of its two
@@ -168,8 +217,14 @@ pub fn rigid_parts_foundation(
     count: usize,
     window: Option<f64>,
 ) -> Result<Foundation, Error> {
-    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Excitation::VERTICAL)?
-        .foundation)
+    Ok(parts::foundation(
+        girder,
+        count,
+        Handover::Blend { length: window },
+        0.0,
+        Excitation::VERTICAL,
+    )?
+    .foundation)
 }
 
 /// All modes that vertical wheel forces can excite in a mesh of `elements` elements per member, undamped.
@@ -178,6 +233,13 @@ pub fn rigid_parts_foundation(
 /// [`Error::Modes`] for a structure without mass, or with too many unknowns.
 pub fn full_mesh_foundation(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
     Ok(ModeCache::default()
-        .full("structure", solved, elements, 0.0, Dampers::NONE, Excitation::VERTICAL)?
+        .full(
+            "structure",
+            solved,
+            elements,
+            0.0,
+            Dampers::NONE,
+            Excitation::VERTICAL,
+        )?
         .foundation)
 }

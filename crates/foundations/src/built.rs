@@ -26,7 +26,10 @@ pub struct BuiltFoundation {
 
 impl From<Foundation> for BuiltFoundation {
     fn from(foundation: Foundation) -> BuiltFoundation {
-        BuiltFoundation { foundation, basis: None }
+        BuiltFoundation {
+            foundation,
+            basis: None,
+        }
     }
 }
 

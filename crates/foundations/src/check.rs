@@ -31,10 +31,19 @@ pub fn check_scene(scene: &Scene, input: &sim::Scene) -> Result<(), Error> {
         check_mesh(structure, lateral)?;
     }
     let on_rigid_rails = |structure: &Structure| {
-        let rigid = Structure { foundation: Foundation::Rigid, auto: false, ..structure.clone() };
+        let rigid = Structure {
+            foundation: Foundation::Rigid,
+            auto: false,
+            ..structure.clone()
+        };
         build(&mut ModeCache::default(), &rigid, None, lateral).map(|built| built.foundation)
     };
-    let Ok(rigid) = scene.structures.iter().map(on_rigid_rails).collect::<Result<Vec<_>, Error>>() else {
+    let Ok(rigid) = scene
+        .structures
+        .iter()
+        .map(on_rigid_rails)
+        .collect::<Result<Vec<_>, Error>>()
+    else {
         return Ok(());
     };
     match sim::check_equilibrium(input, &rigid) {
@@ -47,15 +56,26 @@ pub fn check_scene(scene: &Scene, input: &sim::Scene) -> Result<(), Error> {
 fn check_mesh(structure: &Structure, lateral: bool) -> Result<(), Error> {
     let elements = match structure.foundation {
         Foundation::Full { elements, .. } => elements,
-        Foundation::Ties { has_mass: true, modes: None, .. } => 1,
+        Foundation::Ties {
+            has_mass: true,
+            modes: None,
+            ..
+        } => 1,
         _ => return Ok(()),
     };
-    let Origin::Spec { spec, .. } = &structure.origin else { return Ok(()) };
-    let Ok((model, rails)) = spec.model() else { return Ok(()) };
+    let Origin::Spec { spec, .. } = &structure.origin else {
+        return Ok(());
+    };
+    let Ok((model, rails)) = spec.model() else {
+        return Ok(());
+    };
     let excitation = Excitation::of(structure, lateral);
     match fea::check_full_modes(&model, &rails, &excitation.forces(), elements) {
         Err(source @ (fea::Error::TooManyModes { .. } | fea::Error::Elements { .. })) => {
-            Err(Error::Modes { structure: structure.name.clone(), source })
+            Err(Error::Modes {
+                structure: structure.name.clone(),
+                source,
+            })
         }
         _ => Ok(()),
     }

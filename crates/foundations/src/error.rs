@@ -60,7 +60,9 @@ pub enum Error {
         structure: String,
     },
     /// The compliance of a structure along its rails is needed and cannot be evaluated.
-    #[error("{structure}: its compliance along the rails is not known  hint: leave out `longitudinal`")]
+    #[error(
+        "{structure}: its compliance along the rails is not known  hint: leave out `longitudinal`"
+    )]
     NoLongitudinal {
         /// Name of the structure.
         structure: String,
@@ -79,7 +81,9 @@ pub enum Error {
 /// Suggestion for the user about modes that cannot be computed.
 fn hint(error: &fea::Error) -> &'static str {
     match error {
-        fea::Error::NoMass => "  hint: give its materials a density, or the girder `mass_per_length`",
+        fea::Error::NoMass => {
+            "  hint: give its materials a density, or the girder `mass_per_length`"
+        }
         fea::Error::TooManyModes { .. } | fea::Error::Elements { .. } => {
             "  hint: use \"modal\", or `modes` of \"ties\", to compute only the lowest modes, or use fewer `elements`"
         }
@@ -90,16 +94,25 @@ fn hint(error: &fea::Error) -> &'static str {
 impl Error {
     /// Attributes an error of the frame solver to `structure`.
     pub fn frame(structure: &str) -> impl Fn(fea::Error) -> Error + '_ {
-        move |source| Error::Frame { structure: structure.to_owned(), source }
+        move |source| Error::Frame {
+            structure: structure.to_owned(),
+            source,
+        }
     }
 
     /// Attributes an error of the eigenvalue solver to `structure`.
     pub fn modes(structure: &str) -> impl Fn(fea::Error) -> Error + '_ {
-        move |source| Error::Modes { structure: structure.to_owned(), source }
+        move |source| Error::Modes {
+            structure: structure.to_owned(),
+            source,
+        }
     }
 
     /// Attributes an error in tables or rails to `structure`.
     pub fn rails(structure: &str) -> impl Fn(splines::Error) -> Error + '_ {
-        move |source| Error::Rails { structure: structure.to_owned(), source }
+        move |source| Error::Rails {
+            structure: structure.to_owned(),
+            source,
+        }
     }
 }

@@ -63,13 +63,29 @@ impl SolvedModel {
     }
 
     /// Replaces the entries between two stations by those of the grid.
-    fn take_stations(&self, block: GridBlock, rows: &[Probe], columns: &[Probe], found: &mut DMatrix<f64>) {
-        let Some(grid) = self.grid.block(block) else { return };
+    fn take_stations(
+        &self,
+        block: GridBlock,
+        rows: &[Probe],
+        columns: &[Probe],
+        found: &mut DMatrix<f64>,
+    ) {
+        let Some(grid) = self.grid.block(block) else {
+            return;
+        };
         let stations = self.grid.stations();
         let index = |probe: &Probe| stations.iter().position(|at| *at == (probe.rail, probe.x));
         let rows: Vec<Option<usize>> = rows.iter().map(index).collect();
-        for (j, column) in columns.iter().enumerate().filter_map(|(j, load)| Some((j, index(load)?))) {
-            for (i, row) in rows.iter().enumerate().filter_map(|(i, row)| Some((i, (*row)?))) {
+        for (j, column) in columns
+            .iter()
+            .enumerate()
+            .filter_map(|(j, load)| Some((j, index(load)?)))
+        {
+            for (i, row) in rows
+                .iter()
+                .enumerate()
+                .filter_map(|(i, row)| Some((i, (*row)?)))
+            {
                 found[(i, j)] = grid[(row, column)];
             }
         }

@@ -49,7 +49,8 @@ pub use modal::ModeCache;
 pub use mount::mount;
 pub use parts::roll_inertia;
 pub use select::{
-    AutoRun, TrialObserver, check_name, fidelity_name, select_and_run, selection_doubt, selection_reason,
+    AutoRun, TrialObserver, check_name, fidelity_name, select_and_run, selection_doubt,
+    selection_reason,
 };
 pub use solved::{
     SolvedModel, SolvedStructure, StructureCache, SystemSize, distinct_specs, solution_of, solve,

@@ -30,9 +30,17 @@ pub(super) enum StaticCompliance {
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum ModeRequest {
     /// At least the lowest `count` modes with frequencies within `accuracy`.
-    Lowest { count: usize, accuracy: f64, excitation: Excitation },
+    Lowest {
+        count: usize,
+        accuracy: f64,
+        excitation: Excitation,
+    },
     /// All modes of a mesh of `elements` elements for each member.
-    Whole { elements: usize, has_dampers: bool, excitation: Excitation },
+    Whole {
+        elements: usize,
+        has_dampers: bool,
+        excitation: Excitation,
+    },
 }
 
 /// Natural modes of a structure that have been computed, for all runs on it. Each depends on the request alone, so that

@@ -67,11 +67,24 @@ impl MeshModes {
         accuracy: f64,
         excitation: Excitation,
     ) -> Result<Arc<MeshModes>, Error> {
-        solved.modes.get(ModeRequest::Lowest { count, accuracy, excitation }, || {
-            let (refined, excited, is_whole) =
-                search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
-            MeshModes::new(name, refined, excited, Some(given_surface(name, solved)?), is_whole)
-        })
+        solved.modes.get(
+            ModeRequest::Lowest {
+                count,
+                accuracy,
+                excitation,
+            },
+            || {
+                let (refined, excited, is_whole) =
+                    search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
+                MeshModes::new(
+                    name,
+                    refined,
+                    excited,
+                    Some(given_surface(name, solved)?),
+                    is_whole,
+                )
+            },
+        )
     }
 
     /// All modes that `excitation` excites of a mesh of `elements` elements for each member; of members that are
@@ -84,20 +97,29 @@ impl MeshModes {
         has_dampers: bool,
         excitation: Excitation,
     ) -> Result<Arc<MeshModes>, Error> {
-        solved.modes.get(ModeRequest::Whole { elements, has_dampers, excitation }, || {
-            let forces = excitation.forces();
-            let mut refined = fea::full_modes(&solved.model, &solved.rails, &forces, elements)
-                .map_err(Error::modes(name))?;
-            if !has_dampers {
-                refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
-            }
-            let excited = excited_by(&refined, excitation);
-            if refined.modes.next.is_some() {
-                let given = given_surface(name, solved)?;
-                return MeshModes::new(name, refined, excited, Some(given), true);
-            }
-            MeshModes::new(name, refined, excited, None, true)
-        })
+        solved.modes.get(
+            ModeRequest::Whole {
+                elements,
+                has_dampers,
+                excitation,
+            },
+            || {
+                let forces = excitation.forces();
+                let mut refined = fea::full_modes(&solved.model, &solved.rails, &forces, elements)
+                    .map_err(Error::modes(name))?;
+                if !has_dampers {
+                    refined
+                        .keep_resolved(&solved.model, &forces)
+                        .map_err(Error::modes(name))?;
+                }
+                let excited = excited_by(&refined, excitation);
+                if refined.modes.next.is_some() {
+                    let given = given_surface(name, solved)?;
+                    return MeshModes::new(name, refined, excited, Some(given), true);
+                }
+                MeshModes::new(name, refined, excited, None, true)
+            },
+        )
     }
 
     fn new(
@@ -119,7 +141,12 @@ impl MeshModes {
                 StaticCompliance::Subdivided(found.surface)
             }
         };
-        Ok(MeshModes { refined, excited, compliance, is_whole })
+        Ok(MeshModes {
+            refined,
+            excited,
+            compliance,
+            is_whole,
+        })
     }
 
     /// Whether `count` modes, or all that exist, have been computed.
@@ -146,27 +173,46 @@ impl MeshModes {
                 let scaled = kept.rail_shapes(|mode| mode.omega).map_err(&frame_error)?;
                 Box::new(ResidualFlexibility::new(exact.clone(), scaled))
             }
-            StaticCompliance::Subdivided(surface) => Box::new(kept.residual(surface).map_err(&frame_error)?),
+            StaticCompliance::Subdivided(surface) => {
+                Box::new(kept.residual(surface).map_err(&frame_error)?)
+            }
         };
         let own = kept.rail_shapes(|_| 1.0).map_err(&frame_error)?;
         let rails = (0..refined.rails.len())
-            .map(|rail| Extent { range: residual.range(rail), breaks: residual.breaks(rail) })
+            .map(|rail| Extent {
+                range: residual.range(rail),
+                breaks: residual.breaks(rail),
+            })
             .collect();
         let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
         let dynamics = if dampers.c > 0.0 {
             damped(&kept.modes, &omega, ratio, dampers)
         } else {
-            Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
+            Dynamics::Modes {
+                ratio: vec![ratio; omega.len()],
+                omega,
+            }
         };
         let foundation = Foundation {
             compliance: Some(residual),
-            structure: Some(sim::Structure { dynamics, shapes: Box::new(ModeShapes(own)) }),
+            structure: Some(sim::Structure {
+                dynamics,
+                shapes: Box::new(ModeShapes(own)),
+            }),
             rails,
-            carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
+            carrier: excitation
+                .carrier
+                .map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
-        let motion = MotionBasis::Modes { refined: Box::new(refined), inertia: OnceLock::new() };
-        Ok(BuiltFoundation { foundation, basis: Some(motion) })
+        let motion = MotionBasis::Modes {
+            refined: Box::new(refined),
+            inertia: OnceLock::new(),
+        };
+        Ok(BuiltFoundation {
+            foundation,
+            basis: Some(motion),
+        })
     }
 }
 
@@ -194,12 +240,16 @@ fn search(
     let forces = excitation.forces();
     let mut requested = count;
     loop {
-        let refined = fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
+        let refined =
+            fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
         let excited = excited_by(&refined, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
         // `excited_by` combines all modes of one frequency, so that none of them may be missing
-        let is_split = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+        let is_split = refined
+            .modes
+            .next
+            .is_some_and(|next| next <= highest * (1.0 + EQUAL));
         if is_whole || (excited.len() >= count && !is_split) {
             return Ok((refined, excited, is_whole));
         }
@@ -249,8 +299,14 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let known = self.lowest.iter().find(|(own, modes)| *own <= accuracy && modes.has(count));
-        let coarse = self.coarse.as_ref().filter(|modes| accuracy >= COARSE && modes.has(count));
+        let known = self
+            .lowest
+            .iter()
+            .find(|(own, modes)| *own <= accuracy && modes.has(count));
+        let coarse = self
+            .coarse
+            .as_ref()
+            .filter(|modes| accuracy >= COARSE && modes.has(count));
         let modes = match known.map(|(_, modes)| modes).or(coarse) {
             Some(modes) => Arc::clone(modes),
             None => {
@@ -304,7 +360,11 @@ impl ModeCache {
         [count, kept]: [usize; 2],
         (solved, excitation): (&SolvedModel, Excitation),
     ) -> Result<f64, fea::Error> {
-        let Some(modes) = self.coarse.as_ref().filter(|modes| !modes.excited.is_empty()) else {
+        let Some(modes) = self
+            .coarse
+            .as_ref()
+            .filter(|modes| !modes.excited.is_empty())
+        else {
             return Ok(ACCURACY);
         };
         let omega = |count: usize| modes.excited[count.clamp(1, modes.excited.len()) - 1].omega;
@@ -313,11 +373,15 @@ impl ModeCache {
         let most = BY_EXTREMES * tolerance;
         let of_kept = match measure {
             Measure::Extremes => most,
-            Measure::History => most.min(BY_PHASES * tolerance * square(own / lowest) / (own * duration)),
+            Measure::History => {
+                most.min(BY_PHASES * tolerance * square(own / lowest) / (own * duration))
+            }
         };
         let of_kept = of_kept.max(ACCURACY);
         if kept < count && modes.has(count) {
-            let error = modes.refined.iterated_error(&solved.model, &excitation.forces(), own)?;
+            let error = modes
+                .refined
+                .iterated_error(&solved.model, &excitation.forces(), own)?;
             if error <= of_kept {
                 return Ok(COARSE);
             }
@@ -339,7 +403,9 @@ impl ModeCache {
             Some(modes) => modes,
             None => MeshModes::lowest(name, solved, count, COARSE, excitation)?,
         };
-        self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
+        self.coarse
+            .insert(modes)
+            .foundation(name, count, ratio, Dampers::NONE, excitation)
     }
 
     /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member, as far
@@ -353,7 +419,11 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let index = match self.whole.iter().position(|(cached, _)| *cached == elements) {
+        let index = match self
+            .whole
+            .iter()
+            .position(|(cached, _)| *cached == elements)
+        {
             Some(index) => index,
             None => {
                 let has_dampers = dampers.c > 0.0;
@@ -362,7 +432,9 @@ impl ModeCache {
                 self.whole.len() - 1
             }
         };
-        self.whole[index].1.foundation(name, usize::MAX, ratio, dampers, excitation)
+        self.whole[index]
+            .1
+            .foundation(name, usize::MAX, ratio, dampers, excitation)
     }
 }
 
@@ -380,7 +452,9 @@ fn excited_by(refined: &RefinedModes, excitation: Excitation) -> Vec<fea::Mode> 
     let mut first = 0;
     while first < modes.modes.len() {
         let omega = modes.modes[first].omega;
-        let more = modes.modes[first..].iter().take_while(|mode| mode.omega <= omega * (1.0 + EQUAL));
+        let more = modes.modes[first..]
+            .iter()
+            .take_while(|mode| mode.omega <= omega * (1.0 + EQUAL));
         let cluster = first..first + more.count();
         first = cluster.end;
         let motion = motions.columns(cluster.start, cluster.len());
@@ -388,7 +462,10 @@ fn excited_by(refined: &RefinedModes, excitation: Excitation) -> Vec<fea::Mode> 
         let mut rotated: Vec<(f64, fea::Mode)> = (0..cluster.len())
             .map(|c| {
                 let weights = rotation.column(c);
-                ((motion * weights).amax(), combination(&modes.modes[cluster.clone()], weights.as_slice()))
+                (
+                    (motion * weights).amax(),
+                    combination(&modes.modes[cluster.clone()], weights.as_slice()),
+                )
             })
             .filter(|(largest, _)| *largest > limit)
             .collect();
@@ -408,7 +485,11 @@ fn rail_motions(refined: &RefinedModes, excitation: Excitation) -> DMatrix<f64> 
     for element in refined.frame.line().map_or(&[][..], |line| line.elements()) {
         let [from, to] = element.x;
         for axis in excitation.axes() {
-            let probe = Probe { rail: element.rail, x: from + SAMPLED * (to - from), axis };
+            let probe = Probe {
+                rail: element.rail,
+                x: from + SAMPLED * (to - from),
+                axis,
+            };
             // no mode moves in an unrestrained direction
             if let Ok(shapes) = modes.at(probe) {
                 rows.extend(shapes.into_iter().map(|[value, _]| value));
@@ -426,7 +507,11 @@ fn rail_motions(refined: &RefinedModes, excitation: Excitation) -> DMatrix<f64> 
 fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     let mut out = modes[0].clone();
     let add = |of: fn(&fea::Mode) -> &Vec<[f64; 6]>, at: usize, i: usize| -> f64 {
-        modes.iter().zip(weights).map(|(mode, weight)| weight * of(mode)[at][i]).sum()
+        modes
+            .iter()
+            .zip(weights)
+            .map(|(mode, weight)| weight * of(mode)[at][i])
+            .sum()
     };
     for (at, motion) in out.states.iter_mut().enumerate() {
         *motion = std::array::from_fn(|i| add(|mode| &mode.states, at, i));
@@ -437,11 +522,21 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     for (at, planes) in out.between.iter_mut().enumerate() {
         for (plane, amplitudes) in planes.iter_mut().enumerate() {
             for (k, amplitude) in amplitudes.iter_mut().enumerate() {
-                *amplitude = modes.iter().zip(weights).map(|(m, w)| w * m.between[at][plane][k]).sum();
+                *amplitude = modes
+                    .iter()
+                    .zip(weights)
+                    .map(|(m, w)| w * m.between[at][plane][k])
+                    .sum();
             }
         }
     }
-    out.coupling = std::array::from_fn(|i| modes.iter().zip(weights).map(|(m, w)| w * m.coupling[i]).sum());
+    out.coupling = std::array::from_fn(|i| {
+        modes
+            .iter()
+            .zip(weights)
+            .map(|(m, w)| w * m.coupling[i])
+            .sum()
+    });
     out
 }
 
@@ -455,14 +550,24 @@ fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) 
     };
     let elongation = DMatrix::from_fn(dampers.pads.len(), modes.len(), |i, r| {
         let pad = &dampers.pads[i];
-        let base = pad.base.map_or(0.0, |(point, arm)| upward(pad, point, arm, &modes[r]));
+        let base = pad
+            .base
+            .map_or(0.0, |(point, arm)| upward(pad, point, arm, &modes[r]));
         upward(pad, pad.rail, [0.0; 3], &modes[r]) - base
     });
     let n = modes.len();
-    let own = DMatrix::from_fn(n, n, |i, j| if i == j { 2.0 * ratio * omega[i] } else { 0.0 });
+    let own = DMatrix::from_fn(
+        n,
+        n,
+        |i, j| if i == j { 2.0 * ratio * omega[i] } else { 0.0 },
+    );
     let square = DMatrix::from_fn(n, n, |i, j| if i == j { omega[i] * omega[i] } else { 0.0 });
     let damping = own + elongation.transpose() * &elongation * dampers.c;
-    Dynamics::Matrices { mass: DMatrix::identity(n, n), damping, stiffness: square }
+    Dynamics::Matrices {
+        mass: DMatrix::identity(n, n),
+        damping,
+        stiffness: square,
+    }
 }
 
 /// Displacements of the rails in each mode as shape functions of the simulation.

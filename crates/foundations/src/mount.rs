@@ -40,7 +40,12 @@ pub fn mount(structure: &Structure) -> Result<Option<Carrier>, Error> {
         }
     };
     let mass = Carrier::mass_about_origin(&fea::rigid_mass(&model).map_err(&refused)?, at);
-    Ok(Some(Carrier { body, rails: rails.iter().map(rail_line).collect(), mass, coupling: Vec::new() }))
+    Ok(Some(Carrier {
+        body,
+        rails: rails.iter().map(rail_line).collect(),
+        mass,
+        coupling: Vec::new(),
+    }))
 }
 
 /// Excitation of a structure: vertical wheel forces, lateral and longitudinal forces where wheels exert them, and the
@@ -54,18 +59,33 @@ pub(super) struct Excitation {
 
 impl Excitation {
     /// Vertical wheel forces on a structure on the ground.
-    pub const VERTICAL: Excitation = Excitation { lateral: false, longitudinal: false, carrier: None };
+    pub const VERTICAL: Excitation = Excitation {
+        lateral: false,
+        longitudinal: false,
+        carrier: None,
+    };
 
     /// That of a structure of a scene; `lateral` is whether its wheels have flanges or other lateral forces.
     pub fn of(structure: &Structure, lateral: bool) -> Excitation {
-        Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier }
+        Excitation {
+            lateral,
+            longitudinal: structure.longitudinal,
+            carrier: structure.carrier,
+        }
     }
 
     /// Directions of the wheel forces.
     pub fn axes(self) -> Vec<Axis> {
-        let loaded =
-            [(Axis::Vertical, true), (Axis::Lateral, self.lateral), (Axis::Longitudinal, self.longitudinal)];
-        loaded.into_iter().filter(|(_, is_loaded)| *is_loaded).map(|(axis, _)| axis).collect()
+        let loaded = [
+            (Axis::Vertical, true),
+            (Axis::Lateral, self.lateral),
+            (Axis::Longitudinal, self.longitudinal),
+        ];
+        loaded
+            .into_iter()
+            .filter(|(_, is_loaded)| *is_loaded)
+            .map(|(axis, _)| axis)
+            .collect()
     }
 
     /// The forces on the FE model: on its rails, and of inertia in the free motions of the carrier.
@@ -76,9 +96,15 @@ impl Excitation {
                 std::array::from_fn(|k| Carrier::load_about_origin(&unit(k), on.at));
             // load_about_origin is linear: row i has the factors of the six loads about the global origin
             let rows = (0..6).map(|i| of_origin.map(|column| column[i]));
-            rows.zip(on.may_move).filter(|(_, moves)| *moves).map(|(row, _)| row).collect()
+            rows.zip(on.may_move)
+                .filter(|(_, moves)| *moves)
+                .map(|(row, _)| row)
+                .collect()
         });
-        fea::ExcitingForces { axes: self.axes(), motions }
+        fea::ExcitingForces {
+            axes: self.axes(),
+            motions,
+        }
     }
 }
 
@@ -87,8 +113,11 @@ impl Excitation {
 /// makes the values comparable with the motion of a mode in which the total mass moves as one rigid body.
 pub(super) fn coupled_momentum(modes: &Modes, on: CarriedBy) -> Vec<f64> {
     let total = Carrier::mass_about_origin(&modes.rigid_mass, on.at);
-    let couplings: Vec<[f64; 6]> =
-        modes.modes.iter().map(|mode| Carrier::load_about_origin(&mode.coupling, on.at)).collect();
+    let couplings: Vec<[f64; 6]> = modes
+        .modes
+        .iter()
+        .map(|mode| Carrier::load_about_origin(&mode.coupling, on.at))
+        .collect();
     let moving = (0..6).filter(|&i| on.may_move[i] && total[i][i] > 0.0);
     moving
         .flat_map(|i| {
@@ -101,7 +130,11 @@ pub(super) fn coupled_momentum(modes: &Modes, on: CarriedBy) -> Vec<f64> {
 /// Rigid mass matrix of a modal structure and the coupling of `modes` with its carrier, both about the origin of the
 /// carrier; the list of rails is empty.
 pub(super) fn inertia(modes: &Modes, on: CarriedBy) -> Carrier {
-    let coupling = modes.modes.iter().map(|mode| Carrier::load_about_origin(&mode.coupling, on.at)).collect();
+    let coupling = modes
+        .modes
+        .iter()
+        .map(|mode| Carrier::load_about_origin(&mode.coupling, on.at))
+        .collect();
     Carrier {
         body: on.body,
         rails: Vec::new(),

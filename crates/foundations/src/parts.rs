@@ -44,15 +44,23 @@ pub fn foundation(
 ) -> Result<BuiltFoundation, Error> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or(Error::Windows)?;
-    let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let centres: Vec<f64> = ends
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1]))
+        .collect();
     let nodal = nodal_compliance(girder, &ends, &centres)?;
     let line = Arc::new(line(girder, &ends, &centres)?);
     let range = chain.range();
     let mut breaks = chain.breaks();
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let mut foundation =
-        Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
+    let mut foundation = Foundation {
+        rails: vec![Extent {
+            range: Some(range),
+            breaks,
+        }],
+        ..Foundation::default()
+    };
     let mut motion = None;
     let separate = matches!(handover, Handover::PerPart { .. });
     if separate {
@@ -60,33 +68,58 @@ pub fn foundation(
     }
     if let Some(mass) = girder.mass_per_length {
         let dynamics = PartsDynamics::new(girder, mass, &ends, &nodal, excitation.lateral);
-        foundation.carrier = excitation.carrier.map(|carrier| dynamics.carrier(&centres, carrier));
+        foundation.carrier = excitation
+            .carrier
+            .map(|carrier| dynamics.carrier(&centres, carrier));
         let basis = dynamics.basis.clone();
-        motion = Some(MotionBasis::Parts(RigidParts { ends: ends.clone(), basis: basis.clone() }));
-        let shapes = PartShapes { line, basis, chains: vec![chain], separate };
+        motion = Some(MotionBasis::Parts(RigidParts {
+            ends: ends.clone(),
+            basis: basis.clone(),
+        }));
+        let shapes = PartShapes {
+            line,
+            basis,
+            chains: vec![chain],
+            separate,
+        };
         foundation.structure = Some(dynamics.structure(shapes, damping));
     } else {
         let surface = ExactSurface::new(line, nodal)?;
         foundation.compliance = Some(if separate {
             Box::new(surface)
         } else {
-            Box::new(BlendedParts { surface, chains: vec![chain] })
+            Box::new(BlendedParts {
+                surface,
+                chains: vec![chain],
+            })
         });
     }
-    Ok(BuiltFoundation { foundation, basis: motion })
+    Ok(BuiltFoundation {
+        foundation,
+        basis: motion,
+    })
 }
 
 /// The `count + 1` ends of parts of equal length along the girder with its overhangs.
 fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
-    let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
-    (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect()
+    let (from, to) = (
+        -girder.overhangs[0],
+        girder.spans.iter().sum::<f64>() + girder.overhangs[1],
+    );
+    (0..=count)
+        .map(|j| from + (to - from) * j as f64 / count as f64)
+        .collect()
 }
 
 /// Compliance of the centres of the parts, six degrees of freedom each: 6 n x 6 n, zero in unrestrained directions.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Error> {
     let (whole, _) = girder.model_and_rail()?;
-    let mut model =
-        Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
+    let mut model = Model {
+        up: whole.up,
+        theory: whole.theory,
+        sections: whole.sections.clone(),
+        ..Model::default()
+    };
     model.points = centres.iter().map(|&x| [x, 0.0, 0.0]).collect();
     for j in 1..centres.len() {
         model.members.push(Member::beam([j - 1, j], 0, model.up));
@@ -96,8 +129,14 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
         let part = ends[1..ends.len() - 1].partition_point(|&end| end < x);
         model.points.push([x, 0.0, 0.0]);
         let point = model.points.len() - 1;
-        model.links.push(RigidLink { from: part, to: point });
-        model.supports.push(Support { point, fixed: support.fixed });
+        model.links.push(RigidLink {
+            from: part,
+            to: point,
+        });
+        model.supports.push(Support {
+            point,
+            fixed: support.fixed,
+        });
     }
     let points: Vec<usize> = (0..centres.len()).collect();
     let (mut nodal, _) = fea::point_compliance(&model, &points)?;
@@ -131,7 +170,9 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Rails, Error> 
 /// gyration (I_vertical + I_lateral)/A, at least 1e-6 length^2, so that every degree of freedom has inertia.
 #[must_use]
 pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
-    let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+    let polar = girder.area.map_or(0.0, |area| {
+        (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area
+    });
     polar.max(1e-6 * length * length)
 }
 
@@ -150,19 +191,29 @@ struct PartsDynamics {
 impl PartsDynamics {
     /// The equations of parts with `mass` per length between `ends`, whose centres have the compliance `nodal`. With
     /// `lateral`, the parts also move laterally, roll and yaw; otherwise they move in the vertical plane.
-    fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> PartsDynamics {
+    fn new(
+        girder: &Girder,
+        mass: f64,
+        ends: &[f64],
+        nodal: &DMatrix<f64>,
+        lateral: bool,
+    ) -> PartsDynamics {
         // rotations are scaled by a part's length, so that displacements and rotations are comparable in one
         // eigenproblem
         let length = ends[1] - ends[0];
         let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
-        let used: Vec<usize> = (0..nodal.nrows()).filter(|i| wanted.contains(&(i % 6))).collect();
+        let used: Vec<usize> = (0..nodal.nrows())
+            .filter(|i| wanted.contains(&(i % 6)))
+            .collect();
         let scale = |i: usize| if i % 6 < 3 { 1.0 } else { length };
         let scaled = DMatrix::from_fn(used.len(), used.len(), |r, c| {
             scale(used[r]) * nodal[(used[r], used[c])] * scale(used[c])
         });
         let eigen = scaled.symmetric_eigen();
         let largest = eigen.eigenvalues.max();
-        let kept: Vec<usize> = (0..used.len()).filter(|&k| eigen.eigenvalues[k] > RIGID * largest).collect();
+        let kept: Vec<usize> = (0..used.len())
+            .filter(|&k| eigen.eigenvalues[k] > RIGID * largest)
+            .collect();
         let mut basis = DMatrix::zeros(nodal.nrows(), kept.len());
         for (r, &i) in used.iter().enumerate() {
             for (k, &mode) in kept.iter().enumerate() {
@@ -177,9 +228,15 @@ impl PartsDynamics {
             _ => part * length * length / 12.0,
         };
         let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
-        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
+        let weighted =
+            DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
         let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
-        PartsDynamics { mass: basis.transpose() * weighted, stiffness, basis, lumped }
+        PartsDynamics {
+            mass: basis.transpose() * weighted,
+            stiffness,
+            basis,
+            lumped,
+        }
     }
 
     /// Inertia of the parts in the equations of the body that carries them: mass R^T m R, and coupling basis^T m R
@@ -196,9 +253,13 @@ impl PartsDynamics {
             }
         });
         let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
-        let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
+        let (total, own) = (
+            motion.transpose() * &weighted,
+            self.basis.transpose() * &weighted,
+        );
         let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
-        let coupling = |k: usize| Carrier::load_about_origin(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        let coupling =
+            |k: usize| Carrier::load_about_origin(&std::array::from_fn(|i| own[(k, i)]), on.at);
         Carrier {
             body: on.body,
             rails: Vec::new(),
@@ -220,8 +281,11 @@ impl PartsDynamics {
         let eigen = scaled.symmetric_eigen();
         // eigenvalues are 1/omega^2
         let inverse = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
-        let middle = &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
-        DMatrix::from_fn(size, size, |r, c| zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c])
+        let middle =
+            &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
+        DMatrix::from_fn(size, size, |r, c| {
+            zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c]
+        })
     }
 
     /// The structure of the simulation; every natural mode has the fraction `damping` of critical damping.
@@ -259,13 +323,21 @@ mod tests {
             ..Girder::default()
         };
         let ends = part_ends(&girder, 7);
-        let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+        let centres: Vec<f64> = ends
+            .windows(2)
+            .map(|pair| 0.5 * (pair[0] + pair[1]))
+            .collect();
         let nodal = nodal_compliance(&girder, &ends, &centres).expect("it stands");
         let motion = PartsDynamics::new(&girder, 20.0, &ends, &nodal, false);
         let zeta = 0.03;
         let damping = motion.damping(zeta);
 
-        let lower = motion.mass.clone().cholesky().expect("masses are positive").l();
+        let lower = motion
+            .mass
+            .clone()
+            .cholesky()
+            .expect("masses are positive")
+            .l();
         let inverse = lower.try_inverse().expect("masses are positive");
         let whitened = &inverse * DMatrix::from_diagonal(&motion.stiffness) * inverse.transpose();
         let eigen = whitened.symmetric_eigen();
@@ -274,8 +346,16 @@ mod tests {
         let highest = eigen.eigenvalues.max().sqrt();
         for r in 0..modal.nrows() {
             for c in 0..modal.ncols() {
-                let wanted = if r == c { 2.0 * zeta * eigen.eigenvalues[r].sqrt() } else { 0.0 };
-                assert!((modal[(r, c)] - wanted).abs() < 1e-9 * zeta * highest, "{r} {c}: {}", modal[(r, c)]);
+                let wanted = if r == c {
+                    2.0 * zeta * eigen.eigenvalues[r].sqrt()
+                } else {
+                    0.0
+                };
+                assert!(
+                    (modal[(r, c)] - wanted).abs() < 1e-9 * zeta * highest,
+                    "{r} {c}: {}",
+                    modal[(r, c)]
+                );
             }
         }
     }

@@ -8,7 +8,8 @@
 use std::ops::ControlFlow;
 
 use sim::{
-    Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
+    Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance,
+    TrialCheck,
 };
 
 use crate::build::{build_with_modes, coarse_modes};
@@ -36,14 +37,19 @@ pub trait TrialObserver {
     ///
     /// # Errors
     /// A quantity that cannot be computed.
-    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error>;
+    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>])
+    -> Result<Record, Error>;
 
     /// Reactions and internal forces of a structure by name, with minus their values per unit acceleration of each of
     /// the motions of `basis`.
     ///
     /// # Errors
     /// An effect that cannot be computed.
-    fn effects(&mut self, structure: usize, basis: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error>;
+    fn effects(
+        &mut self,
+        structure: usize,
+        basis: &MotionBasis,
+    ) -> Result<Vec<(String, Vec<f64>)>, Error>;
 
     /// Receives the foundations of each run of a choice before it starts.
     fn begin(&mut self, trial: &str);
@@ -100,29 +106,55 @@ pub fn select_and_run(
     observer: &mut dyn TrialObserver,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<AutoRun, Error> {
-    let tolerance =
-        |structure: &Structure| Tolerance { value: structure.tolerance, measure: structure.measure };
-    let tolerances: Vec<Option<Tolerance>> =
-        scene.structures.iter().map(|structure| structure.auto.then(|| tolerance(structure))).collect();
-    let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
+    let tolerance = |structure: &Structure| Tolerance {
+        value: structure.tolerance,
+        measure: structure.measure,
+    };
+    let tolerances: Vec<Option<Tolerance>> = scene
+        .structures
+        .iter()
+        .map(|structure| structure.auto.then(|| tolerance(structure)))
+        .collect();
+    let mode_caches = scene
+        .structures
+        .iter()
+        .map(|_| ModeCache::default())
+        .collect();
     let lateral = scene.has_flanges();
     let bases = scene.structures.iter().map(|_| None).collect();
     let duration = input.end;
-    let mut provider =
-        SceneFoundations { scene, known, lateral, duration, mode_caches, bases, recorded, observer };
-    let sim::Selection { choices, run, .. } = sim::choose(input, &tolerances, &mut provider, watch)?;
+    let mut provider = SceneFoundations {
+        scene,
+        known,
+        lateral,
+        duration,
+        mode_caches,
+        bases,
+        recorded,
+        observer,
+    };
+    let sim::Selection { choices, run, .. } =
+        sim::choose(input, &tolerances, &mut provider, watch)?;
     // the run does not return its foundations; they are built again from the cached modes
     let built = (0..tolerances.len())
         .map(|structure| {
             let choice = choices.iter().find(|choice| choice.structure == structure);
-            provider.build(structure, choice.map_or(Fidelity::Rigid, |choice| choice.fidelity), None)
+            provider.build(
+                structure,
+                choice.map_or(Fidelity::Rigid, |choice| choice.fidelity),
+                None,
+            )
         })
         .collect::<Result<Vec<BuiltFoundation>, Error>>()?;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         structure.foundation = scene_foundation(structure, choice.fidelity);
     }
-    Ok(AutoRun { choices, run, built })
+    Ok(AutoRun {
+        choices,
+        run,
+        built,
+    })
 }
 
 /// The foundation in terms of scene files that corresponds to a fidelity.
@@ -167,8 +199,10 @@ impl SceneFoundations<'_> {
         let solved = solution_of(self.known, &own.origin);
         let accuracy = match (fidelity, solved) {
             (Fidelity::Modal(count), Some(solved)) if own.auto => {
-                let (counts, excitation) =
-                    ([count, kept.unwrap_or(count)], Excitation::of(&own, self.lateral));
+                let (counts, excitation) = (
+                    [count, kept.unwrap_or(count)],
+                    Excitation::of(&own, self.lateral),
+                );
                 let tolerance = (own.tolerance, own.measure);
                 let found = cache.accuracy(tolerance, self.duration, counts, (solved, excitation));
                 found.map_err(Error::modes(&own.name))?
@@ -180,7 +214,10 @@ impl SceneFoundations<'_> {
 
     /// Enters a foundation as that of the next run.
     fn enter(&mut self, structure: usize, built: BuiltFoundation) -> sim::Foundation {
-        let BuiltFoundation { mut foundation, basis } = built;
+        let BuiltFoundation {
+            mut foundation,
+            basis,
+        } = built;
         foundation.recorded = (self.recorded)(structure, &foundation);
         self.bases[structure] = basis;
         foundation
@@ -192,22 +229,40 @@ impl FoundationProvider for SceneFoundations<'_> {
 
     fn modes(&mut self, structure: usize, count: usize) -> Result<Option<ModalBasis>, Error> {
         let own = &self.scene.structures[structure];
-        let Some(solved) = solution_of(self.known, &own.origin) else { return Ok(None) };
+        let Some(solved) = solution_of(self.known, &own.origin) else {
+            return Ok(None);
+        };
         let cache = &mut self.mode_caches[structure];
         let BuiltFoundation { foundation, basis } =
             match coarse_modes(cache, own, solved, self.lateral, count) {
                 Ok(built) => built,
-                Err(Error::Modes { source: fea::Error::NoMass, .. }) => return Ok(None),
+                Err(Error::Modes {
+                    source: fea::Error::NoMass,
+                    ..
+                }) => return Ok(None),
                 Err(error) => return Err(error),
             };
-        let (Some(modes), Some(basis)) = (foundation.structure, basis) else { return Ok(None) };
+        let (Some(modes), Some(basis)) = (foundation.structure, basis) else {
+            return Ok(None);
+        };
         let is_whole = modes.dynamics.dofs() < count;
-        let coupling = foundation.carrier.map_or_else(Vec::new, |carrier| carrier.coupling);
+        let coupling = foundation
+            .carrier
+            .map_or_else(Vec::new, |carrier| carrier.coupling);
         let effects = self.observer.effects(structure, &basis)?;
-        Ok(Some(ModalBasis { structure: modes, coupling, effects, is_whole }))
+        Ok(Some(ModalBasis {
+            structure: modes,
+            coupling,
+            effects,
+            is_whole,
+        }))
     }
 
-    fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<sim::Foundation, Error> {
+    fn foundation(
+        &mut self,
+        structure: usize,
+        fidelity: Fidelity,
+    ) -> Result<sim::Foundation, Error> {
         let built = self.build(structure, fidelity, None)?;
         Ok(self.enter(structure, built))
     }
@@ -246,7 +301,11 @@ impl FoundationProvider for SceneFoundations<'_> {
         let words = fidelities.iter().map(|(structure, fidelity)| {
             let name = &self.scene.structures[*structure].name;
             let fidelity = fidelity_name(*fidelity);
-            if is_single { fidelity } else { format!("{name} {fidelity}") }
+            if is_single {
+                fidelity
+            } else {
+                format!("{name} {fidelity}")
+            }
         });
         self.observer.begin(&words.collect::<Vec<_>>().join(", "));
     }
@@ -270,9 +329,14 @@ pub fn check_name(check: TrialCheck) -> String {
         TrialCheck::Replay(modes) => format!("{modes} natural modes under its wheel forces"),
         TrialCheck::Run(fidelity) => fidelity_name(fidelity),
         TrialCheck::Start(fidelity) => {
-            format!("the first eighth of {}, finer steps", fidelity_name(fidelity))
+            format!(
+                "the first eighth of {}, finer steps",
+                fidelity_name(fidelity)
+            )
         }
-        TrialCheck::Whole(fidelity) => format!("the motion of {}, longer steps", fidelity_name(fidelity)),
+        TrialCheck::Whole(fidelity) => {
+            format!("the motion of {}, longer steps", fidelity_name(fidelity))
+        }
     }
 }
 
@@ -281,8 +345,15 @@ pub fn check_name(check: TrialCheck) -> String {
 pub fn selection_reason(choice: &Choice) -> String {
     let chosen = fidelity_name(choice.fidelity);
     let error = || {
-        let of = if choice.quantity.is_empty() { String::new() } else { format!(" of {}", choice.quantity) };
-        format!("the estimated error{of}, {:.1e},", choice.estimate.unwrap_or_default())
+        let of = if choice.quantity.is_empty() {
+            String::new()
+        } else {
+            format!(" of {}", choice.quantity)
+        };
+        format!(
+            "the estimated error{of}, {:.1e},",
+            choice.estimate.unwrap_or_default()
+        )
     };
     match choice.reason {
         Reason::NoMass => {
@@ -313,7 +384,9 @@ pub fn selection_reason(choice: &Choice) -> String {
             )
         }
         Reason::Unchecked => {
-            format!("auto: {chosen}; no other fidelity could be run to check it, so its error is not known")
+            format!(
+                "auto: {chosen}; no other fidelity could be run to check it, so its error is not known"
+            )
         }
     }
 }
@@ -326,7 +399,11 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
         Reason::Limit | Reason::NoBetter => format!(
             "the estimated error of {} on the foundation {chosen} is {:.1e}, which is more than the tolerance \
              {tolerance}; {}",
-            if choice.quantity.is_empty() { "the run" } else { &choice.quantity },
+            if choice.quantity.is_empty() {
+                "the run"
+            } else {
+                &choice.quantity
+            },
             choice.estimate.unwrap_or(f64::INFINITY),
             if choice.reason == Reason::Limit {
                 "it was not possible to reduce it in three runs"
@@ -335,7 +412,9 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
             }
         ),
         Reason::Unchecked => {
-            format!("the error of {chosen} is not known: no other fidelity could be run to check it")
+            format!(
+                "the error of {chosen} is not known: no other fidelity could be run to check it"
+            )
         }
         Reason::Sufficient | Reason::Kept => match choice.drifting {
             Some(bounces) => format!(
@@ -347,8 +426,15 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
         },
         Reason::NoMass | Reason::QuasiStatic => return None,
     };
-    let failed: Vec<String> = choice.failed.iter().map(|fidelity| fidelity_name(*fidelity)).collect();
-    let list =
-        if failed.is_empty() { String::new() } else { format!(" (could not be run: {})", failed.join("; ")) };
+    let failed: Vec<String> = choice
+        .failed
+        .iter()
+        .map(|fidelity| fidelity_name(*fidelity))
+        .collect();
+    let list = if failed.is_empty() {
+        String::new()
+    } else {
+        format!(" (could not be run: {})", failed.join("; "))
+    };
     Some(format!("{name}: {why}{list}"))
 }

@@ -43,7 +43,12 @@ pub struct SystemSize {
 
 impl std::fmt::Display for SystemSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} unknowns, a factor of {:.3} MB", self.unknowns, self.bytes as f64 / 1e6)
+        write!(
+            f,
+            "{} unknowns, a factor of {:.3} MB",
+            self.unknowns,
+            self.bytes as f64 / 1e6
+        )
     }
 }
 
@@ -78,9 +83,16 @@ fn solved(
     let grid = StationGrid::of(spec, frame)?.with_effects(spec, &model, frame)?;
     let mut grid = grid.with_critical_factor(spec)?;
     let omission = surface_omission(6 * frame.line()?.state_count());
-    let surface = if always || omission.is_none() { Some(frame.surface()?.surface) } else { None };
+    let surface = if always || omission.is_none() {
+        Some(frame.surface()?.surface)
+    } else {
+        None
+    };
     grid.notes.extend(omission);
-    let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.factor_bytes() });
+    let size = Some(SystemSize {
+        unknowns: frame.unknowns(),
+        bytes: frame.factor_bytes(),
+    });
     Ok(SolvedModel {
         model,
         rails,
@@ -108,7 +120,9 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
     for case in &document.cases {
         for structure in &case.scene.structures {
-            let Origin::Spec { file, spec } = &structure.origin else { continue };
+            let Origin::Spec { file, spec } = &structure.origin else {
+                continue;
+            };
             let is_new = all.iter().all(|(_, _, known)| *known != spec);
             let of_scene = case.label.is_none();
             if is_new || (of_scene && all.iter().all(|(name, ..)| *name != structure.name)) {
@@ -128,9 +142,10 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
 #[must_use]
 pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a SolvedModel> {
     match origin {
-        Origin::Spec { spec, .. } => {
-            known.iter().find(|entry| entry.spec == *spec).map(|entry| &*entry.solution)
-        }
+        Origin::Spec { spec, .. } => known
+            .iter()
+            .find(|entry| entry.spec == *spec)
+            .map(|entry| &*entry.solution),
         Origin::Tables { .. } => None,
     }
 }
@@ -143,16 +158,29 @@ pub fn solve_specs(
     document: &Document,
     specs: &[(String, &str, &Arc<Spec>)],
 ) -> Result<Vec<SolvedStructure>, SolveError> {
-    specs.iter().map(|&(_, file, spec)| solve_spec(document, file, spec)).collect()
+    specs
+        .iter()
+        .map(|&(_, file, spec)| solve_spec(document, file, spec))
+        .collect()
 }
 
 /// Solves one spec of a document, which was read from `file`.
-fn solve_spec(document: &Document, file: &str, spec: &Arc<Spec>) -> Result<SolvedStructure, SolveError> {
-    let solution = solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
-        Some(Ok(source)) => spec.locate_error(&source, &error),
-        _ => SolveError::NoSolution(error.to_string()),
-    })?;
-    Ok(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
+fn solve_spec(
+    document: &Document,
+    file: &str,
+    spec: &Arc<Spec>,
+) -> Result<SolvedStructure, SolveError> {
+    let solution =
+        solve(spec).map_err(
+            |error| match document.inputs.find(file).map(Input::source) {
+                Some(Ok(source)) => spec.locate_error(&source, &error),
+                _ => SolveError::NoSolution(error.to_string()),
+            },
+        )?;
+    Ok(SolvedStructure {
+        spec: Arc::clone(spec),
+        solution: Arc::new(solution),
+    })
 }
 
 /// Solutions of the specs of many documents, each computed once and shared by all threads, as are the modes that are
@@ -182,8 +210,9 @@ impl StructureCache {
     /// As [`solve_specs`].
     pub fn solve(&self, document: &Document) -> Result<Vec<SolvedStructure>, SolveError> {
         let specs = distinct_specs(document);
-        let each =
-            specs.iter().map(|&(_, file, spec)| self.solved.get(spec, || solve_spec(document, file, spec)));
+        let each = specs
+            .iter()
+            .map(|&(_, file, spec)| self.solved.get(spec, || solve_spec(document, file, spec)));
         each.collect()
     }
 }

@@ -4,7 +4,9 @@ use formats::grid::axes;
 use formats::scene::{Origin, Structure, TableInterpolation};
 use nalgebra::DMatrix;
 use sim::Foundation;
-use splines::{Axis, Couplings, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading, Uncoupled};
+use splines::{
+    Axis, Couplings, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading, Uncoupled,
+};
 
 use crate::error::Error;
 use crate::solved::SolvedModel;
@@ -12,7 +14,10 @@ use crate::solved::SolvedModel;
 /// The influence functions of a structure as its foundation. The exact surface of its solution is used where the
 /// scene specifies the reading "exact" and the surface has been computed; otherwise tables at the stations are
 /// interpolated as the scene specifies.
-pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Foundation, Error> {
+pub(crate) fn influence(
+    structure: &Structure,
+    solved: Option<&SolvedModel>,
+) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
     let exact = structure.interpolation == TableInterpolation::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
@@ -44,19 +49,28 @@ pub fn influence_blocks(
     solved: Option<&SolvedModel>,
 ) -> Result<Vec<InfluenceBlock>, Error> {
     let mut blocks = Vec::new();
-    let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
-        let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
-        if !structure.couplings.keep(&probe(row), &probe(column)) {
-            return Ok(());
-        }
-        let [at, loads] = stations.map(<[f64]>::to_vec);
-        let table = SplineTable::new(loads, at, values).map_err(Error::rails(&structure.name))?;
-        blocks.push(InfluenceBlock { deflection: row, load: column, table });
-        Ok::<(), Error>(())
-    };
+    let mut add =
+        |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
+            let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
+            if !structure.couplings.keep(&probe(row), &probe(column)) {
+                return Ok(());
+            }
+            let [at, loads] = stations.map(<[f64]>::to_vec);
+            let table =
+                SplineTable::new(loads, at, values).map_err(Error::rails(&structure.name))?;
+            blocks.push(InfluenceBlock {
+                deflection: row,
+                load: column,
+                table,
+            });
+            Ok::<(), Error>(())
+        };
     match (&structure.origin, solved) {
         (Origin::Tables { tables, .. }, _) => {
-            for (axis, values) in [(Axis::Vertical, &tables.vertical), (Axis::Lateral, &tables.lateral)] {
+            for (axis, values) in [
+                (Axis::Vertical, &tables.vertical),
+                (Axis::Lateral, &tables.lateral),
+            ] {
                 if let Some(values) = values {
                     let n = tables.stations.len();
                     let matrix = DMatrix::from_fn(n, n, |i, j| values[i][j]);
@@ -75,7 +89,9 @@ pub fn influence_blocks(
                         let (a, b) = axes(*quantity);
                         // G is symmetric: only one of a block and its transpose is stored
                         if a != b || r <= c {
-                            let block = grid.view((first_row, first_column), (size[0], size[1])).into_owned();
+                            let block = grid
+                                .view((first_row, first_column), (size[0], size[1]))
+                                .into_owned();
                             add((r, a), (c, b), stations, block)?;
                         }
                     }
@@ -85,7 +101,9 @@ pub fn influence_blocks(
             }
         }
         (Origin::Spec { .. }, None) => {
-            return Err(Error::Unsolved { structure: structure.name.clone() });
+            return Err(Error::Unsolved {
+                structure: structure.name.clone(),
+            });
         }
     }
     Ok(blocks)

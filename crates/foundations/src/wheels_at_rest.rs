@@ -29,9 +29,12 @@ pub fn with_wheels_at_rest(mut document: Document) -> Document {
             continue;
         }
         for pass in 0..=PASSES {
-            let Some(forces) = wheel_forces(scene, pass > 0) else { break };
+            let Some(forces) = wheel_forces(scene, pass > 0) else {
+                break;
+            };
             for (structure, own) in scene.structures.iter_mut().zip(forces) {
-                if let (true, Origin::Spec { spec, .. }) = (structure.preload, &mut structure.origin)
+                if let (true, Origin::Spec { spec, .. }) =
+                    (structure.preload, &mut structure.origin)
                     && let Some(preload) = &mut Arc::make_mut(spec).preload
                 {
                     preload.wheels = own;
@@ -48,24 +51,51 @@ fn wheel_forces(scene: &Scene, is_flexible: bool) -> Option<Vec<Vec<RailForce>>>
     let lateral = scene.has_flanges();
     let foundation = |structure: &Structure| {
         let solved = match &structure.origin {
-            Origin::Spec { spec, .. } if structure.preload && is_flexible => Some(solve(spec).ok()?),
+            Origin::Spec { spec, .. } if structure.preload && is_flexible => {
+                Some(solve(spec).ok()?)
+            }
             _ => None,
         };
-        let foundation = if solved.is_some() { Foundation::Influence } else { Foundation::Rigid };
-        let plain = Structure { foundation, auto: false, ..structure.clone() };
-        build(&mut ModeCache::default(), &plain, solved.as_ref(), lateral).ok().map(|built| built.foundation)
+        let foundation = if solved.is_some() {
+            Foundation::Influence
+        } else {
+            Foundation::Rigid
+        };
+        let plain = Structure {
+            foundation,
+            auto: false,
+            ..structure.clone()
+        };
+        build(&mut ModeCache::default(), &plain, solved.as_ref(), lateral)
+            .ok()
+            .map(|built| built.foundation)
     };
-    let foundations = scene.structures.iter().map(foundation).collect::<Option<Vec<_>>>()?;
+    let foundations = scene
+        .structures
+        .iter()
+        .map(foundation)
+        .collect::<Option<Vec<_>>>()?;
     // The first sample of a run is its start.
-    let short = sim::Scene { end: 1e-6 * input.scene.output_dt, analysis: Analysis::Dynamic, ..input.scene };
+    let short = sim::Scene {
+        end: 1e-6 * input.scene.output_dt,
+        analysis: Analysis::Dynamic,
+        ..input.scene
+    };
     let run = sim::run(&short, &foundations, &mut |_| ControlFlow::Continue(())).ok()?;
     let mut out = vec![Vec::new(); scene.structures.len()];
     for (index, wheel) in input.wheels.iter().enumerate() {
         let rail = &scene.rails[wheel.rail];
         let first = |channel| run.history.values(channel).next();
-        let (x, force) = (first(Channel::Position(index))?, first(Channel::Vertical(index))?);
+        let (x, force) = (
+            first(Channel::Position(index))?,
+            first(Channel::Vertical(index))?,
+        );
         if force != 0.0 {
-            out[rail.structure].push(RailForce { rail: rail.rail, x, force: [0.0, -force, 0.0] });
+            out[rail.structure].push(RailForce {
+                rail: rail.rail,
+                x,
+                force: [0.0, -force, 0.0],
+            });
         }
     }
     Some(out)

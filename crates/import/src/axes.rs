@@ -37,7 +37,8 @@ impl LocalAxes {
 #[must_use]
 pub fn turned_inertia(axes: &[[f64; 3]; 3], inertia: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     // rows along the global axes, columns still along the own ones
-    let half: Vec<[f64; 3]> =
-        (0..3).map(|column| combined(axes, [0, 1, 2].map(|row| inertia[row][column]))).collect();
+    let half: Vec<[f64; 3]> = (0..3)
+        .map(|column| combined(axes, [0, 1, 2].map(|row| inertia[row][column])))
+        .collect();
     [0, 1, 2].map(|row| combined(axes, [0, 1, 2].map(|column| half[column][row])))
 }

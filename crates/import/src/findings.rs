@@ -33,8 +33,18 @@ pub struct ImportFinding {
 impl ImportFinding {
     /// Creates a finding at a position.
     #[must_use]
-    pub fn new(at: FilePlace, about: impl Into<String>, expected: impl Into<String>) -> ImportFinding {
-        ImportFinding { at, about: about.into(), expected: expected.into(), found: None, hint: None }
+    pub fn new(
+        at: FilePlace,
+        about: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> ImportFinding {
+        ImportFinding {
+            at,
+            about: about.into(),
+            expected: expected.into(),
+            found: None,
+            hint: None,
+        }
     }
 
     /// Returns the finding with the text or value in the file.
@@ -99,11 +109,20 @@ impl ImportFindings {
             match group.as_slice() {
                 [first, .., last] if group.len() >= GROUP => {
                     let count = group.len();
-                    let what = if kind.is_empty() { "places" } else { kind.as_str() };
+                    let what = if kind.is_empty() {
+                        "places"
+                    } else {
+                        kind.as_str()
+                    };
                     let line = last.at.line;
-                    let expected =
-                        format!("{} ({count} {what} alike, the last in line {line})", first.expected);
-                    errors.push(ImportFinding { expected, ..(*first).clone() });
+                    let expected = format!(
+                        "{} ({count} {what} alike, the last in line {line})",
+                        first.expected
+                    );
+                    errors.push(ImportFinding {
+                        expected,
+                        ..(*first).clone()
+                    });
                 }
                 _ => errors.extend(group.into_iter().cloned()),
             }

@@ -15,14 +15,22 @@ impl FromStr for SupportRequest {
     type Err = String;
 
     fn from_str(text: &str) -> Result<SupportRequest, String> {
-        let (set, list) = text.rsplit_once('=').ok_or("must be SET=DOF,DOF,..., such as feet=ux,uy,uz")?;
+        let (set, list) = text
+            .rsplit_once('=')
+            .ok_or("must be SET=DOF,DOF,..., such as feet=ux,uy,uz")?;
         let mut fix = [false; 6];
         for word in list.split(',') {
-            let index = ["ux", "uy", "uz", "rx", "ry", "rz"].iter().position(|known| *known == word.trim());
-            let index = index.ok_or_else(|| format!("`{word}` must be one of ux, uy, uz, rx, ry, rz"))?;
+            let index = ["ux", "uy", "uz", "rx", "ry", "rz"]
+                .iter()
+                .position(|known| *known == word.trim());
+            let index =
+                index.ok_or_else(|| format!("`{word}` must be one of ux, uy, uz, rx, ry, rz"))?;
             fix[index] = true;
         }
-        Ok(SupportRequest { set: set.to_owned(), fix })
+        Ok(SupportRequest {
+            set: set.to_owned(),
+            fix,
+        })
     }
 }
 
@@ -30,14 +38,33 @@ impl FromStr for SupportRequest {
 ///
 /// # Errors
 /// The structure does not have the set. The error consists of a message and a hint.
-pub fn restrain(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
-    let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
-        let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();
+pub fn restrain(
+    asked: &SupportRequest,
+    structure: &mut ImportedStructure,
+) -> Result<(), [String; 2]> {
+    let Some((_, set)) = structure
+        .point_sets
+        .iter()
+        .find(|(name, _)| *name == asked.set)
+    else {
+        let names: Vec<&str> = structure
+            .point_sets
+            .iter()
+            .take(20)
+            .map(|(name, _)| name.as_str())
+            .collect();
         let hint = format!(
             "sets of points: {}",
-            if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+            if names.is_empty() {
+                "none".to_owned()
+            } else {
+                names.join(", ")
+            }
         );
-        return Err([format!("refers to the set {}, which does not exist", asked.set), hint]);
+        return Err([
+            format!("refers to the set {}, which does not exist", asked.set),
+            hint,
+        ]);
     };
     for point in set {
         let support = structure.supports.entry(*point).or_default();

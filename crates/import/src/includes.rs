@@ -25,7 +25,12 @@ pub(crate) struct Includes<'a> {
 impl<'a> Includes<'a> {
     /// Prepares reading a file and those that it includes by `statement`.
     pub fn new(path: &Path, open: OpenFile<'a>, statement: &'static str) -> Includes<'a> {
-        Includes { open, statement, main: folder(path), stack: Vec::new() }
+        Includes {
+            open,
+            statement,
+            main: folder(path),
+            stack: Vec::new(),
+        }
     }
 
     /// Begins with a file and returns its number; [`Includes::end`] ends it.
@@ -49,7 +54,11 @@ impl<'a> Includes<'a> {
         at: FilePlace,
         findings: &mut ImportFindings,
     ) -> Option<(PathBuf, Vec<u8>)> {
-        let from = self.stack.last().map(|path| folder(path)).unwrap_or_default();
+        let from = self
+            .stack
+            .last()
+            .map(|path| folder(path))
+            .unwrap_or_default();
         let places = [from.join(name), self.main.join(name)];
         let mut read = Err(io::ErrorKind::NotFound.into());
         let mut path = &places[0];
@@ -59,8 +68,9 @@ impl<'a> Includes<'a> {
                 read = (self.open)(place);
             }
         }
-        let refuse =
-            |expected: String, hint: &str| ImportFinding::new(at, self.statement, expected).hint(hint);
+        let refuse = |expected: String, hint: &str| {
+            ImportFinding::new(at, self.statement, expected).hint(hint)
+        };
         let fault = match read {
             Err(error) => {
                 let expected = format!("{} {}", places[0].display(), read_error_message(&error));
@@ -70,9 +80,10 @@ impl<'a> Includes<'a> {
                 let expected = "must not include a file that is already being read".to_owned();
                 refuse(expected, "remove one of these lines").with_found(name)
             }
-            Ok(_) if Includes::is_full(findings) => {
-                refuse("includes too many files".to_owned(), "a model may include up to 999 files")
-            }
+            Ok(_) if Includes::is_full(findings) => refuse(
+                "includes too many files".to_owned(),
+                "a model may include up to 999 files",
+            ),
             Ok(bytes) => return Some((path.clone(), bytes)),
         };
         findings.error(fault);

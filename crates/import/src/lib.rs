@@ -96,9 +96,16 @@ pub struct Imported {
 ///
 /// # Errors
 /// All errors of the model, with their positions. A model with errors is rejected as a whole.
-pub fn import(path: &Path, open: OpenFile<'_>, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
+pub fn import(
+    path: &Path,
+    open: OpenFile<'_>,
+    options: &ImportOptions,
+) -> Result<Imported, Vec<Diagnostic>> {
     let name = path.display().to_string();
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase())
+        .unwrap_or_default();
     let mut findings = ImportFindings::default();
     let mut structure = match ending.as_str() {
         "bdf" | "dat" | "nas" => read_deck(path, open, options, &mut findings)?,
@@ -106,7 +113,13 @@ pub fn import(path: &Path, open: OpenFile<'_>, options: &ImportOptions) -> Resul
         "inp" => {
             // the file is read once, since a pipe cannot be read again
             let bytes = open(path).map_err(|error| unreadable(path, &error))?;
-            let again = |other: &Path| if other == path { Ok(bytes.clone()) } else { open(other) };
+            let again = |other: &Path| {
+                if other == path {
+                    Ok(bytes.clone())
+                } else {
+                    open(other)
+                }
+            };
             if is_bulk_data(&bytes) {
                 read_deck(path, &again, options, &mut findings)?
             } else {
@@ -115,9 +128,15 @@ pub fn import(path: &Path, open: OpenFile<'_>, options: &ImportOptions) -> Resul
         }
         _ => {
             if path.is_dir() {
-                return Err(vec![Diagnostic::of_file(name, "cannot be read: it is a folder")]);
+                return Err(vec![Diagnostic::of_file(
+                    name,
+                    "cannot be read: it is a folder",
+                )]);
             }
-            let wrong = Diagnostic::of_file(name, "the extension of the file is not that of a known format");
+            let wrong = Diagnostic::of_file(
+                name,
+                "the extension of the file is not that of a known format",
+            );
             let hint = "use .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
             return Err(vec![wrong.hint(hint)]);
         }
@@ -129,20 +148,35 @@ pub fn import(path: &Path, open: OpenFile<'_>, options: &ImportOptions) -> Resul
     add_requested(options, &mut structure)?;
     let mut warnings = findings.warnings();
     if structure.rails.is_empty() {
-        let missing = Diagnostic::of_file(&name, "the spec has no rail, and cannot be solved without one");
-        warnings
-            .push(missing.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
+        let missing = Diagnostic::of_file(
+            &name,
+            "the spec has no rail, and cannot be solved without one",
+        );
+        warnings.push(
+            missing.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"),
+        );
     }
     let text = write(&structure);
     check_spec(&name, &text, &structure)?;
-    Ok(Imported { text, structure, warnings })
+    Ok(Imported {
+        text,
+        structure,
+        warnings,
+    })
 }
 
 /// Adds the supports and rails that the user requested.
-fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> Result<(), Vec<Diagnostic>> {
+fn add_requested(
+    options: &ImportOptions,
+    structure: &mut ImportedStructure,
+) -> Result<(), Vec<Diagnostic>> {
     let mut wrong = Vec::new();
     for asked in &options.fix {
-        wrong.extend(fix::restrain(asked, structure).err().map(|message| refused("--fix", message)));
+        wrong.extend(
+            fix::restrain(asked, structure)
+                .err()
+                .map(|message| refused("--fix", message)),
+        );
     }
     for asked in &options.rails {
         let Some(up) = options.up else {
@@ -157,7 +191,10 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
             Ok(rail) if structure.rails.iter().any(|other| other.name == rail.name) => {
                 wrong.push(refused(
                     "--rail",
-                    [format!("defines two rails with the name {}", rail.name), String::new()],
+                    [
+                        format!("defines two rails with the name {}", rail.name),
+                        String::new(),
+                    ],
                 ));
             }
             Ok(rail) => structure.rails.push(rail),
@@ -170,27 +207,46 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
 /// Creates the error of a flag of the command line from a message and a hint.
 fn refused(flag: &str, [expected, hint]: [String; 2]) -> Diagnostic {
     let wrong = Diagnostic::of_file("command line", format!("{flag} {expected}"));
-    if hint.is_empty() { wrong } else { wrong.hint(hint) }
+    if hint.is_empty() {
+        wrong
+    } else {
+        wrong.hint(hint)
+    }
 }
 
 /// Checks that the text is a valid beam spec. A spec without rails is accepted if no rail was requested.
-fn check_spec(name: &str, text: &str, structure: &ImportedStructure) -> Result<(), Vec<Diagnostic>> {
-    let source = Source { name: format!("{name}, as a beam spec"), text: text.to_owned() };
-    let Err(mut wrong) = Spec::read(&source, None) else { return Ok(()) };
+fn check_spec(
+    name: &str,
+    text: &str,
+    structure: &ImportedStructure,
+) -> Result<(), Vec<Diagnostic>> {
+    let source = Source {
+        name: format!("{name}, as a beam spec"),
+        text: text.to_owned(),
+    };
+    let Err(mut wrong) = Spec::read(&source, None) else {
+        return Ok(());
+    };
     wrong.retain(|wrong| wrong.path != "rails" || !structure.rails.is_empty());
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
 /// Creates the error of a file that cannot be read.
 fn unreadable(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
-    vec![Diagnostic::of_file(path.display().to_string(), read_error_message(error))]
+    vec![Diagnostic::of_file(
+        path.display().to_string(),
+        read_error_message(error),
+    )]
 }
 
 /// Whether a file with the ending `.inp` is NASTRAN bulk data: a line consists of BEGIN BULK.
 fn is_bulk_data(bytes: &[u8]) -> bool {
     let begins = |line: &[u8]| {
-        let words: Vec<&[u8]> =
-            line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take(2).collect();
+        let words: Vec<&[u8]> = line
+            .split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty())
+            .take(2)
+            .collect();
         matches!(words.as_slice(), [a, b] if a.eq_ignore_ascii_case(b"BEGIN") && b.eq_ignore_ascii_case(b"BULK"))
     };
     bytes.split(|byte| *byte == b'\n').any(begins)
@@ -200,7 +256,12 @@ fn is_bulk_data(bytes: &[u8]) -> bool {
 fn only_for_bulk_data(flags: &[(&str, bool)]) -> Vec<Diagnostic> {
     let given = flags.iter().filter(|(_, given)| *given);
     given
-        .map(|(flag, _)| refused(flag, ["is only available for bulk data".to_owned(), String::new()]))
+        .map(|(flag, _)| {
+            refused(
+                flag,
+                ["is only available for bulk data".to_owned(), String::new()],
+            )
+        })
         .collect()
 }
 
@@ -214,7 +275,10 @@ fn read_input(
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let mut wrong = Vec::new();
-    let given = [("--spc", options.spc.is_some()), ("--mass", options.mass.is_some())];
+    let given = [
+        ("--spc", options.spc.is_some()),
+        ("--mass", options.mass.is_some()),
+    ];
     wrong.extend(only_for_bulk_data(&given));
     if options.sections.is_some() && options.force.is_some() {
         let message = "is not available with --sections, which states the unit of force".to_owned();
@@ -222,27 +286,42 @@ fn read_input(
     }
     if options.length.is_none() || (options.force.is_none() && options.sections.is_none()) {
         let expected = "Abaqus files have no units: --length and --force must state them";
-        let hint =
-            "such as --length m --force N; a file without sections needs --sections in place of --force";
+        let hint = "such as --length m --force N; a file without sections needs --sections in place of --force";
         wrong.push(Diagnostic::of_file(&name, expected).hint(hint));
     }
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    let omit = bdf::Omissions { skip: &options.skip, unused: options.skip_unused };
+    let omit = bdf::Omissions {
+        skip: &options.skip,
+        unused: options.skip_unused,
+    };
     let length = options.length.unwrap_or(Length::Metre);
     let result = match (&options.sections, options.force) {
         (Some(source), _) => {
             let sections = msh::Sections::read(source)?;
             let to = sections.units;
-            let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
+            let factor = Scale {
+                from: Units { length, ..to },
+                to,
+            }
+            .factor(Dimension::LENGTH);
             let mut empty = ImportedStructure::empty(stem(&name), to);
             empty.up = options.up;
             inp::read_mesh(path, open, factor, &sections, empty, omit, findings)
         }
         (None, force) => {
-            let units = Units { length, force: force.unwrap_or(Force::Newton) };
-            inp::read(path, open, ImportedStructure::empty(stem(&name), units), omit, findings)
+            let units = Units {
+                length,
+                force: force.unwrap_or(Force::Newton),
+            };
+            inp::read(
+                path,
+                open,
+                ImportedStructure::empty(stem(&name), units),
+                omit,
+                findings,
+            )
         }
     };
     result.map_err(|error| unreadable(path, &error))
@@ -257,21 +336,29 @@ fn read_deck(
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let (Some(length), Some(force)) = (options.length, options.force) else {
-        let wrong =
-            Diagnostic::of_file(name, "bulk data have no units: --length and --force must state them");
-        return Err(vec![
-            wrong.hint("such as --length m --force N; masses are force s^2 / length after WTMASS"),
-        ]);
+        let wrong = Diagnostic::of_file(
+            name,
+            "bulk data have no units: --length and --force must state them",
+        );
+        return Err(vec![wrong.hint(
+            "such as --length m --force N; masses are force s^2 / length after WTMASS",
+        )]);
     };
     if options.sections.is_some() {
         let wrong = refused(
             "--sections",
-            ["is only available for meshes: bulk data have their own sections".to_owned(), String::new()],
+            [
+                "is only available for meshes: bulk data have their own sections".to_owned(),
+                String::new(),
+            ],
         );
         return Err(vec![wrong]);
     }
     let empty = ImportedStructure::empty(stem(&name), Units { length, force });
-    let omit = bdf::Omissions { skip: &options.skip, unused: options.skip_unused };
+    let omit = bdf::Omissions {
+        skip: &options.skip,
+        unused: options.skip_unused,
+    };
     bdf::read(path, open, empty, options.spc, omit, options.mass, findings)
         .map_err(|error| unreadable(path, &error))
 }
@@ -286,13 +373,17 @@ fn read_mesh(
     let name = path.display().to_string();
     let mut wrong = Vec::new();
     if options.length.is_none() {
-        let missing =
-            Diagnostic::of_file(&name, "a mesh has no units: --length must state that of its coordinates");
+        let missing = Diagnostic::of_file(
+            &name,
+            "a mesh has no units: --length must state that of its coordinates",
+        );
         wrong.push(missing.hint("such as --length mm"));
     }
     if options.sections.is_none() {
-        let missing =
-            Diagnostic::of_file(&name, "a mesh has no sections: --sections must name a file with sections");
+        let missing = Diagnostic::of_file(
+            &name,
+            "a mesh has no sections: --sections must name a file with sections",
+        );
         let hint = format!(
             "a JSON file of format {} with units, materials and sections by the names of the physical groups",
             msh::FORMAT
@@ -307,7 +398,9 @@ fn read_mesh(
         ("--force", options.force.is_some()),
     ];
     wrong.extend(only_for_bulk_data(&given));
-    let (Some(length), Some(source)) = (options.length, &options.sections) else { return Err(wrong) };
+    let (Some(length), Some(source)) = (options.length, &options.sections) else {
+        return Err(wrong);
+    };
     if !wrong.is_empty() {
         return Err(wrong);
     }
@@ -315,7 +408,11 @@ fn read_mesh(
     let bytes = open(path).map_err(|error| unreadable(path, &error))?;
     findings.files.push(name.clone());
     let to = sections.units;
-    let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
+    let factor = Scale {
+        from: Units { length, ..to },
+        to,
+    }
+    .factor(Dimension::LENGTH);
     let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
     Ok(msh::read(&bytes, factor, &sections, empty, findings))

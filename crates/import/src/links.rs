@@ -37,7 +37,11 @@ pub fn add(structure: &mut ImportedStructure, link: PartialLink, all: &[PartialL
         return true;
     }
     let joins_translations = set[..3].iter().all(|joined| *joined);
-    let is_partial = all.iter().filter(|other| other.from == to || other.to == to).count() > 1;
+    let is_partial = all
+        .iter()
+        .filter(|other| other.from == to || other.to == to)
+        .count()
+        > 1;
     let is_linked = is_partial || structure.links.iter().any(|ends| ends.contains(&to));
     if !joins_translations || is_linked || holds_free_part(structure, link) {
         return false;
@@ -59,13 +63,23 @@ pub fn add(structure: &mut ImportedStructure, link: PartialLink, all: &[PartialL
         return true;
     }
     let joins_rotations = set[3..].iter().any(|joined| *joined);
-    let [(index, end)] = ends[..] else { return false };
-    let is_supported = structure.supports.get(&to).is_some_and(|fix| fix.contains(&true));
+    let [(index, end)] = ends[..] else {
+        return false;
+    };
+    let is_supported = structure
+        .supports
+        .get(&to)
+        .is_some_and(|fix| fix.contains(&true));
     let has_spring = structure.springs.iter().any(|spring| spring.point == to);
     let arm = minus(structure.points[to].at, structure.points[from].at);
     let member = &mut structure.members[index];
     let other = member.points[1 - end];
-    if joins_rotations || is_supported || has_spring || member.offsets[end] != [0.0; 3] || other == from {
+    if joins_rotations
+        || is_supported
+        || has_spring
+        || member.offsets[end] != [0.0; 3]
+        || other == from
+    {
         return false;
     }
     member.points[end] = from;
@@ -80,7 +94,9 @@ pub fn add(structure: &mut ImportedStructure, link: PartialLink, all: &[PartialL
 
 /// Whether supports fix everything at the independent point that moves the dependent one.
 fn is_fixed(structure: &ImportedStructure, PartialLink { from, to, set }: PartialLink) -> bool {
-    let Some(fix) = structure.supports.get(&from) else { return false };
+    let Some(fix) = structure.supports.get(&from) else {
+        return false;
+    };
     let coincide = structure.points[from].at == structure.points[to].at;
     let translates = set[..3].iter().any(|joined| *joined);
     let needed = |dof: usize| set[dof] || (dof >= 3 && translates && !coincide);
@@ -88,10 +104,16 @@ fn is_fixed(structure: &ImportedStructure, PartialLink { from, to, set }: Partia
 }
 
 /// Whether a support, spring or mass resists the degrees of freedom of the dependent point that the link leaves free.
-fn holds_free_part(structure: &ImportedStructure, PartialLink { to, set, .. }: PartialLink) -> bool {
+fn holds_free_part(
+    structure: &ImportedStructure,
+    PartialLink { to, set, .. }: PartialLink,
+) -> bool {
     let fixes = |fix: &[bool; 6]| (0..6).any(|dof| fix[dof] && !set[dof]);
     structure.supports.get(&to).is_some_and(fixes)
-        || structure.springs.iter().any(|spring| spring.point == to && !set[spring.dof])
+        || structure
+            .springs
+            .iter()
+            .any(|spring| spring.point == to && !set[spring.dof])
         || structure
             .masses
             .iter()

@@ -28,7 +28,10 @@ enum Item {
 /// # Errors
 /// The text does not consist of three finite numbers.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
     match numbers.as_deref() {
         Some(&[x, y, z]) if [x, y, z].iter().all(|part| part.is_finite()) => Ok([x, y, z]),
         _ => Err("must be three numbers, such as 0,0,1".to_owned()),
@@ -46,9 +49,16 @@ impl FromStr for RailRequest {
         }
         let mut parts = rest.split('/');
         let list = parts.next().unwrap_or_default();
-        let items: Option<Vec<Item>> = list.split(',').map(|item| Item::read(item.trim())).collect();
-        let mut asked =
-            RailRequest { name: name.to_owned(), items: items.ok_or(example)?, offset: [0.0; 3], axis: None };
+        let items: Option<Vec<Item>> = list
+            .split(',')
+            .map(|item| Item::read(item.trim()))
+            .collect();
+        let mut asked = RailRequest {
+            name: name.to_owned(),
+            items: items.ok_or(example)?,
+            offset: [0.0; 3],
+            axis: None,
+        };
         for part in parts {
             match part.split_once('=') {
                 Some(("offset", value)) => {
@@ -99,15 +109,29 @@ pub fn rail_along_members(
         [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
     };
     let (Some(&first), Some(&last)) = (members.first(), members.last()) else {
-        return Err(["must have a member".to_owned(), "name elements or a set".to_owned()]);
+        return Err([
+            "must have a member".to_owned(),
+            "name elements or a set".to_owned(),
+        ]);
     };
     let [a, b] = structure.ends(first);
-    let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
+    let along = if first == last {
+        minus(b, a)
+    } else {
+        minus(middle(last), middle(first))
+    };
     let hint = "state it as /axis=X,Y,Z";
-    let axis =
-        asked.axis.or_else(|| horizontal(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
-    let axis =
-        axis.ok_or_else(|| ["must have an axis that is not parallel to up".to_owned(), hint.to_owned()])?;
+    let axis = asked
+        .axis
+        .or_else(|| horizontal(along, up))
+        .and_then(unit)
+        .filter(|axis| !parallel(*axis, up));
+    let axis = axis.ok_or_else(|| {
+        [
+            "must have an axis that is not parallel to up".to_owned(),
+            hint.to_owned(),
+        ]
+    })?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {
         let [a, b] = structure.ends(member);
@@ -120,7 +144,11 @@ pub fn rail_along_members(
         }
         ends.extend([a, b]);
     }
-    let origin = ends.iter().copied().min_by(|a, b| dot(minus(*a, *b), axis).total_cmp(&0.0)).unwrap_or(a);
+    let origin = ends
+        .iter()
+        .copied()
+        .min_by(|a, b| dot(minus(*a, *b), axis).total_cmp(&0.0))
+        .unwrap_or(a);
     let place = |at: [f64; 3]| dot(minus(at, origin), axis);
     let range = ends.iter().map(|end| place(*end)).fold(0.0, f64::max);
     let mut stations: Vec<f64> = members
@@ -131,9 +159,19 @@ pub fn rail_along_members(
     stations.sort_by(f64::total_cmp);
     stations.dedup_by(|b, a| *b - *a <= 1e-9 * range);
     if stations.iter().any(|station| !station.is_finite()) || range <= 0.0 {
-        return Err(["must have coordinates within double precision".to_owned(), hint.to_owned()]);
+        return Err([
+            "must have coordinates within double precision".to_owned(),
+            hint.to_owned(),
+        ]);
     }
-    Ok(ImportedRail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
+    Ok(ImportedRail {
+        name: asked.name.clone(),
+        origin,
+        axis,
+        members,
+        offset: asked.offset,
+        stations,
+    })
 }
 
 /// Component of a direction normal to `up`; `None` if its length is at most a tenth of that of the direction.
@@ -154,12 +192,19 @@ fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usi
                 .filter(|&index| (from..=to).contains(&&structure.members[index].id))
                 .collect(),
             Item::Set(name) => {
-                let set = structure.cell_sets.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+                let set = structure
+                    .cell_sets
+                    .iter()
+                    .find(|(known, _)| known.eq_ignore_ascii_case(name));
                 set.map(|(_, set)| set.clone()).unwrap_or_default()
             }
         };
         if found.is_empty() {
-            let names: Vec<&str> = structure.cell_sets.iter().map(|(name, _)| name.as_str()).collect();
+            let names: Vec<&str> = structure
+                .cell_sets
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect();
             let what = match item {
                 Item::Elements([from, to]) if from == to => {
                     format!("refers to element {from}, which is not a member")
@@ -186,16 +231,32 @@ mod tests {
 
     #[test]
     fn rails_are_read_from_the_command_line() {
-        let asked: RailRequest = "runway=12,30-35,girder/offset=0,0.5,0/axis=1,0,0".parse().expect("a rail");
+        let asked: RailRequest = "runway=12,30-35,girder/offset=0,0.5,0/axis=1,0,0"
+            .parse()
+            .expect("a rail");
         assert_eq!(asked.name, "runway");
         assert_eq!(
             asked.items,
-            [Item::Elements([12, 12]), Item::Elements([30, 35]), Item::Set("girder".to_owned())]
+            [
+                Item::Elements([12, 12]),
+                Item::Elements([30, 35]),
+                Item::Set("girder".to_owned())
+            ]
         );
-        assert_eq!((asked.offset, asked.axis), ([0.0, 0.5, 0.0], Some([1.0, 0.0, 0.0])));
-        for text in
-            ["runway", "=1", "a.b=1", "a=", "a=1,,2", "a=1/offset=1,2", "a=1/height=3", "a=1/axis=1,2,nan"]
-        {
+        assert_eq!(
+            (asked.offset, asked.axis),
+            ([0.0, 0.5, 0.0], Some([1.0, 0.0, 0.0]))
+        );
+        for text in [
+            "runway",
+            "=1",
+            "a.b=1",
+            "a=",
+            "a=1,,2",
+            "a=1/offset=1,2",
+            "a=1/height=3",
+            "a=1/axis=1,2,nan",
+        ] {
             assert!(text.parse::<RailRequest>().is_err(), "{text}");
         }
     }

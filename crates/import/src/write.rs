@@ -27,16 +27,48 @@ pub fn write(structure: &ImportedStructure) -> String {
     if let Some(up) = structure.up {
         put("up", json!(up));
     }
-    put("points", structure.points.iter().map(|point| json!(point.at)).collect());
-    let data: Value = structure.members.iter().map(|member| json!(member.points)).collect();
-    if structure.members.iter().any(|member| member.section_b.is_some()) {
+    put(
+        "points",
+        structure
+            .points
+            .iter()
+            .map(|point| json!(point.at))
+            .collect(),
+    );
+    let data: Value = structure
+        .members
+        .iter()
+        .map(|member| json!(member.points))
+        .collect();
+    if structure
+        .members
+        .iter()
+        .any(|member| member.section_b.is_some())
+    {
         put("parts", json!(PARTS));
     }
     put("cells", json!([{ "type": "line", "data": data }]));
     put("cell_data", cell_data(structure));
-    put("point_sets", structure.point_sets.iter().map(|(name, set)| (name.clone(), json!(set))).collect());
-    put("cell_sets", structure.cell_sets.iter().map(|(name, set)| (name.clone(), json!([set]))).collect());
-    put("materials", structure.materials.iter().map(material).collect());
+    put(
+        "point_sets",
+        structure
+            .point_sets
+            .iter()
+            .map(|(name, set)| (name.clone(), json!(set)))
+            .collect(),
+    );
+    put(
+        "cell_sets",
+        structure
+            .cell_sets
+            .iter()
+            .map(|(name, set)| (name.clone(), json!([set])))
+            .collect(),
+    );
+    put(
+        "materials",
+        structure.materials.iter().map(material).collect(),
+    );
     put("sections", structure.sections.iter().map(section).collect());
     put(
         "supports",
@@ -54,7 +86,14 @@ pub fn write(structure: &ImportedStructure) -> String {
             .map(|spring| json!({ "point": spring.point, "dof": DOFS[spring.dof], "k": spring.k }))
             .collect(),
     );
-    put("links", structure.links.iter().map(|[from, to]| json!({ "from": from, "to": to })).collect());
+    put(
+        "links",
+        structure
+            .links
+            .iter()
+            .map(|[from, to]| json!({ "from": from, "to": to }))
+            .collect(),
+    );
     put(
         "masses",
         structure
@@ -65,7 +104,14 @@ pub fn write(structure: &ImportedStructure) -> String {
             })
             .collect(),
     );
-    put("rails", structure.rails.iter().map(|rail| (rail.name.clone(), json!(rail_json(rail)))).collect());
+    put(
+        "rails",
+        structure
+            .rails
+            .iter()
+            .map(|rail| (rail.name.clone(), json!(rail_json(rail))))
+            .collect(),
+    );
     spec.retain(|key, value| key == "rails" || !empty(value));
     lines(&spec)
 }
@@ -92,39 +138,64 @@ fn cell_data(structure: &ImportedStructure) -> Value {
     put(
         "kind",
         members.iter().any(|member| member.kind != MemberKind::Beam),
-        members.iter().map(|member| json!(kind(member.kind))).collect(),
+        members
+            .iter()
+            .map(|member| json!(kind(member.kind)))
+            .collect(),
     );
-    put("section", true, members.iter().map(|member| json!(member.section)).collect());
+    put(
+        "section",
+        true,
+        members.iter().map(|member| json!(member.section)).collect(),
+    );
     put(
         "section_b",
         members.iter().any(|member| member.section_b.is_some()),
-        members.iter().map(|member| json!(member.section_b)).collect(),
+        members
+            .iter()
+            .map(|member| json!(member.section_b))
+            .collect(),
     );
     let up = structure.up.unwrap_or([0.0, 1.0, 0.0]);
     put(
         "orientation",
         members.iter().any(|member| member.orientation.is_some()),
-        members.iter().map(|member| json!(member.orientation.unwrap_or(up))).collect(),
+        members
+            .iter()
+            .map(|member| json!(member.orientation.unwrap_or(up)))
+            .collect(),
     );
     for (end, key) in ["offset_a", "offset_b"].into_iter().enumerate() {
         put(
             key,
             members.iter().any(|member| member.offsets[end] != [0.0; 3]),
-            members.iter().map(|member| json!(member.offsets[end])).collect(),
+            members
+                .iter()
+                .map(|member| json!(member.offsets[end]))
+                .collect(),
         );
     }
     for (end, key) in ["release_a", "release_b"].into_iter().enumerate() {
         put(
             key,
-            members.iter().any(|member| member.releases[end].contains(&true)),
-            members.iter().map(|member| words(&member.releases[end])).collect(),
+            members
+                .iter()
+                .any(|member| member.releases[end].contains(&true)),
+            members
+                .iter()
+                .map(|member| words(&member.releases[end]))
+                .collect(),
         );
     }
     Value::Object(data)
 }
 
 fn words(set: &[bool; 6]) -> Value {
-    DOFS.iter().zip(set).filter(|(_, on)| **on).map(|(word, _)| json!(word)).collect()
+    DOFS.iter()
+        .zip(set)
+        .filter(|(_, on)| **on)
+        .map(|(word, _)| json!(word))
+        .collect()
 }
 
 fn material(material: &super::structure::ImportedMaterial) -> Value {
@@ -174,7 +245,15 @@ fn rail_json(rail: &ImportedRail) -> Value {
 
 /// Formats an object with one line for each key, and one line for each item of long lists.
 fn lines(spec: &Map<String, Value>) -> String {
-    let long = ["points", "materials", "sections", "supports", "springs", "links", "masses"];
+    let long = [
+        "points",
+        "materials",
+        "sections",
+        "supports",
+        "springs",
+        "links",
+        "masses",
+    ];
     let mut parts = Vec::new();
     for (key, value) in spec {
         let text = match value {
@@ -184,9 +263,15 @@ fn lines(spec: &Map<String, Value>) -> String {
             }
             Value::Object(members) if key == "cell_data" || key == "rails" => {
                 let name = |name: &String| Value::String(name.clone());
-                let members: Vec<String> =
-                    members.iter().map(|(key, value)| format!("  {}: {value}", name(key))).collect();
-                if members.is_empty() { "{}".to_owned() } else { format!("{{\n{}\n }}", members.join(",\n")) }
+                let members: Vec<String> = members
+                    .iter()
+                    .map(|(key, value)| format!("  {}: {value}", name(key)))
+                    .collect();
+                if members.is_empty() {
+                    "{}".to_owned()
+                } else {
+                    format!("{{\n{}\n }}", members.join(",\n"))
+                }
             }
             other => other.to_string(),
         };

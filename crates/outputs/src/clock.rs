@@ -23,7 +23,11 @@ impl StageClock {
     #[must_use]
     pub fn new() -> StageClock {
         let now = Instant::now();
-        StageClock { started: now, last: now, stages: Vec::new() }
+        StageClock {
+            started: now,
+            last: now,
+            stages: Vec::new(),
+        }
     }
 
     /// Records the time since the previous lap as the duration of `stage`.
@@ -52,9 +56,15 @@ impl StageClock {
     /// Durations of the stages and their total as JSON, s.
     #[must_use]
     pub fn json(&self) -> Value {
-        let mut stages: Map<String, Value> =
-            self.stages.iter().map(|(stage, seconds)| ((*stage).to_owned(), json!(seconds))).collect();
-        stages.insert("total".to_owned(), json!((self.last - self.started).as_secs_f64()));
+        let mut stages: Map<String, Value> = self
+            .stages
+            .iter()
+            .map(|(stage, seconds)| ((*stage).to_owned(), json!(seconds)))
+            .collect();
+        stages.insert(
+            "total".to_owned(),
+            json!((self.last - self.started).as_secs_f64()),
+        );
         Value::Object(stages)
     }
 }

@@ -15,7 +15,13 @@ use formats::text::inputs::Inputs;
 use report::text::design_report::design_report;
 
 /// Files of a design.
-const FILES: [&str; 5] = ["envelope.csv", "reactions.csv", "influence.csv", "summary.json", "report.html"];
+const FILES: [&str; 5] = [
+    "envelope.csv",
+    "reactions.csv",
+    "influence.csv",
+    "summary.json",
+    "report.html",
+];
 
 /// A design with its results.
 pub struct SolvedDesign {
@@ -38,7 +44,12 @@ impl SolvedDesign {
         let design = design::with_combinations(design);
         let result = design::solve(&design, &inputs)?;
         let lines = design::governing_lines(&design, &inputs, &result)?;
-        Ok(SolvedDesign { design, inputs, result, lines })
+        Ok(SolvedDesign {
+            design,
+            inputs,
+            result,
+            lines,
+        })
     }
 
     /// The contents of `summary.json`.
@@ -52,10 +63,24 @@ impl SolvedDesign {
     /// # Errors
     /// A file that would be replaced belongs to somebody else, or the folder cannot be written.
     pub fn write(&self, mut folder: OutputFolder, threads: Option<u16>) -> Result<PathBuf, Error> {
-        let SolvedDesign { design, inputs, result, lines } = self;
-        folder.add("envelope.csv", design::envelope_csv(design, result).map_err(Error::not_shown)?);
-        folder.add("reactions.csv", design::reactions_csv(result).map_err(Error::not_shown)?);
-        folder.add("influence.csv", design::influence_csv(design, lines).map_err(Error::not_shown)?);
+        let SolvedDesign {
+            design,
+            inputs,
+            result,
+            lines,
+        } = self;
+        folder.add(
+            "envelope.csv",
+            design::envelope_csv(design, result).map_err(Error::not_shown)?,
+        );
+        folder.add(
+            "reactions.csv",
+            design::reactions_csv(result).map_err(Error::not_shown)?,
+        );
+        folder.add(
+            "influence.csv",
+            design::influence_csv(design, lines).map_err(Error::not_shown)?,
+        );
         folder.add("summary.json", json_text(&self.summary()));
         let page = design_report(design, result, lines);
         folder.add("report.html", page.html(threads).map_err(Error::not_shown)?);
@@ -68,7 +93,9 @@ impl SolvedDesign {
 /// # Errors
 /// A file that would be replaced belongs to somebody else, or the folder cannot be written.
 pub fn open_design_folder(path: &Path, force: bool) -> Result<OutputFolder, Error> {
-    let planned =
-        PlannedFiles { names: FILES.iter().map(|name| (*name).to_owned()).collect(), plots: Vec::new() };
+    let planned = PlannedFiles {
+        names: FILES.iter().map(|name| (*name).to_owned()).collect(),
+        plots: Vec::new(),
+    };
     OutputFolder::open(path, "design", force, &planned)
 }

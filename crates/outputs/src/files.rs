@@ -44,7 +44,10 @@ fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn target(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..LINKS {
-        if !path.symlink_metadata().is_ok_and(|there| there.is_symlink()) {
+        if !path
+            .symlink_metadata()
+            .is_ok_and(|there| there.is_symlink())
+        {
             return Ok(path);
         }
         path = folder_of(&path).join(fs::read_link(&path)?);
@@ -108,7 +111,10 @@ pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), Error> {
         all.push((stage().map_err(|error| cannot_write(path, &error))?, path));
     }
     for ((file, to), path) in all {
-        let placed = file.persist(&to).map_err(|error| error.error).and_then(|_| sync(&folder_of(&to)));
+        let placed = file
+            .persist(&to)
+            .map_err(|error| error.error)
+            .and_then(|_| sync(&folder_of(&to)));
         placed.map_err(|error| cannot_write(path, &error))?;
     }
     Ok(())
@@ -155,7 +161,8 @@ pub(crate) fn temporaries(folder: &Path) -> Vec<(PathBuf, fs::FileType)> {
             random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
         })
     });
-    ours.filter_map(|entry| Some((entry.path(), entry.file_type().ok()?))).collect()
+    ours.filter_map(|entry| Some((entry.path(), entry.file_type().ok()?)))
+        .collect()
 }
 
 /// Whether an open file still has a name.
@@ -172,7 +179,11 @@ fn has_name(_file: &File) -> io::Result<bool> {
 
 /// Flushes renames in a folder to the disk, on systems that support it.
 pub(crate) fn sync(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()
+    } else {
+        Ok(())
+    }
 }
 
 /// The folder of a file.
@@ -185,10 +196,14 @@ pub(crate) fn folder_of(path: &Path) -> PathBuf {
 
 /// Creates the failure of a file that cannot be written.
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Error {
-    let fault =
-        Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {}", reason(error)));
+    let fault = Diagnostic::of_file(
+        path.display().to_string(),
+        format!("cannot be written: {}", reason(error)),
+    );
     if is_full(error) {
-        fault.hint("free some space, or name another folder with -o").into()
+        fault
+            .hint("free some space, or name another folder with -o")
+            .into()
     } else {
         fault.into()
     }
@@ -234,7 +249,13 @@ mod tests {
     fn names(path: &Path) -> Vec<String> {
         let entries = fs::read_dir(path).expect("a folder");
         let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
             .collect();
         names.sort();
         names
@@ -269,8 +290,13 @@ mod tests {
     fn a_file_keeps_its_permissions_and_a_new_one_has_those_of_new_files() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mode =
-            |name: &str| fs::metadata(folder.path().join(name)).expect("a file").permissions().mode() & 0o777;
+        let mode = |name: &str| {
+            fs::metadata(folder.path().join(name))
+                .expect("a file")
+                .permissions()
+                .mode()
+                & 0o777
+        };
         fs::write(folder.path().join("plain"), "x").expect("writable");
         let [old, new] = ["old", "new"].map(|name| folder.path().join(name));
         fs::write(&old, "x").expect("writable");
@@ -299,15 +325,30 @@ mod tests {
         let folder = temporary.path();
         fs::create_dir(folder.join("deep")).expect("writable");
         fs::write(folder.join("deep/old.json"), "old").expect("writable");
-        for (link, target) in [("one", "deep/two"), ("deep/two", "old.json"), ("new", "deep/new.json")] {
+        for (link, target) in [
+            ("one", "deep/two"),
+            ("deep/two", "old.json"),
+            ("new", "deep/new.json"),
+        ] {
             symlink(target, folder.join(link)).expect("a link");
         }
         write(&folder.join("one"), b"first").expect("writable");
         write(&folder.join("new"), b"second").expect("writable");
-        let is_link = |name: &str| folder.join(name).symlink_metadata().is_ok_and(|there| there.is_symlink());
+        let is_link = |name: &str| {
+            folder
+                .join(name)
+                .symlink_metadata()
+                .is_ok_and(|there| there.is_symlink())
+        };
         assert!(is_link("one") && is_link("deep/two") && is_link("new"));
-        assert_eq!(fs::read(folder.join("deep/old.json")).expect("written"), b"first");
-        assert_eq!(fs::read(folder.join("deep/new.json")).expect("written"), b"second");
+        assert_eq!(
+            fs::read(folder.join("deep/old.json")).expect("written"),
+            b"first"
+        );
+        assert_eq!(
+            fs::read(folder.join("deep/new.json")).expect("written"),
+            b"second"
+        );
         symlink("circle", folder.join("circle")).expect("a link");
         assert!(write(&folder.join("circle"), b"x").is_err());
     }

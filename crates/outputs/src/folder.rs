@@ -63,15 +63,22 @@ impl OutputFolder {
     ) -> Result<OutputFolder, Error> {
         check_path(path)?;
         let fail = |error: io::Error| cannot_write(path, &error);
-        let mut created: Vec<PathBuf> =
-            path.ancestors().take_while(|part| !part.exists()).map(Path::to_path_buf).collect();
+        let mut created: Vec<PathBuf> = path
+            .ancestors()
+            .take_while(|part| !part.exists())
+            .map(Path::to_path_buf)
+            .collect();
         created.reverse();
         created.retain(|part| !part.as_os_str().is_empty());
         fs::create_dir_all(path).map_err(fail)?;
         let Some(journal) = Journal::open(path).map_err(fail)? else {
-            let fault =
-                Diagnostic::of_file(path.display().to_string(), "another run is writing into this folder");
-            return Err(fault.hint("wait until it ends, or name another folder with -o").into());
+            let fault = Diagnostic::of_file(
+                path.display().to_string(),
+                "another run is writing into this folder",
+            );
+            return Err(fault
+                .hint("wait until it ends, or name another folder with -o")
+                .into());
         };
         let keeps_journal = !journal.listed().is_empty();
         let listed = journal.listed().to_vec();
@@ -86,7 +93,9 @@ impl OutputFolder {
             keeps_journal,
         };
         folder.clear_dead();
-        let older = fs::read(path.join(MANIFEST)).ok().and_then(|text| listed_files(&text));
+        let older = fs::read(path.join(MANIFEST))
+            .ok()
+            .and_then(|text| listed_files(&text));
         folder.listed.extend(older.into_iter().flatten());
         let mut names = planned.names.clone();
         names.extend(folder.pictures(&planned.plots));
@@ -113,10 +122,15 @@ impl OutputFolder {
 
     /// Pictures in the folder whose names begin in one of the given ways.
     fn pictures(&self, beginnings: &[String]) -> Vec<String> {
-        let entries = fs::read_dir(self.path.join(PLOTS)).into_iter().flatten().flatten();
+        let entries = fs::read_dir(self.path.join(PLOTS))
+            .into_iter()
+            .flatten()
+            .flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
         let mut names: Vec<String> = names
-            .filter(|name| name.ends_with(".svg") && beginnings.iter().any(|start| name.starts_with(start)))
+            .filter(|name| {
+                name.ends_with(".svg") && beginnings.iter().any(|start| name.starts_with(start))
+            })
             .map(|name| format!("{PLOTS}/{name}"))
             .collect();
         names.sort();
@@ -128,25 +142,40 @@ impl OutputFolder {
         let mut foreign: Vec<Diagnostic> = Vec::new();
         for name in names {
             let path = self.path.join(name);
-            let last = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
+            let last = Path::new(name)
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy();
             if is_too_long(&folder_of(&path), &last) {
                 return Err(cannot_write(&path, &io::ErrorKind::InvalidFilename.into()));
             }
-            let Ok(there) = path.symlink_metadata() else { continue };
+            let Ok(there) = path.symlink_metadata() else {
+                continue;
+            };
             let file = path.display().to_string();
             if there.is_dir() {
                 foreign.push(
-                    Diagnostic::of_file(file, "is a folder, and a file of this name is to be written")
-                        .hint("move it, or name another folder with -o"),
+                    Diagnostic::of_file(
+                        file,
+                        "is a folder, and a file of this name is to be written",
+                    )
+                    .hint("move it, or name another folder with -o"),
                 );
             } else if !self.may_replace_all && !self.is_ours(name) {
                 foreign.push(
-                    Diagnostic::of_file(file, "would be replaced, but is not as girderway wrote it")
-                        .hint("move it, name another folder with -o, or replace it with --force"),
+                    Diagnostic::of_file(
+                        file,
+                        "would be replaced, but is not as girderway wrote it",
+                    )
+                    .hint("move it, name another folder with -o, or replace it with --force"),
                 );
             }
         }
-        if foreign.is_empty() { Ok(()) } else { Err(foreign.into()) }
+        if foreign.is_empty() {
+            Ok(())
+        } else {
+            Err(foreign.into())
+        }
     }
 
     /// Whether the program wrote the existing file of this name, and nobody has changed it since.
@@ -158,7 +187,11 @@ impl OutputFolder {
         if name == MANIFEST {
             return fs::read(&path).is_ok_and(|text| listed_files(&text).is_some());
         }
-        let mut entries = self.listed.iter().filter(|entry| entry.name == name).peekable();
+        let mut entries = self
+            .listed
+            .iter()
+            .filter(|entry| entry.name == name)
+            .peekable();
         if entries.peek().is_none() {
             return false;
         }
@@ -191,7 +224,10 @@ impl OutputFolder {
             let (file, bytes, sha256) = writer.finish();
             Ok(FileContents::Written(file.into_inner()?, bytes, sha256))
         });
-        self.put(name, written.map_err(|error| cannot_write(&self.path.join(name), &error))?);
+        self.put(
+            name,
+            written.map_err(|error| cannot_write(&self.path.join(name), &error))?,
+        );
         Ok(())
     }
 
@@ -202,7 +238,9 @@ impl OutputFolder {
     }
 
     fn staging(&mut self) -> &mut Staging {
-        self.staging.as_mut().expect("it is there from the opening to the end")
+        self.staging
+            .as_mut()
+            .expect("it is there from the opening to the end")
     }
 
     /// Places all files and then `manifest.json`, which lists them.
@@ -220,7 +258,8 @@ impl OutputFolder {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         let names = self.files.iter().map(|(name, _)| name.as_str());
         self.check_owner(names.chain([MANIFEST]))?;
-        self.write(&mut manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
+        self.write(&mut manifest)
+            .map_err(|(file, error)| cannot_write(&file, &error))?;
         self.clear_older();
         self.keeps_journal = false;
         self.created.clear();
@@ -229,14 +268,26 @@ impl OutputFolder {
 
     fn write(&mut self, manifest: &mut Manifest) -> Result<(), (PathBuf, io::Error)> {
         self.finish_files(manifest)?;
-        let number = self.staging().begin(FileContents::Fixed(manifest.text().into_bytes()));
+        let number = self
+            .staging()
+            .begin(FileContents::Fixed(manifest.text().into_bytes()));
         let all = self.listed.iter().chain(&manifest.outputs);
-        let entries: Vec<OutputEntry> =
-            all.filter(|entry| !self.journal.listed().contains(entry)).cloned().collect();
+        let entries: Vec<OutputEntry> = all
+            .filter(|entry| !self.journal.listed().contains(entry))
+            .cloned()
+            .collect();
         self.journal.list(&entries).map_err(at(&self.path))?;
-        self.staging().finish(number).map_err(at(&self.path.join(MANIFEST)))?;
-        let staging = self.staging.take().expect("it is there from the opening to the end");
-        let mut exchange = Exchange { staging: &staging, steps: Vec::new() };
+        self.staging()
+            .finish(number)
+            .map_err(at(&self.path.join(MANIFEST)))?;
+        let staging = self
+            .staging
+            .take()
+            .expect("it is there from the opening to the end");
+        let mut exchange = Exchange {
+            staging: &staging,
+            steps: Vec::new(),
+        };
         let placed = self.place(&mut exchange, number);
         if placed.is_err() && exchange.undo().is_err() {
             // the older files remain beside the new ones, and the next run may replace both
@@ -248,11 +299,18 @@ impl OutputFolder {
 
     /// Waits until all files are on the disk, and lists them in the manifest.
     fn finish_files(&mut self, manifest: &mut Manifest) -> Result<(), (PathBuf, io::Error)> {
-        let staging = self.staging.as_mut().expect("it is there from the opening to the end");
+        let staging = self
+            .staging
+            .as_mut()
+            .expect("it is there from the opening to the end");
         for (name, number) in &self.files {
             let hash = staging.finish(*number).map_err(at(&self.path.join(name)))?;
             let (bytes, sha256) = hash.unzip();
-            manifest.outputs.push(OutputEntry { name: name.clone(), bytes, sha256 });
+            manifest.outputs.push(OutputEntry {
+                name: name.clone(),
+                bytes,
+                sha256,
+            });
         }
         Ok(())
     }
@@ -282,7 +340,9 @@ impl OutputFolder {
     fn clear_older(&mut self) {
         for entry in mem::take(&mut self.listed) {
             let name = entry.name.as_str();
-            let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+            let is_inside = Path::new(name)
+                .components()
+                .all(|part| matches!(part, Component::Normal(_)));
             if !is_inside || name == MANIFEST || self.files.iter().any(|(known, _)| known == name) {
                 continue;
             }
@@ -315,7 +375,9 @@ impl Drop for OutputFolder {
 /// # Errors
 /// Part of the path is a file.
 pub fn check_path(path: &Path) -> Result<(), Error> {
-    let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
+    let there = path
+        .ancestors()
+        .find(|part| !part.as_os_str().is_empty() && part.exists());
     if let Some(part) = there.filter(|part| !part.is_dir()) {
         let expected = format!("cannot be an output folder: {} is a file", part.display());
         return Err(Diagnostic::of_file(path.display().to_string(), expected).into());
@@ -326,7 +388,10 @@ pub fn check_path(path: &Path) -> Result<(), Error> {
 /// Whether `name` is too long for the file system of a folder, which need not exist yet.
 #[must_use]
 pub fn is_too_long(folder: &Path, name: &str) -> bool {
-    let there = folder.ancestors().find(|part| part.is_dir()).unwrap_or(Path::new("."));
+    let there = folder
+        .ancestors()
+        .find(|part| part.is_dir())
+        .unwrap_or(Path::new("."));
     let found = there.join(name).symlink_metadata();
     found.is_err_and(|error| error.kind() == io::ErrorKind::InvalidFilename)
 }
@@ -348,7 +413,8 @@ impl Exchange<'_> {
     fn take_away(&mut self, target: &Path) -> io::Result<()> {
         let kept = self.place_of_next();
         let was_there = unless_missing(fs::rename(target, &kept))?;
-        self.steps.push((target.to_path_buf(), was_there.then_some(kept)));
+        self.steps
+            .push((target.to_path_buf(), was_there.then_some(kept)));
         Ok(())
     }
 
@@ -358,7 +424,8 @@ impl Exchange<'_> {
         let kept = self.place_of_next();
         let was_there = unless_missing(fs::hard_link(target, &kept))
             .or_else(|_| unless_missing(fs::rename(target, &kept)))?;
-        self.steps.push((target.to_path_buf(), was_there.then_some(kept)));
+        self.steps
+            .push((target.to_path_buf(), was_there.then_some(kept)));
         fs::rename(self.staging.path(number), target)
     }
 

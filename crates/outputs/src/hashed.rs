@@ -15,7 +15,11 @@ pub(crate) struct HashedWriter<W> {
 impl<W: Write> HashedWriter<W> {
     /// A writer that passes everything on to another one.
     pub fn new(to: W) -> HashedWriter<W> {
-        HashedWriter { to, hash: Sha256::new(), bytes: 0 }
+        HashedWriter {
+            to,
+            hash: Sha256::new(),
+            bytes: 0,
+        }
     }
 
     /// The other writer, the number of bytes, and their SHA-256 in hexadecimal.
@@ -45,7 +49,10 @@ pub(crate) fn sha256_of(mut from: impl Read) -> io::Result<String> {
 }
 
 fn hexadecimal(hash: Sha256) -> String {
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hash.finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 #[cfg(test)]

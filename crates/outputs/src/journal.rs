@@ -30,7 +30,10 @@ fn enter(folder: Option<&Path>) {
 /// The output folder in which the program is at work, which a stop would leave with its journal.
 #[must_use]
 pub fn folder_at_work() -> Option<PathBuf> {
-    FOLDER.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    FOLDER
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .clone()
 }
 
 /// From now on a stop of the program leaves the runs of a sweep in the folder.
@@ -64,7 +67,11 @@ impl Journal {
     pub fn open(folder: &Path) -> io::Result<Option<Journal>> {
         let path = folder.join(JOURNAL);
         loop {
-            let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path)?;
+            let mut file = OpenOptions::new()
+                .read(true)
+                .append(true)
+                .create(true)
+                .open(&path)?;
             let is_locked = match file.try_lock() {
                 Ok(()) => true,
                 Err(TryLockError::WouldBlock) => return Ok(None),
@@ -78,7 +85,12 @@ impl Journal {
             let mut text = String::new();
             file.read_to_string(&mut text)?;
             let listed = entries(&text)?;
-            return Ok(Some(Journal { path, file, listed, is_locked }));
+            return Ok(Some(Journal {
+                path,
+                file,
+                listed,
+                is_locked,
+            }));
         }
     }
 
@@ -109,7 +121,10 @@ impl Journal {
     /// # Errors
     /// The journal cannot be written.
     pub fn list(&mut self, files: &[OutputEntry]) -> io::Result<()> {
-        let lines: Vec<String> = files.iter().map(|entry| format!("{}\n", json!(entry))).collect();
+        let lines: Vec<String> = files
+            .iter()
+            .map(|entry| format!("{}\n", json!(entry)))
+            .collect();
         self.append(&format!("\n{}", lines.concat()))?;
         self.file.sync_all()?;
         self.listed.extend_from_slice(files);
@@ -135,9 +150,14 @@ impl Journal {
 fn entries(text: &str) -> io::Result<Vec<OutputEntry>> {
     let mut lines = text.lines().filter(|line| !line.is_empty());
     if lines.next().is_some_and(|first| !first.starts_with("{\"")) {
-        return Err(io::Error::new(io::ErrorKind::InvalidData, "it is not a journal of girderway"));
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "it is not a journal of girderway",
+        ));
     }
-    Ok(lines.filter_map(|line| serde_json::from_str(line).ok()).collect())
+    Ok(lines
+        .filter_map(|line| serde_json::from_str(line).ok())
+        .collect())
 }
 
 /// Whether the path still leads to the open file.

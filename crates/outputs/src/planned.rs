@@ -14,19 +14,33 @@ use foundations::distinct_specs;
 const PICTURES: [&str; 4] = ["crane.svg", "positions.svg", "speeds.svg", "wheel-"];
 
 /// Beginnings of the names of pictures of a body, a rail or a structure, before its name.
-const FAMILIES: [&str; 8] =
-    ["path-", "speeds-", "trochoid-", "rail-", "moments-", "girder-", "grid-", "influence-"];
+const FAMILIES: [&str; 8] = [
+    "path-",
+    "speeds-",
+    "trochoid-",
+    "rail-",
+    "moments-",
+    "girder-",
+    "grid-",
+    "influence-",
+];
 
 /// Files that `command`, `run` or `sim`, writes for a scene. Without them: pictures of single columns, and the grids
 /// that `sim` reads and checks itself.
 pub fn planned_files(command: &str, document: &Document) -> PlannedFiles {
-    let mut names: Vec<String> =
-        ["summary.json", "report.html", "timing.json"].into_iter().map(str::to_owned).collect();
+    let mut names: Vec<String> = ["summary.json", "report.html", "timing.json"]
+        .into_iter()
+        .map(str::to_owned)
+        .collect();
     for (name, _, spec) in distinct_specs(document) {
         if command == "run" || !spec.pads().is_empty() {
             names.push(format!("grid-{name}.json"));
         }
-        if spec.rails().iter().any(|rail| rail.stations.len() >= SplineValues::MIN_POINTS) {
+        if spec
+            .rails()
+            .iter()
+            .any(|rail| rail.stations.len() >= SplineValues::MIN_POINTS)
+        {
             names.push(format!("{name}.adm"));
         }
     }
@@ -39,13 +53,20 @@ pub fn planned_files(command: &str, document: &Document) -> PlannedFiles {
         .chain(scene.rails.iter().map(|rail| &rail.name))
         .chain(scene.structures.iter().map(|structure| &structure.name));
     let of_subjects = subjects.flat_map(|name| FAMILIES.map(|family| format!("{family}{name}")));
-    let plots = PICTURES.map(str::to_owned).into_iter().chain(of_subjects).collect();
+    let plots = PICTURES
+        .map(str::to_owned)
+        .into_iter()
+        .chain(of_subjects)
+        .collect();
     PlannedFiles { names, plots }
 }
 
 /// Name of a table of a case.
 fn of_case(table: &str, case: &Case) -> String {
-    case.label.as_ref().map_or_else(|| format!("{table}.csv"), |label| format!("{table}-{label}.csv"))
+    case.label.as_ref().map_or_else(
+        || format!("{table}.csv"),
+        |label| format!("{table}-{label}.csv"),
+    )
 }
 
 /// Checks that no name of a structure or comparison makes the name of a file too long for the file system.
@@ -58,22 +79,41 @@ pub fn check_names(document: &Document, folder: &Path) -> Result<(), Error> {
     let mut faults = Faults::default();
     let mut check = |file: &str, place: &Place<'_>| {
         if is_too_long(folder, file) {
-            let fault = Fault::new(place, "makes the name of a file too long for the file system");
+            let fault = Fault::new(
+                place,
+                "makes the name of a file too long for the file system",
+            );
             faults.add(fault.got(format!("{file:?}")).hint("shorten the name"));
         }
     };
-    let labelled = || document.cases.iter().filter(|case| case.label.is_some()).enumerate();
+    let labelled = || {
+        document
+            .cases
+            .iter()
+            .filter(|case| case.label.is_some())
+            .enumerate()
+    };
     for (name, ..) in distinct_specs(document) {
-        if document.scene().structures.iter().any(|structure| structure.name == name) {
-            check(&format!("grid-{name}-vertical.svg"), &structures.key(&name));
-        } else if let Some((index, _)) = labelled()
-            .find(|(_, case)| case.label.as_ref().is_some_and(|label| name.ends_with(label.as_str())))
+        if document
+            .scene()
+            .structures
+            .iter()
+            .any(|structure| structure.name == name)
         {
+            check(&format!("grid-{name}-vertical.svg"), &structures.key(&name));
+        } else if let Some((index, _)) = labelled().find(|(_, case)| {
+            case.label
+                .as_ref()
+                .is_some_and(|label| name.ends_with(label.as_str()))
+        }) {
             check(&format!("grid-{name}.json"), &comparisons.index(index));
         }
     }
     for (index, case) in labelled() {
-        check(&of_case("envelope", case), &comparisons.index(index).key("label"));
+        check(
+            &of_case("envelope", case),
+            &comparisons.index(index).key("label"),
+        );
     }
     if faults.0.is_empty() {
         return Ok(());

@@ -63,7 +63,11 @@ pub fn write_run(
     threads: Option<u16>,
     mut clock: StageClock,
 ) -> Result<WrittenRun, Error> {
-    let SceneRun { document, structures, cases } = run;
+    let SceneRun {
+        document,
+        structures,
+        cases,
+    } = run;
     let scene = document.scene();
     let (files, comparison, summary) = tables(run, threads)?;
     for (name, contents) in files {
@@ -77,16 +81,27 @@ pub fn write_run(
         folder.add(&format!("plots/{name}.svg"), svg.file());
     }
     clock.lap("plots");
-    let page = run_report::report(document, cases, &run.solutions(), &comparison, figures.figures);
+    let page = run_report::report(
+        document,
+        cases,
+        &run.solutions(),
+        &comparison,
+        figures.figures,
+    );
     folder.add("report.html", page.html(threads).map_err(Error::not_shown)?);
     clock.lap("report");
     folder.add_varying("timing.json", json_text(&clock.json()));
-    let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
+    let settings =
+        json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
     let folder = folder.commit(Manifest::new(command, &document.inputs, settings))?;
     let warnings = figures.omitted.iter().map(|OmittedFigure { name, why }| {
         format!("the figure {name} is omitted because it cannot be drawn: {why}")
     });
-    Ok(WrittenRun { folder, summary, warnings: warnings.collect() })
+    Ok(WrittenRun {
+        folder,
+        summary,
+        warnings: warnings.collect(),
+    })
 }
 
 /// What is made of a run on one thread.
@@ -99,10 +114,16 @@ enum TablePart {
 
 /// The tables of all cases and structures with their names, and the comparison of the cases with the summary, which take
 /// longest and begin first.
-fn tables(run: &SceneRun, threads: Option<u16>) -> Result<(NamedFiles, RunComparison, Value), Error> {
+fn tables(
+    run: &SceneRun,
+    threads: Option<u16>,
+) -> Result<(NamedFiles, RunComparison, Value), Error> {
     let sheets_of = (0..run.cases.len()).map(TablePart::Sheets);
-    let parts: Vec<TablePart> =
-        [TablePart::Comparison].into_iter().chain(sheets_of).chain([TablePart::Grids]).collect();
+    let parts: Vec<TablePart> = [TablePart::Comparison]
+        .into_iter()
+        .chain(sheets_of)
+        .chain([TablePart::Grids])
+        .collect();
     let made = parallel_map(&parts, threads, |_, part| match part {
         TablePart::Comparison => {
             let comparison = run.comparison(Some(1));
@@ -145,10 +166,16 @@ fn sheets(run: &SceneRun, index: usize) -> Result<NamedFiles, Error> {
         Some(label) => format!("{kind}-{label}.csv"),
         None => format!("{kind}.csv"),
     };
-    let mut all = vec![(name("history"), result.columns.csv().map_err(Error::not_shown)?)];
+    let mut all = vec![(
+        name("history"),
+        result.columns.csv().map_err(Error::not_shown)?,
+    )];
     let cycles = fatigue::csv(&result.fatigue, &result.columns).map_err(Error::not_shown)?;
     all.extend(cycles.map(|cycles| (name("cycles"), cycles)));
-    let envelope = result.girders().csv(&case.scene, index + 1).map_err(Error::not_shown)?;
+    let envelope = result
+        .girders()
+        .csv(&case.scene, index + 1)
+        .map_err(Error::not_shown)?;
     all.extend(envelope.map(|envelope| (name("envelope"), envelope)));
     Ok(all)
 }

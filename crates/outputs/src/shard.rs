@@ -100,7 +100,9 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
             Err(diagnostic) => wrong.push(*diagnostic),
         }
     }
-    let Some((first, known, _)) = read.first() else { return Err(Error::Files(wrong)) };
+    let Some((first, known, _)) = read.first() else {
+        return Err(Error::Files(wrong));
+    };
     let (of, count) = (known.of, known.info.runs);
     let mut seen: BTreeMap<usize, &Path> = BTreeMap::new();
     for (folder, shard, runs) in &read {
@@ -112,23 +114,43 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
             );
             wrong.push(fault(expected).hint("run the shard again"));
         } else if let Some(other) = seen.insert(shard.shard, folder) {
-            wrong.push(fault(format!("is shard {} of {of}, as {} is", shard.shard, other.display())));
+            wrong.push(fault(format!(
+                "is shard {} of {of}, as {} is",
+                shard.shard,
+                other.display()
+            )));
         }
-        if !runs.iter().copied().eq((shard.shard..=count).step_by(of.max(1))) {
+        if !runs
+            .iter()
+            .copied()
+            .eq((shard.shard..=count).step_by(of.max(1)))
+        {
             wrong.push(fault("does not have all its runs".to_owned()).hint("run the shard again"));
         }
     }
-    let missing: Vec<String> = (1..=of).filter(|k| !seen.contains_key(k)).map(|k| k.to_string()).collect();
+    let missing: Vec<String> = (1..=of)
+        .filter(|k| !seen.contains_key(k))
+        .map(|k| k.to_string())
+        .collect();
     if wrong.is_empty() && !missing.is_empty() {
-        let expected = format!("--merge needs all {of} shards, {} missing", missing.join(", "));
-        wrong.push(Diagnostic::of_file("command line", expected).hint("name the folder of each shard"));
+        let expected = format!(
+            "--merge needs all {of} shards, {} missing",
+            missing.join(", ")
+        );
+        wrong.push(
+            Diagnostic::of_file("command line", expected).hint("name the folder of each shard"),
+        );
     }
     if !wrong.is_empty() {
         return Err(Error::Files(wrong));
     }
     let rows = read.iter().map(|(folder, ..)| folder.join(ROWS)).collect();
     let (_, first, _) = read.swap_remove(0);
-    Ok(JoinedShards { info: first.info, inputs: first.inputs, rows })
+    Ok(JoinedShards {
+        info: first.info,
+        inputs: first.inputs,
+        rows,
+    })
 }
 
 /// Reads one shard, whose files must be as its manifest lists them, and the numbers of its runs.
@@ -136,16 +158,26 @@ fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<usize>), Box<Diagnostic>>
     let fault = |expected: &str, hint: &str| {
         Box::new(Diagnostic::of_file(folder.display().to_string(), expected).hint(hint))
     };
-    let none =
-        || fault("is not the folder of a finished shard", "girderway sweep SWEEP --shard K/N makes one");
+    let none = || {
+        fault(
+            "is not the folder of a finished shard",
+            "girderway sweep SWEEP --shard K/N makes one",
+        )
+    };
     let manifest = fs::read(folder.join(MANIFEST)).map_err(|_| none())?;
     let listed = listed_files(&manifest).ok_or_else(none)?;
     for name in [SHARD, ROWS] {
         let file = File::open(folder.join(name)).map_err(|_| none())?;
         let found = sha256_of(file).map_err(|_| none())?;
-        let entry = listed.iter().find(|entry| entry.name == name).ok_or_else(none)?;
+        let entry = listed
+            .iter()
+            .find(|entry| entry.name == name)
+            .ok_or_else(none)?;
         if entry.sha256.as_deref() != Some(&found) {
-            return Err(fault(&format!("has a {name} that was changed"), "run the shard again"));
+            return Err(fault(
+                &format!("has a {name} that was changed"),
+                "run the shard again",
+            ));
         }
     }
     let text = fs::read(folder.join(SHARD)).map_err(|_| none())?;
@@ -154,6 +186,8 @@ fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<usize>), Box<Diagnostic>>
         return Err(none());
     }
     let records = records_of(&folder.join(ROWS)).map_err(|_| none())?;
-    let runs = records.map(|record| record.map(|record| record.run)).collect::<io::Result<_>>();
+    let runs = records
+        .map(|record| record.map(|record| record.run))
+        .collect::<io::Result<_>>();
     Ok((shard, runs.map_err(|_| none())?))
 }

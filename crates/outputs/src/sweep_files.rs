@@ -78,13 +78,18 @@ pub fn make_sweep(
     let wanted: Vec<usize> = (k..=sweep.count).step_by(n).collect();
     let mut inputs = InputEntry::all(own);
     inputs.extend(InputEntry::all(sweep.target.inputs()));
-    let key = sha256(json!([env!("CARGO_PKG_VERSION"), inputs]).to_string().as_bytes());
+    let key = sha256(
+        json!([env!("CARGO_PKG_VERSION"), inputs])
+            .to_string()
+            .as_bytes(),
+    );
     let folder = OutputFolder::open(path, "sweep", force, &planned(shard.is_some()))?;
 
     let runner = Runner::new(sweep);
     let file = &own.all()[0].name;
-    let stopped =
-        || Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned());
+    let stopped = || {
+        Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned())
+    };
     let info = match runner.run_as_written(go_on) {
         Ok((units, row)) => SweepInfo::new(sweep, file, units, &row),
         Err(RunFailure::Missing(result, why)) => {
@@ -94,7 +99,9 @@ pub fn make_sweep(
         }
         Err(RunFailure::Failed(why)) => {
             let input = sweep.input.file();
-            return Err(Error::NoResults(format!("{input} cannot be run as it is written: {why}")));
+            return Err(Error::NoResults(format!(
+                "{input} cannot be run as it is written: {why}"
+            )));
         }
         Err(RunFailure::Stopped) => return Err(stopped()),
     };
@@ -103,11 +110,18 @@ pub fn make_sweep(
     if !made.is_empty() && progress(SweepProgress::Resumed(made.len(), wanted.len())).is_break() {
         return Err(stopped());
     }
-    let left: Vec<usize> = wanted.into_iter().filter(|run| !made.contains(run)).collect();
+    let left: Vec<usize> = wanted
+        .into_iter()
+        .filter(|run| !made.contains(run))
+        .collect();
     let work = |run: &usize| {
         let axes = plan.values(*run);
         let outcome = runner.run(&axes, go_on)?;
-        Some(RunRecord { run: *run, axes, outcome })
+        Some(RunRecord {
+            run: *run,
+            axes,
+            outcome,
+        })
     };
     let mut done = 0;
     let mut failed = None;
@@ -130,7 +144,12 @@ pub fn make_sweep(
     if let Some(error) = failed {
         return Err(error);
     }
-    let shard = shard.map(|(shard, of)| Shard { key, shard, of, info: info.clone() });
+    let shard = shard.map(|(shard, of)| Shard {
+        key,
+        shard,
+        of,
+        info: info.clone(),
+    });
     let made = rows.records().map_err(unreadable)?;
     let written = write(folder, &info, inputs, made, (shard.as_ref(), threads))?;
     rows.remove();
@@ -166,8 +185,15 @@ fn write(
     records: impl Iterator<Item = io::Result<RunRecord>>,
     (shard, threads): (Option<&Shard>, Option<u16>),
 ) -> Result<WrittenSweep, Error> {
-    let axes = info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
-    let mut table = TableBuilder::new(axes, shard.map_or(info.runs, |shard| info.runs.div_ceil(shard.of)));
+    let axes = info
+        .axes
+        .iter()
+        .map(|[pointer, _]| pointer.clone())
+        .collect();
+    let mut table = TableBuilder::new(
+        axes,
+        shard.map_or(info.runs, |shard| info.runs.div_ceil(shard.of)),
+    );
     for record in records {
         table.add(record.map_err(unreadable)?);
     }
@@ -175,13 +201,17 @@ fn write(
     if let Some(shard) = shard {
         let mut lines = RecordLines::default();
         folder.add_written(ROWS, |file| {
-            table.records().try_for_each(|record| file.write_all(lines.lines(&record).as_bytes()))
+            table
+                .records()
+                .try_for_each(|record| file.write_all(lines.lines(&record).as_bytes()))
         })?;
         folder.add(SHARD, json_text(&shard.json(&inputs)));
     }
     folder.add_written("results.csv", |file| table.write_csv(file))?;
     #[cfg(feature = "parquet")]
-    folder.add_written(PARQUET, |file| sweep::write_parquet(&table, file).map_err(io::Error::other))?;
+    folder.add_written(PARQUET, |file| {
+        sweep::write_parquet(&table, file).map_err(io::Error::other)
+    })?;
     folder.add_written("failures.csv", |file| table.write_failures_csv(file))?;
     let summary = sweep::summary(info, &table);
     folder.add("summary.json", json_text(&summary));
@@ -194,13 +224,30 @@ fn write(
     let page = sweep_report(info, &table, figures);
     folder.add("report.html", page.html(threads).map_err(Error::not_shown)?);
     let folder = folder.commit(Manifest::of_entries("sweep", inputs, json!({})))?;
-    let failures = table.failures.into_iter().map(|(run, _, why)| (run, why)).collect();
-    Ok(WrittenSweep { folder, summary, rows: table.runs.len(), failures })
+    let failures = table
+        .failures
+        .into_iter()
+        .map(|(run, _, why)| (run, why))
+        .collect();
+    Ok(WrittenSweep {
+        folder,
+        summary,
+        rows: table.runs.len(),
+        failures,
+    })
 }
 
 fn planned(is_shard: bool) -> PlannedFiles {
     let shard: &[&str] = if is_shard { &[ROWS, SHARD] } else { &[] };
     let parquet = cfg!(feature = "parquet").then_some(&PARQUET);
-    let names = FILES.iter().chain(parquet).chain(shard).map(|name| (*name).to_owned()).collect();
-    PlannedFiles { names, plots: SWEEP_FIGURES.map(str::to_owned).to_vec() }
+    let names = FILES
+        .iter()
+        .chain(parquet)
+        .chain(shard)
+        .map(|name| (*name).to_owned())
+        .collect();
+    PlannedFiles {
+        names,
+        plots: SWEEP_FIGURES.map(str::to_owned).to_vec(),
+    }
 }

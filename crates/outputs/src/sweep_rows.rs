@@ -32,10 +32,18 @@ impl SweepRows {
     ///
     /// # Errors
     /// The file belongs to a sweep with another key, unless it may be discarded; an operation of the file system fails.
-    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, BTreeSet<usize>), Error> {
+    pub fn open(
+        folder: &Path,
+        key: &str,
+        may_discard: bool,
+    ) -> Result<(SweepRows, BTreeSet<usize>), Error> {
         let path = folder.join(ROWS);
         let fail = |error: io::Error| cannot_write(&path, &error);
-        let opened = OpenOptions::new().read(true).append(true).create(true).open(&path);
+        let opened = OpenOptions::new()
+            .read(true)
+            .append(true)
+            .create(true)
+            .open(&path);
         let mut file = opened.map_err(fail)?;
         let head = format!("{}\n", json!({ "format": FORMAT, "sweep": key }));
         let mut first = Vec::new();
@@ -49,13 +57,16 @@ impl SweepRows {
                 made.insert(record.map_err(fail)?.run);
             }
             lines = records.writer();
-            file.set_len(head.len() as u64 + records.whole()).map_err(fail)?;
+            file.set_len(head.len() as u64 + records.whole())
+                .map_err(fail)?;
         } else {
             // without a newline it is that of a process that was interrupted before it had written the first line
             if first.ends_with(b"\n") && !may_discard {
                 return Err(other_sweep(folder, &String::from_utf8_lossy(&first)));
             }
-            file.set_len(0).and_then(|()| file.write_all(head.as_bytes())).map_err(fail)?;
+            file.set_len(0)
+                .and_then(|()| file.write_all(head.as_bytes()))
+                .map_err(fail)?;
         }
         keeps_runs();
         Ok((SweepRows { path, file, lines }, made))
@@ -77,7 +88,9 @@ impl SweepRows {
     /// The file cannot be written.
     pub fn add(&mut self, record: &RunRecord) -> Result<(), Error> {
         let text = self.lines.lines(record);
-        self.file.write_all(text.as_bytes()).map_err(|error| cannot_write(&self.path, &error))
+        self.file
+            .write_all(text.as_bytes())
+            .map_err(|error| cannot_write(&self.path, &error))
     }
 
     /// Removes the file, after the results are written.
@@ -97,7 +110,9 @@ fn other_sweep(folder: &Path, first: &str) -> Error {
         "is not a file of runs"
     };
     let fault = Diagnostic::of_file(file, expected);
-    fault.hint("name another folder with -o, or discard these runs with --force").into()
+    fault
+        .hint("name another folder with -o, or discard these runs with --force")
+        .into()
 }
 
 #[cfg(test)]
@@ -109,8 +124,11 @@ mod tests {
     #[test]
     fn runs_of_a_dead_process_are_kept_and_a_torn_line_is_removed() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let record =
-            |run: usize| RunRecord { run, axes: vec![AxisValue::Number(0.5)], outcome: Err("no".to_owned()) };
+        let record = |run: usize| RunRecord {
+            run,
+            axes: vec![AxisValue::Number(0.5)],
+            outcome: Err("no".to_owned()),
+        };
         let (mut rows, known) = SweepRows::open(folder.path(), "key", false).expect("writable");
         assert!(known.is_empty());
         rows.add(&record(1)).expect("writable");

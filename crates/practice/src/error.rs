@@ -110,7 +110,12 @@ pub(crate) fn within(argument: Argument, value: f64, least: f64, most: f64) -> R
     if (least..=most).contains(&value) {
         Ok(value)
     } else {
-        Err(Error::Range { argument, value, least, most })
+        Err(Error::Range {
+            argument,
+            value,
+            least,
+            most,
+        })
     }
 }
 
@@ -136,7 +141,10 @@ pub(crate) fn count(value: u32) -> Result<f64, Error> {
 
 /// Checks that every sample of a series is a number within bounds.
 pub(crate) fn check_samples(series: usize, values: &[f64]) -> Result<(), Error> {
-    match values.iter().position(|value| value.is_nan() || value.abs() > LARGEST_SAMPLE) {
+    match values
+        .iter()
+        .position(|value| value.is_nan() || value.abs() > LARGEST_SAMPLE)
+    {
         Some(sample) => Err(Error::Number { series, sample }),
         None => Ok(()),
     }

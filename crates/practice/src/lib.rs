@@ -49,8 +49,8 @@ pub mod fatigue;
 mod signals;
 
 pub use codes::{
-    aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limit_choice, limits,
-    local_stress, mill_combination, osha, skew,
+    aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limit_choice,
+    limits, local_stress, mill_combination, osha, skew,
 };
 pub use crane::{Crane, StaticWheelLoads};
 pub use error::{Argument, Error};
@@ -58,6 +58,7 @@ pub use fatigue::{
     Cycle, Damage, Repetition, SectionPoint, SectionProperties, Strength, aisc, rainflow, stress,
 };
 pub use signals::{
-    Decay, Excursions, ExtremeInstant, Extremes, HistorySpectrum, ResponseCharacteristics, ResponseSettings,
-    RunHistories, SineComponent, TimedValue, decay, envelope, excursions, low_pass, mean, resample, response,
+    Decay, Excursions, ExtremeInstant, Extremes, HistorySpectrum, ResponseCharacteristics,
+    ResponseSettings, RunHistories, SineComponent, TimedValue, decay, envelope, excursions,
+    low_pass, mean, resample, response,
 };

@@ -6,7 +6,10 @@ use practice::stress::{direct, weights};
 use practice::{Cycle, Error, Repetition, SectionPoint, SectionProperties, Strength, rainflow};
 
 fn close(found: f64, expected: f64, slack: f64) {
-    assert!((found - expected).abs() <= slack, "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= slack,
+        "{found} is not {expected}"
+    );
 }
 
 /// The history of E1049, Figures 6 and 7.
@@ -54,7 +57,10 @@ fn table(counts: &[[f64; 2]]) -> Vec<f64> {
 fn the_published_history_is_counted_exactly() -> Result<(), Error> {
     // External: ASTM E1049-85, Figure 6.
     let cycles = rainflow(&PUBLISHED, Repetition::Once)?;
-    assert_eq!(ranges(&cycles), [[3.0, 0.5], [4.0, 1.5], [6.0, 0.5], [8.0, 1.0], [9.0, 0.5]]);
+    assert_eq!(
+        ranges(&cycles),
+        [[3.0, 0.5], [4.0, 1.5], [6.0, 0.5], [8.0, 1.0], [9.0, 0.5]]
+    );
     let whole: Vec<&Cycle> = cycles.iter().filter(|cycle| cycle.count == 1.0).collect();
     assert_eq!(whole.len(), 1);
     assert_eq!((whole[0].samples, whole[0].mean()), ([4, 5], 1.0));
@@ -65,7 +71,10 @@ fn the_published_history_is_counted_exactly() -> Result<(), Error> {
 fn the_published_history_repeated_is_counted_exactly() -> Result<(), Error> {
     // External: ASTM E1049-85, Figure 7.
     let cycles = rainflow(&PUBLISHED, Repetition::Repeated)?;
-    assert_eq!(ranges(&cycles), [[3.0, 1.0], [4.0, 1.0], [7.0, 1.0], [9.0, 1.0]]);
+    assert_eq!(
+        ranges(&cycles),
+        [[3.0, 1.0], [4.0, 1.0], [7.0, 1.0], [9.0, 1.0]]
+    );
     Ok(())
 }
 
@@ -117,7 +126,11 @@ fn four_points_count_what_three_points_count() -> Result<(), Error> {
                 }
             }
             let found = ranges(&rainflow(&values, Repetition::Once)?);
-            assert_eq!(table(&found), table(&by_three_points(&points)), "seed {seed}, {levels} levels");
+            assert_eq!(
+                table(&found),
+                table(&by_three_points(&points)),
+                "seed {seed}, {levels} levels"
+            );
         }
     }
     Ok(())
@@ -129,8 +142,15 @@ fn a_repeated_history_closes_wherever_it_begins() -> Result<(), Error> {
         let values = history(seed, 60, 40);
         let counts = ranges(&rainflow(&values, Repetition::Repeated)?);
         let turned: Vec<f64> = values[23..].iter().chain(&values[..23]).copied().collect();
-        assert_eq!(counts, ranges(&rainflow(&turned, Repetition::Repeated)?), "seed {seed}");
-        assert!(counts.iter().all(|pair| pair[1].fract() == 0.0), "halves make wholes");
+        assert_eq!(
+            counts,
+            ranges(&rainflow(&turned, Repetition::Repeated)?),
+            "seed {seed}"
+        );
+        assert!(
+            counts.iter().all(|pair| pair[1].fract() == 0.0),
+            "halves make wholes"
+        );
     }
     Ok(())
 }
@@ -138,12 +158,21 @@ fn a_repeated_history_closes_wherever_it_begins() -> Result<(), Error> {
 #[test]
 fn between_turning_points_nothing_counts() -> Result<(), Error> {
     let coarse = rainflow(&[0.0, 10.0, 4.0, 12.0, 0.0], Repetition::Once)?;
-    let fine = rainflow(&[0.0, 3.0, 3.0, 10.0, 7.0, 5.0, 4.0, 4.0, 9.0, 12.0, 1.0, 0.0], Repetition::Once)?;
+    let fine = rainflow(
+        &[0.0, 3.0, 3.0, 10.0, 7.0, 5.0, 4.0, 4.0, 9.0, 12.0, 1.0, 0.0],
+        Repetition::Once,
+    )?;
     assert_eq!(ranges(&coarse), ranges(&fine));
     assert_eq!(ranges(&coarse), [[6.0, 1.0], [12.0, 1.0]]);
     assert_eq!(rainflow(&[5.0; 8], Repetition::Repeated)?, []);
     assert_eq!(rainflow(&[], Repetition::Repeated)?, []);
-    assert_eq!(rainflow(&[1.0, f64::NAN], Repetition::Once), Err(Error::Number { series: 0, sample: 1 }));
+    assert_eq!(
+        rainflow(&[1.0, f64::NAN], Repetition::Once),
+        Err(Error::Number {
+            series: 0,
+            sample: 1
+        })
+    );
     Ok(())
 }
 
@@ -155,19 +184,47 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
         close(curve.fatigue_limit() / category, 0.737, 5e-4);
         close(curve.cut_off() / curve.fatigue_limit(), 0.549, 5e-4);
         close(1.0 / curve.damage(category)?, REFERENCE_CYCLES, 1e-3);
-        close(1.0 / curve.damage(curve.fatigue_limit())?, LIMIT_CYCLES, 1e-2);
-        close(1.0 / curve.damage(curve.fatigue_limit() * (1.0 - 1e-15))?, LIMIT_CYCLES, 1e-2);
-        close(1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?, CUT_OFF_CYCLES, 1.0);
+        close(
+            1.0 / curve.damage(curve.fatigue_limit())?,
+            LIMIT_CYCLES,
+            1e-2,
+        );
+        close(
+            1.0 / curve.damage(curve.fatigue_limit() * (1.0 - 1e-15))?,
+            LIMIT_CYCLES,
+            1e-2,
+        );
+        close(
+            1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?,
+            CUT_OFF_CYCLES,
+            1.0,
+        );
         assert_eq!(curve.damage(curve.cut_off())?, 0.0);
-        close(curve.damage(2.0 * category)? / curve.damage(category)?, 8.0, 1e-12);
+        close(
+            curve.damage(2.0 * category)? / curve.damage(category)?,
+            8.0,
+            1e-12,
+        );
         close(curve.damage(0.8 * category)?, 0.8_f64.powi(3) / 2e6, 1e-18);
-        close(curve.damage(0.7 * category)? / curve.damage(0.5 * category)?, 1.4_f64.powi(5), 1e-9);
+        close(
+            curve.damage(0.7 * category)? / curve.damage(0.5 * category)?,
+            1.4_f64.powi(5),
+            1e-9,
+        );
     }
     let shear = Strength::new(Stress::Shear, 100.0, 1.0, 1.0)?;
     close(shear.cut_off(), 45.7, 0.05);
     close(1.0 / shear.damage(100.0)?, REFERENCE_CYCLES, 1e-3);
-    close(shear.equivalent(1e6 * shear.damage(80.0)?)?, 80.0 * 0.5_f64.powf(0.2), 1e-9);
-    close(shear.damage(90.0)? / shear.damage(60.0)?, 1.5_f64.powi(5), 1e-9);
+    close(
+        shear.equivalent(1e6 * shear.damage(80.0)?)?,
+        80.0 * 0.5_f64.powf(0.2),
+        1e-9,
+    );
+    close(
+        shear.damage(90.0)? / shear.damage(60.0)?,
+        1.5_f64.powi(5),
+        1e-9,
+    );
     Ok(())
 }
 
@@ -175,7 +232,11 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
 fn partial_factors_count_on_either_side() -> Result<(), Error> {
     let both = Strength::new(Stress::Direct, 80.0, 1.1, 1.35)?;
     let plain = Strength::new(Stress::Direct, 80.0, 1.0, 1.0)?;
-    close(both.damage(100.0)?, plain.damage(100.0 * 1.1 * 1.35)?, 1e-18);
+    close(
+        both.damage(100.0)?,
+        plain.damage(100.0 * 1.1 * 1.35)?,
+        1e-18,
+    );
     Ok(())
 }
 
@@ -183,19 +244,30 @@ fn partial_factors_count_on_either_side() -> Result<(), Error> {
 fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
     let curve = Strength::new(Stress::Direct, 71.0, 1.0, 1.0)?;
     // Two ranges of 100 as half cycles, and one of 20 below the cut-off.
-    let cycles = rainflow(&[0.0, 100.0, 0.0, 100.0, 80.0, 100.0, 0.0], Repetition::Once)?;
+    let cycles = rainflow(
+        &[0.0, 100.0, 0.0, 100.0, 80.0, 100.0, 0.0],
+        Repetition::Once,
+    )?;
     let damage = curve.miner(&cycles)?;
     close(damage.largest_range, 100.0, 0.0);
     let one = (100.0_f64 / 71.0).powi(3) / 2e6;
     close(damage.sum, 2.0 * one, 1e-18);
     assert!(!damage.below_limit);
-    close(damage.repeats().expect("there is damage"), 1.0 / (2.0 * one), 1e-3);
+    close(
+        damage.repeats().expect("there is damage"),
+        1.0 / (2.0 * one),
+        1e-3,
+    );
     // 1e6 cycles of the range are worth 2e6 of the range by the cube root of a half.
     close(curve.equivalent(1e6 * one)?, 100.0 * 0.5_f64.cbrt(), 1e-9);
     close(curve.equivalent(1.0)?, 71.0, 1e-12);
     let small = curve.miner(&rainflow(&[0.0, 50.0, 0.0], Repetition::Once)?)?;
     assert!(small.below_limit && small.sum > 0.0);
-    assert!(!curve.miner(&rainflow(&[0.0, 60.0, 0.0], Repetition::Once)?)?.below_limit);
+    assert!(
+        !curve
+            .miner(&rainflow(&[0.0, 60.0, 0.0], Repetition::Once)?)?
+            .below_limit
+    );
     let none = curve.miner(&rainflow(&[0.0, 20.0, 0.0], Repetition::Once)?)?;
     assert_eq!((none.sum, none.repeats()), (0.0, None));
     assert!(Strength::new(Stress::Direct, 0.0, 1.0, 1.0).is_err());
@@ -218,7 +290,10 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     let (mut n, mut my, mut mz) = (0.0, 0.0, 0.0);
     for i in 0..count {
         for j in 0..count {
-            let point = SectionPoint { y: place(i, height), z: place(j, width) };
+            let point = SectionPoint {
+                y: place(i, height),
+                z: place(j, width),
+            };
             let force = direct(&section, point, forces)? * cell;
             n += force;
             my += point.z * force;
@@ -232,7 +307,15 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     assert!(weights(&section, SectionPoint { y: -0.3, z: 0.0 })?[5] > 0.0);
     assert!(weights(&section, SectionPoint { y: 0.0, z: 0.15 })?[4] > 0.0);
     assert!(
-        direct(&SectionProperties { area: 0.0, ..section }, SectionPoint { y: 0.0, z: 0.0 }, forces).is_err()
+        direct(
+            &SectionProperties {
+                area: 0.0,
+                ..section
+            },
+            SectionPoint { y: 0.0, z: 0.0 },
+            forces
+        )
+        .is_err()
     );
     assert!(direct(&section, SectionPoint { y: 0.0, z: 0.0 }, [f64::NAN; 6]).is_err());
     Ok(())
@@ -246,7 +329,10 @@ fn categories_of_aisc_meet_their_thresholds_where_they_are_known_to() {
     for (category, cycles) in [(AiscCategory::C, 4.4e6), (AiscCategory::A, 25e9 / 13824.0)] {
         let curve = AiscCurve::new(category, 6.894_757).expect("a unit");
         let damage = curve.damage(curve.limit()).expect("a range");
-        assert!((damage * cycles - 1.0).abs() < 1e-12, "{category:?}: {damage:e}");
+        assert!(
+            (damage * cycles - 1.0).abs() < 1e-12,
+            "{category:?}: {damage:e}"
+        );
         let reference = curve.damage(curve.reference()).expect("a range");
         assert!((reference * 2e6 - 1.0).abs() < 1e-12);
         assert!((curve.equivalent(0.125).expect("a sum") / curve.reference() - 0.5).abs() < 1e-12);

@@ -4,9 +4,9 @@ use practice::factor::{HoistingClass, Release};
 use practice::fatigue::Stress;
 use practice::skew::{Guide, WheelPairs};
 use practice::{
-    Crane, Decay, Error, HistorySpectrum, Repetition, ResponseSettings, SectionPoint, SectionProperties,
-    SineComponent, Strength, aist, asce, buffer, cmaa, decay, drive, duty, factor, limits, local_stress,
-    osha, rainflow, response, skew, stress,
+    Crane, Decay, Error, HistorySpectrum, Repetition, ResponseSettings, SectionPoint,
+    SectionProperties, SineComponent, Strength, aist, asce, buffer, cmaa, decay, drive, duty,
+    factor, limits, local_stress, osha, rainflow, response, skew, stress,
 };
 
 const ODD: [f64; 13] = [
@@ -90,23 +90,53 @@ fn formulas_give_numbers_or_refuse() {
                     rail_height: b,
                     rail_foot: c,
                 };
-                tally.add(seat.stresses(b).map(|found| vec![found.vertical, found.shear]));
+                tally.add(
+                    seat.stresses(b)
+                        .map(|found| vec![found.vertical, found.shear]),
+                );
                 tally.one(buffer::buffer_force(1.25, a, b, c));
-                tally.one(Strength::new(Stress::Direct, a, b, 1.0).and_then(|curve| curve.damage(c)));
-                tally.one(Strength::new(Stress::Shear, a, 1.0, b).and_then(|curve| curve.equivalent(c)));
-                let section = SectionProperties { area: a, iy: b, iz: c };
-                tally.one(stress::direct(&section, SectionPoint { y: b, z: c }, [a, b, c, c, b, a]));
+                tally.one(
+                    Strength::new(Stress::Direct, a, b, 1.0).and_then(|curve| curve.damage(c)),
+                );
+                tally.one(
+                    Strength::new(Stress::Shear, a, 1.0, b).and_then(|curve| curve.equivalent(c)),
+                );
+                let section = SectionProperties {
+                    area: a,
+                    iy: b,
+                    iz: c,
+                };
+                tally.one(stress::direct(
+                    &section,
+                    SectionPoint { y: b, z: c },
+                    [a, b, c, c, b, a],
+                ));
                 for kind in [WheelPairs::AloneFixed, WheelPairs::CoupledFree] {
                     let forces = skew::skewing(kind, a, 0.6, &[b, c]);
                     tally.add(forces.map(|found| {
                         let across = found.across.into_iter().flatten();
-                        across.chain(found.along).chain([found.guide, found.rotation_distance]).collect()
+                        across
+                            .chain(found.along)
+                            .chain([found.guide, found.rotation_distance])
+                            .collect()
                     }));
                 }
-                let crane = Crane { lifted: a, trolley: b, bridge: c, span: a, approach: b, wheels: 2 };
-                tally.add(crane.wheel_loads(c, 1.0).map(|loads| vec![loads.near, loads.far]));
+                let crane = Crane {
+                    lifted: a,
+                    trolley: b,
+                    bridge: c,
+                    span: a,
+                    approach: b,
+                    wheels: 2,
+                };
+                tally.add(
+                    crane
+                        .wheel_loads(c, 1.0)
+                        .map(|loads| vec![loads.near, loads.far]),
+                );
                 tally.one(
-                    aist::side_thrust(aist::CraneKind::Stacker, &crane).map(|thrusts| thrusts.governing()),
+                    aist::side_thrust(aist::CraneKind::Stacker, &crane)
+                        .map(|thrusts| thrusts.governing()),
                 );
                 let travel = drive::AcceleratingCrane {
                     span: a,
@@ -117,11 +147,15 @@ fn formulas_give_numbers_or_refuse() {
                     factor: 1.5,
                     rails: 2,
                 };
-                tally.add(
-                    drive::traction(&travel).map(|found| {
-                        vec![found.fraction, found.along, found.moment, found.heavy, found.light]
-                    }),
-                );
+                tally.add(drive::traction(&travel).map(|found| {
+                    vec![
+                        found.fraction,
+                        found.along,
+                        found.moment,
+                        found.heavy,
+                        found.light,
+                    ]
+                }));
             }
         }
     }
@@ -132,19 +166,29 @@ fn formulas_give_numbers_or_refuse() {
 fn histories_give_numbers_or_refuse() {
     let mut tally = Tally::default();
     let times: Vec<f64> = (0..40).map(f64::from).collect();
-    let view =
-        ResponseSettings { from: 0.0, settled: 0.0, step: 0.5, cut_off: Some(0.3), excursion_fraction: 0.1 };
+    let view = ResponseSettings {
+        from: 0.0,
+        settled: 0.0,
+        step: 0.5,
+        cut_off: Some(0.3),
+        excursion_fraction: 0.1,
+    };
     for a in ODD {
         for b in ODD {
             for c in [a, b, 0.3] {
                 let values: Vec<f64> = (0..40).map(|k| [a, b, c, 1.0][k * k % 7 % 4]).collect();
-                tally.add(
-                    rainflow(&values, Repetition::Repeated).map(|cycles| {
-                        cycles.iter().flat_map(|cycle| [cycle.range(), cycle.mean()]).collect()
-                    }),
-                );
+                tally.add(rainflow(&values, Repetition::Repeated).map(|cycles| {
+                    cycles
+                        .iter()
+                        .flat_map(|cycle| [cycle.range(), cycle.mean()])
+                        .collect()
+                }));
                 tally.add(response(&times, &values, &view).map(|found| {
-                    [[found.mean, found.peak.value], [found.trough.value, found.trough.time]].concat()
+                    [
+                        [found.mean, found.peak.value],
+                        [found.trough.value, found.trough.time],
+                    ]
+                    .concat()
                 }));
                 let tone = |tone: SineComponent| vec![tone.frequency, tone.amplitude];
                 for (step, band) in [(0.5, [0.0, 1.0]), (c, [a, b])] {
@@ -162,7 +206,9 @@ fn histories_give_numbers_or_refuse() {
                     cut_off: Some(b),
                     excursion_fraction: c,
                 };
-                tally.add(response(&times, &times, &odd).map(|found| vec![found.mean, found.peak.value]));
+                tally.add(
+                    response(&times, &times, &odd).map(|found| vec![found.mean, found.peak.value]),
+                );
             }
         }
     }

@@ -16,12 +16,17 @@ use practice::skew::{self, Guide, WheelPairs};
 use practice::{Crane, Error};
 
 fn close(found: f64, expected: f64, slack: f64) {
-    assert!((found - expected).abs() <= slack, "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= slack,
+        "{found} is not {expected}"
+    );
 }
 
 /// Allowable displacement by the one limit of `displacement`, m.
 fn allowable(limits: &[DeflectionLimit], displacement: LimitedDisplacement, length: f64) -> f64 {
-    let mut own = limits.iter().filter(|limit| limit.displacement == displacement);
+    let mut own = limits
+        .iter()
+        .filter(|limit| limit.displacement == displacement);
     let limit = own.next().expect("a limit");
     assert!(own.next().is_none(), "one limit for each displacement");
     limit.allowable(length).expect("a positive length")
@@ -30,14 +35,44 @@ fn allowable(limits: &[DeflectionLimit], displacement: LimitedDisplacement, leng
 /// By hand: L/600 is 12.5 mm for 7.5 m; for 18 m it is 30 mm, so that 25 mm governs.
 #[test]
 fn the_smaller_of_ratio_and_length_governs() {
-    let of = |length| allowable(&EN_1993_6_LIMITS, LimitedDisplacement::RunwayVertical, length);
+    let of = |length| {
+        allowable(
+            &EN_1993_6_LIMITS,
+            LimitedDisplacement::RunwayVertical,
+            length,
+        )
+    };
     close(of(7.5), 0.0125, 1e-15);
     close(of(18.0), 0.025, 1e-15);
-    close(allowable(&EN_1993_6_LIMITS, LimitedDisplacement::RunwayLateral, 18.0), 0.03, 1e-15);
+    close(
+        allowable(&EN_1993_6_LIMITS, LimitedDisplacement::RunwayLateral, 18.0),
+        0.03,
+        1e-15,
+    );
     // rails 22.5 m apart: 10 mm of gauge, 37.5 mm of height
-    close(allowable(&EN_1993_6_LIMITS, LimitedDisplacement::GaugeChange, 22.5), 0.01, 0.0);
-    close(allowable(&EN_1993_6_LIMITS, LimitedDisplacement::HeightDifference, 22.5), 0.0375, 1e-15);
-    close(allowable(&EN_1993_6_LIMITS, LimitedDisplacement::MonorailVertical, 5.0), 0.01, 1e-15);
+    close(
+        allowable(&EN_1993_6_LIMITS, LimitedDisplacement::GaugeChange, 22.5),
+        0.01,
+        0.0,
+    );
+    close(
+        allowable(
+            &EN_1993_6_LIMITS,
+            LimitedDisplacement::HeightDifference,
+            22.5,
+        ),
+        0.0375,
+        1e-15,
+    );
+    close(
+        allowable(
+            &EN_1993_6_LIMITS,
+            LimitedDisplacement::MonorailVertical,
+            5.0,
+        ),
+        0.01,
+        1e-15,
+    );
     assert_eq!(EN_1993_6_LIMITS[0].formula(), "L/600, at most 25 mm");
     assert!(EN_1993_6_LIMITS[0].allowable(0.0).is_err());
     assert!(EN_1993_6_LIMITS[0].allowable(f64::NAN).is_err());
@@ -56,21 +91,81 @@ fn limits_follow_classes() {
         (ServiceClass::F, 0.012),
     ];
     for (class, expected) in by_class {
-        close(allowable(&design_guide_limits(class), vertical, 12.0), expected, 1e-15);
-        close(allowable(&design_guide_limits(class), lateral, 12.0), 0.03, 1e-15);
+        close(
+            allowable(&design_guide_limits(class), vertical, 12.0),
+            expected,
+            1e-15,
+        );
+        close(
+            allowable(&design_guide_limits(class), lateral, 12.0),
+            0.03,
+            1e-15,
+        );
     }
-    close(allowable(&mill_limits(BuildingClass::A), vertical, 12.0), 0.012, 1e-15);
-    close(allowable(&mill_limits(BuildingClass::D), vertical, 12.0), 0.020, 1e-15);
-    close(allowable(&mill_limits(BuildingClass::D), LimitedDisplacement::FrameLateral, 40.0), 0.0508, 1e-15);
+    close(
+        allowable(&mill_limits(BuildingClass::A), vertical, 12.0),
+        0.012,
+        1e-15,
+    );
+    close(
+        allowable(&mill_limits(BuildingClass::D), vertical, 12.0),
+        0.020,
+        1e-15,
+    );
+    close(
+        allowable(
+            &mill_limits(BuildingClass::D),
+            LimitedDisplacement::FrameLateral,
+            40.0,
+        ),
+        0.0508,
+        1e-15,
+    );
     close(allowable(&CMAA_LIMITS, vertical, 12.0), 0.020, 1e-15);
-    close(allowable(&CMAA_LIMITS, LimitedDisplacement::BridgeGirder, 24.0), 0.027, 1e-12);
-    assert_eq!(CMAA_LIMITS[2].formula(), "L/889", "0.001125 L, also written L/888");
-    close(allowable(&is_800_limits(GantryCrane::Manual, true), vertical, 12.0), 0.024, 1e-15);
-    close(allowable(&is_800_limits(GantryCrane::ElectricTo50Tonnes, true), vertical, 12.0), 0.016, 1e-15);
-    close(allowable(&is_800_limits(GantryCrane::ElectricAbove50Tonnes, false), vertical, 12.0), 0.012, 1e-15);
+    close(
+        allowable(&CMAA_LIMITS, LimitedDisplacement::BridgeGirder, 24.0),
+        0.027,
+        1e-12,
+    );
+    assert_eq!(
+        CMAA_LIMITS[2].formula(),
+        "L/889",
+        "0.001125 L, also written L/888"
+    );
+    close(
+        allowable(&is_800_limits(GantryCrane::Manual, true), vertical, 12.0),
+        0.024,
+        1e-15,
+    );
+    close(
+        allowable(
+            &is_800_limits(GantryCrane::ElectricTo50Tonnes, true),
+            vertical,
+            12.0,
+        ),
+        0.016,
+        1e-15,
+    );
+    close(
+        allowable(
+            &is_800_limits(GantryCrane::ElectricAbove50Tonnes, false),
+            vertical,
+            12.0,
+        ),
+        0.012,
+        1e-15,
+    );
     let frame = LimitedDisplacement::FrameLateral;
-    close(allowable(&is_800_limits(GantryCrane::Manual, false), frame, 10.0), 0.05, 1e-15);
-    close(allowable(&is_800_limits(GantryCrane::Manual, true), frame, 10.0), 0.025, 1e-15);
+    close(
+        allowable(&is_800_limits(GantryCrane::Manual, false), frame, 10.0),
+        0.05,
+        1e-15,
+    );
+    close(
+        allowable(&is_800_limits(GantryCrane::Manual, true), frame, 10.0),
+        0.025,
+        1e-15,
+    );
 }
 
 #[test]
@@ -78,10 +173,21 @@ fn limits_are_found_by_the_names_of_code_and_class() {
     let classes = [None, None, None, Some("E"), Some("C"), Some("heavy")];
     for (code, class) in LIMIT_CODES.into_iter().zip(classes) {
         let limits = limits_of(code, class).expect(code);
-        assert!(limits.iter().any(|limit| limit.displacement == LimitedDisplacement::RunwayVertical));
+        assert!(
+            limits
+                .iter()
+                .any(|limit| limit.displacement == LimitedDisplacement::RunwayVertical)
+        );
     }
-    assert_eq!(limits_of("EN 1993-6:2007", None), limits_of("EN 1991-3", Some("anything")));
-    assert_eq!(limits_of("AIST TR-13", Some("E")), None, "buildings have classes A to D");
+    assert_eq!(
+        limits_of("EN 1993-6:2007", None),
+        limits_of("EN 1991-3", Some("anything"))
+    );
+    assert_eq!(
+        limits_of("AIST TR-13", Some("E")),
+        None,
+        "buildings have classes A to D"
+    );
     assert_eq!(limits_of("AISC Design Guide 7", Some("G")), None);
     assert_eq!(limits_of("IS 800", Some("A")), None);
     assert_eq!(limits_of("DIN 4132", None), None);
@@ -90,11 +196,26 @@ fn limits_are_found_by_the_names_of_code_and_class() {
 /// By hand, for Q = 200, T = 40, B = 190 kN: 0.1 x 430 = 43 kN; 1.1 x 161.24 = 177.36 kN; 0.2 x 322.48 = 64.5 kN.
 #[test]
 fn pendant_cranes_of_tr_13_have_their_own_row() -> Result<(), Error> {
-    let crane = Crane { lifted: 200.0, trolley: 40.0, bridge: 190.0, span: 23.0, approach: 1.2, wheels: 2 };
+    let crane = Crane {
+        lifted: 200.0,
+        trolley: 40.0,
+        bridge: 190.0,
+        span: 23.0,
+        approach: 1.2,
+        wheels: 2,
+    };
     let near = crane.wheel_loads(1.0, 1.0)?.near;
-    close(aist::side_thrust(CraneKind::Pendant, &crane)?.governing(), 43.0, 1e-12);
+    close(
+        aist::side_thrust(CraneKind::Pendant, &crane)?.governing(),
+        43.0,
+        1e-12,
+    );
     close(aist::with_impact(CraneKind::Pendant, near)?, 177.363, 5e-4);
-    close(aist::tractive_force(CraneKind::Pendant, &[near, near])?, 64.4957, 5e-4);
+    close(
+        aist::tractive_force(CraneKind::Pendant, &[near, near])?,
+        64.4957,
+        5e-4,
+    );
     Ok(())
 }
 
@@ -112,7 +233,11 @@ fn asce_7_has_its_fractions() -> Result<(), Error> {
         assert_eq!(operation.impact(), impact);
         let group = asce_group(operation);
         assert_eq!(group.factor(CraneLoad::Impact, &factors), impact);
-        let powered = if operation == CraneOperation::HandGeared { 0.0 } else { 1.0 };
+        let powered = if operation == CraneOperation::HandGeared {
+            0.0
+        } else {
+            1.0
+        };
         assert_eq!(group.factor(CraneLoad::SideThrust, &factors), 0.2 * powered);
         assert_eq!(group.factor(CraneLoad::Traction, &factors), 0.1 * powered);
     }
@@ -132,7 +257,10 @@ fn the_larger_test_load_governs() -> Result<(), Error> {
 }
 
 fn named<'g>(groups: &'g [LoadGroup], name: &str) -> &'g LoadGroup {
-    groups.iter().find(|group| group.name == name).expect("a group")
+    groups
+        .iter()
+        .find(|group| group.name == name)
+        .expect("a group")
 }
 
 /// By hand, with phi1 = 1.1, phi2 = 1.168, phi3 = -1, phi4 = 1, phi5 = 1.5, phi6 = 1.084, phi7 = 1.25: the vertical
@@ -163,7 +291,9 @@ fn groups_of_the_eurocode_multiply_their_loads() -> Result<(), Error> {
         close(vertical(name), expected, 1e-9);
     }
     let with = |load| -> Vec<&str> {
-        let own = groups.iter().filter(|group| group.factor(load, &factors) != 0.0);
+        let own = groups
+            .iter()
+            .filter(|group| group.factor(load, &factors) != 0.0);
         own.map(|group| group.name).collect()
     };
     assert_eq!(with(CraneLoad::BridgeDrives), ["1", "2", "3", "4", "8"]);
@@ -172,11 +302,30 @@ fn groups_of_the_eurocode_multiply_their_loads() -> Result<(), Error> {
     assert_eq!(with(CraneLoad::BufferForce), ["9"]);
     assert_eq!(with(CraneLoad::Tilting), ["10"]);
     assert_eq!(with(CraneLoad::Wind), ["1", "2", "3", "4", "5", "8"]);
-    close(named(&groups, "1").factor(CraneLoad::BridgeDrives, &factors), 1.5, 0.0);
-    close(named(&groups, "8").factor(CraneLoad::TestLoad, &factors), 1.084, 1e-12);
-    close(named(&groups, "9").factor(CraneLoad::BufferForce, &factors), 1.25, 0.0);
-    let remaining = DynamicFactors { remaining: 0.2, ..factors };
-    close(named(&groups, "7").factor(CraneLoad::HoistLoad, &remaining), 0.2, 0.0);
+    close(
+        named(&groups, "1").factor(CraneLoad::BridgeDrives, &factors),
+        1.5,
+        0.0,
+    );
+    close(
+        named(&groups, "8").factor(CraneLoad::TestLoad, &factors),
+        1.084,
+        1e-12,
+    );
+    close(
+        named(&groups, "9").factor(CraneLoad::BufferForce, &factors),
+        1.25,
+        0.0,
+    );
+    let remaining = DynamicFactors {
+        remaining: 0.2,
+        ..factors
+    };
+    close(
+        named(&groups, "7").factor(CraneLoad::HoistLoad, &remaining),
+        0.2,
+        0.0,
+    );
     assert_eq!(named(&groups, "9").purpose, GroupUse::Accidental);
     assert_eq!(named(&groups, "10").clause.evidence, Evidence::Memory);
     Ok(())
@@ -188,14 +337,27 @@ fn groups_of_the_eurocode_multiply_their_loads() -> Result<(), Error> {
 #[test]
 fn impact_and_side_thrust_of_tr_13_exclude_each_other() -> Result<(), Error> {
     let factors = DynamicFactors::of_crane(1.1, 1.5, Release::Slow)?;
-    let [allowable, strength] = [GroupUse::AllowableStress, GroupUse::Strength].map(mill_combinations);
+    let [allowable, strength] =
+        [GroupUse::AllowableStress, GroupUse::Strength].map(mill_combinations);
     assert_eq!([allowable.len(), strength.len()], [15, 14]);
     assert!(mill_combinations(GroupUse::Fatigue).is_empty());
     for group in allowable.iter().chain(&strength) {
         let of = |load| group.factor(load, &factors);
-        assert!(of(CraneLoad::Impact) == 0.0 || of(CraneLoad::SideThrust) == 0.0, "{}", group.name);
-        assert!(of(CraneLoad::Impact) == 0.0 || group.is_single_crane, "{}", group.name);
-        assert!(of(CraneLoad::HoistLoad) == 0.0 || of(CraneLoad::LeastHoistLoad) == 0.0, "{}", group.name);
+        assert!(
+            of(CraneLoad::Impact) == 0.0 || of(CraneLoad::SideThrust) == 0.0,
+            "{}",
+            group.name
+        );
+        assert!(
+            of(CraneLoad::Impact) == 0.0 || group.is_single_crane,
+            "{}",
+            group.name
+        );
+        assert!(
+            of(CraneLoad::HoistLoad) == 0.0 || of(CraneLoad::LeastHoistLoad) == 0.0,
+            "{}",
+            group.name
+        );
     }
     let vertical = |group: &LoadGroup| {
         let of = |load| group.factor(load, &factors);
@@ -209,8 +371,16 @@ fn impact_and_side_thrust_of_tr_13_exclude_each_other() -> Result<(), Error> {
     close(vertical(named(&allowable, "4b")), 435.0, 1e-9);
     close(vertical(named(&strength, "2c")), 704.0, 1e-9);
     close(vertical(named(&strength, "9")), 216.0, 1e-9);
-    close(named(&strength, "9").factor(CraneLoad::LeastHoistLoad, &factors), 1.6, 0.0);
-    close(named(&allowable, "9").factor(CraneLoad::BufferForce, &factors), 0.67, 0.0);
+    close(
+        named(&strength, "9").factor(CraneLoad::LeastHoistLoad, &factors),
+        1.6,
+        0.0,
+    );
+    close(
+        named(&allowable, "9").factor(CraneLoad::BufferForce, &factors),
+        0.67,
+        0.0,
+    );
     let fatigue = mill_fatigue();
     assert!(fatigue.is_single_crane);
     close(fatigue.factor(CraneLoad::SideThrust, &factors), 0.5, 0.0);
@@ -235,21 +405,52 @@ fn wheel_loads_spread_over_the_effective_length() -> Result<(), Error> {
     };
     close(loose.effective_width()?, 204.0, 1e-12);
     close(loose.effective_length()?, 132.27, 5e-3);
-    close(RailSeat { fixing: RailFixing::ElasticPad, ..loose }.effective_length()?, 172.97, 5e-3);
+    close(
+        RailSeat {
+            fixing: RailFixing::ElasticPad,
+            ..loose
+        }
+        .effective_length()?,
+        172.97,
+        5e-3,
+    );
     let stresses = loose.stresses(180_000.0)?;
     close(stresses.vertical, 100.8, 0.05);
     close(stresses.shear, stresses.vertical / 5.0, 1e-12);
     close(stresses.total_shear(-30.0), 30.0 + 20.16, 0.02);
     // a narrow flange limits b_eff, and a rigid rail has the inertia of both as one section
-    close(RailSeat { flange_width: 150.0, ..loose }.effective_width()?, 150.0, 0.0);
-    let rigid = RailSeat { fixing: RailFixing::Rigid, inertia: 8.0 * 13.5e3, ..loose };
+    close(
+        RailSeat {
+            flange_width: 150.0,
+            ..loose
+        }
+        .effective_width()?,
+        150.0,
+        0.0,
+    );
+    let rigid = RailSeat {
+        fixing: RailFixing::Rigid,
+        inertia: 8.0 * 13.5e3,
+        ..loose
+    };
     close(rigid.effective_length()?, 65.0, 1e-9);
     assert!(RailSeat { web: 0.0, ..loose }.effective_length().is_err());
-    assert!(RailSeat { inertia: -1.0, ..loose }.stresses(1.0).is_err());
+    assert!(
+        RailSeat {
+            inertia: -1.0,
+            ..loose
+        }
+        .stresses(1.0)
+        .is_err()
+    );
     // CMAA: 2 x 100 mm + 2 in = 250.8 mm
     let length = cmaa_bearing_length(0.1)?;
     close(length, 0.2508, 1e-12);
-    close(LocalStresses::over(100.0, length, 0.01)?.vertical, 100.0 / 0.002508, 1e-6);
+    close(
+        LocalStresses::over(100.0, length, 0.01)?.vertical,
+        100.0 / 0.002508,
+        1e-6,
+    );
     Ok(())
 }
 
@@ -260,7 +461,12 @@ fn a_rail_receives_the_guide_force_less_the_force_of_its_wheel() -> Result<(), E
     let forces = skew::skewing(WheelPairs::AloneFixed, 18.0, 0.7, &[0.0, 4.0])?;
     close(forces.net_on_rail(), 0.35, 1e-12);
     // the rest of the lateral forces balances it
-    let rest: f64 = forces.across.iter().map(|pair| pair[0] + pair[1]).sum::<f64>() - forces.across[0][0];
+    let rest: f64 = forces
+        .across
+        .iter()
+        .map(|pair| pair[0] + pair[1])
+        .sum::<f64>()
+        - forces.across[0][0];
     close(forces.net_on_rail(), rest, 1e-12);
     // the angle does not exceed 0.015: (0.015 + 0.006)/1 + 0.001 would be 0.022
     close(skew::angle(Guide::Flanges, 0.02, 0.06, 1.0)?, 0.015, 0.0);

@@ -3,12 +3,15 @@
 use std::f64::consts::PI;
 
 use practice::{
-    Error, Excursions, HistorySpectrum, ResponseSettings, RunHistories, SineComponent, decay, envelope,
-    excursions, low_pass, mean, resample, response,
+    Error, Excursions, HistorySpectrum, ResponseSettings, RunHistories, SineComponent, decay,
+    envelope, excursions, low_pass, mean, resample, response,
 };
 
 fn close(found: f64, expected: f64, slack: f64) {
-    assert!((found - expected).abs() <= slack, "{found} is not {expected}");
+    assert!(
+        (found - expected).abs() <= slack,
+        "{found} is not {expected}"
+    );
 }
 
 fn samples(count: usize, step: f64, value: impl Fn(f64) -> f64) -> Vec<f64> {
@@ -25,11 +28,25 @@ fn ringing(ratio: f64, frequency: f64) -> impl Fn(f64) -> f64 {
 #[test]
 fn an_envelope_has_what_stood_beside_it() -> Result<(), Error> {
     let times = [0.0, 1.0, 2.0, 3.0];
-    let (reaction, moment, place) = ([1.0, 4.0, 2.0, -1.0], [0.5, -3.0, 9.0, 9.0], [10.0, 20.0, 30.0, 40.0]);
-    let later = ([7.0, 7.0, 3.0, 1.0], [0.0, 1.0, -4.0, 2.0], [50.0, 60.0, 70.0, 80.0]);
+    let (reaction, moment, place) = (
+        [1.0, 4.0, 2.0, -1.0],
+        [0.5, -3.0, 9.0, 9.0],
+        [10.0, 20.0, 30.0, 40.0],
+    );
+    let later = (
+        [7.0, 7.0, 3.0, 1.0],
+        [0.0, 1.0, -4.0, 2.0],
+        [50.0, 60.0, 70.0, 80.0],
+    );
     let runs = [
-        RunHistories { times: &times, series: &[&reaction, &moment, &place] },
-        RunHistories { times: &[5.0, 6.0, 7.0, 8.0], series: &[&later.0, &later.1, &later.2] },
+        RunHistories {
+            times: &times,
+            series: &[&reaction, &moment, &place],
+        },
+        RunHistories {
+            times: &[5.0, 6.0, 7.0, 8.0],
+            series: &[&later.0, &later.1, &later.2],
+        },
     ];
     let found = envelope(&runs, 2)?;
     assert_eq!(found.len(), 2);
@@ -46,18 +63,34 @@ fn an_envelope_has_what_stood_beside_it() -> Result<(), Error> {
 #[test]
 fn no_value_lies_outside_its_envelope() -> Result<(), Error> {
     let times = samples(500, 0.1, |t| t);
-    let series: Vec<Vec<f64>> =
-        (1..6).map(|k| samples(500, 0.1, |t| (f64::from(k) * t).sin() + (0.37 * t * t).cos())).collect();
+    let series: Vec<Vec<f64>> = (1..6)
+        .map(|k| {
+            samples(500, 0.1, |t| {
+                (f64::from(k) * t).sin() + (0.37 * t * t).cos()
+            })
+        })
+        .collect();
     let borrowed: Vec<&[f64]> = series.iter().map(Vec::as_slice).collect();
-    for (own, extremes) in
-        envelope(&[RunHistories { times: &times, series: &borrowed }], 5)?.iter().enumerate()
+    for (own, extremes) in envelope(
+        &[RunHistories {
+            times: &times,
+            series: &borrowed,
+        }],
+        5,
+    )?
+    .iter()
+    .enumerate()
     {
         for instant in [&extremes.max, &extremes.min] {
             let there: Vec<f64> = series.iter().map(|values| values[instant.sample]).collect();
             assert_eq!(instant.values, there);
         }
         let [most, least] = [extremes.max.values[own], extremes.min.values[own]];
-        assert!(series[own].iter().all(|value| (least..=most).contains(value)));
+        assert!(
+            series[own]
+                .iter()
+                .all(|value| (least..=most).contains(value))
+        );
     }
     Ok(())
 }
@@ -73,8 +106,15 @@ fn means_and_samples_of_straight_lines_are_exact() -> Result<(), Error> {
     }
     assert_eq!(resample(&times, &line, 0.0, 0.1)?.len(), 71);
     // A jump: the later sample counts.
-    assert_eq!(resample(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 5.0, 5.0], 0.0, 0.5)?, [0.0, 0.0, 5.0, 5.0, 5.0]);
-    close(mean(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 5.0, 5.0], 0.0)?, 2.5, 1e-15);
+    assert_eq!(
+        resample(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 5.0, 5.0], 0.0, 0.5)?,
+        [0.0, 0.0, 5.0, 5.0, 5.0]
+    );
+    close(
+        mean(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 5.0, 5.0], 0.0)?,
+        2.5,
+        1e-15,
+    );
     Ok(())
 }
 
@@ -93,11 +133,17 @@ fn excursions_count_the_half_cycles_that_leave_the_band() -> Result<(), Error> {
         assert_eq!(counts.total(), halves as usize);
         assert_eq!(
             counts,
-            Excursions { above: halves as usize - halves as usize / 2, below: halves as usize / 2 }
+            Excursions {
+                above: halves as usize - halves as usize / 2,
+                below: halves as usize / 2
+            }
         );
     }
     assert_eq!(excursions(&[1.0, 1.0], 1.0, 0.0)?.total(), 0);
-    assert_eq!(excursions(&[2.0, 0.0, 2.0], 1.0, 0.5)?, Excursions { above: 2, below: 1 });
+    assert_eq!(
+        excursions(&[2.0, 0.0, 2.0], 1.0, 0.5)?,
+        Excursions { above: 2, below: 1 }
+    );
     Ok(())
 }
 
@@ -145,7 +191,9 @@ fn a_sine_is_found_between_the_bins() -> Result<(), Error> {
     // 1001 samples, 10.01 s: bins are 0.1 Hz apart.
     for k in 0..21 {
         let frequency = 2.0 + 0.01 * f64::from(k);
-        let wave = samples(1001, 0.01, |t| 5.0 + 1.7 * (2.0 * PI * frequency * t + 0.3).cos());
+        let wave = samples(1001, 0.01, |t| {
+            5.0 + 1.7 * (2.0 * PI * frequency * t + 0.3).cos()
+        });
         let tone = dominant(&wave, 0.01, [0.5, 10.0])?.expect("there is a sine");
         close(tone.frequency, frequency, 2e-5);
         close(tone.amplitude, 1.7, 5e-4);
@@ -165,12 +213,19 @@ fn a_large_mean_hides_no_slow_sine() -> Result<(), Error> {
 
 #[test]
 fn the_stronger_of_two_sines_within_the_band_is_taken() -> Result<(), Error> {
-    let wave = samples(3000, 0.01, |t| (2.0 * PI * 1.3 * t).sin() + 0.4 * (2.0 * PI * 6.1 * t).sin());
-    let tone =
-        |band| dominant(&wave, 0.01, band).map(|tone| tone.map(|SineComponent { frequency, .. }| frequency));
+    let wave = samples(3000, 0.01, |t| {
+        (2.0 * PI * 1.3 * t).sin() + 0.4 * (2.0 * PI * 6.1 * t).sin()
+    });
+    let tone = |band| {
+        dominant(&wave, 0.01, band)
+            .map(|tone| tone.map(|SineComponent { frequency, .. }| frequency))
+    };
     close(tone([0.0, 50.0])?.expect("one"), 1.3, 1e-4);
     close(tone([3.0, 50.0])?.expect("the other"), 6.1, 1e-4);
-    assert_eq!(dominant(&samples(100, 0.1, |_| 4.0), 0.1, [0.0, 5.0])?, None);
+    assert_eq!(
+        dominant(&samples(100, 0.1, |_| 4.0), 0.1, [0.0, 5.0])?,
+        None
+    );
     // The flank of a peak outside the band does not count as a peak.
     let slow = samples(1000, 0.01, |t| (2.0 * PI * 0.1 * t).sin());
     assert!(dominant(&slow, 0.01, [0.5, 0.9])?.is_none_or(|tone| tone.amplitude < 0.01));
@@ -183,12 +238,18 @@ fn damping_is_found_whatever_the_mean() -> Result<(), Error> {
     for ratio in [0.005, 0.02, 0.05, 0.2] {
         for shift in [0.0, -40.0] {
             let shape = ringing(ratio, 1.9);
-            let found = decay(&samples(1500, 0.01, |t| shift + shape(t)), 0.01, 0.01)?.expect("it rings");
+            let found =
+                decay(&samples(1500, 0.01, |t| shift + shape(t)), 0.01, 0.01)?.expect("it rings");
             close(found.ratio, ratio, 2e-3 * ratio);
             close(found.frequency, 1.9, 2e-3);
         }
     }
-    let steady = decay(&samples(1000, 0.01, |t| (2.0 * PI * 1.9 * t).sin()), 0.01, 0.5)?.expect("it rings");
+    let steady = decay(
+        &samples(1000, 0.01, |t| (2.0 * PI * 1.9 * t).sin()),
+        0.01,
+        0.5,
+    )?
+    .expect("it rings");
     close(steady.ratio, 0.0, 1e-6);
     assert_eq!(decay(&samples(1000, 0.01, |t| t * t), 0.01, 0.01)?, None);
     assert_eq!(decay(&[], 0.01, 0.01)?, None);
@@ -200,12 +261,27 @@ fn a_response_is_told_in_its_numbers() -> Result<(), Error> {
     // A step of 50 at 1 s that oscillates at 2 Hz with 3 % damping, and chatter at 30 Hz that the filter
     // removes.
     let shape = ringing(0.03, 2.0);
-    let value = |t: f64| 1000.0 + if t < 1.0 { 0.0 } else { 50.0 * (1.0 - shape(t - 1.0)) };
+    let value = |t: f64| {
+        1000.0
+            + if t < 1.0 {
+                0.0
+            } else {
+                50.0 * (1.0 - shape(t - 1.0))
+            }
+    };
     let times: Vec<f64> = (0..16001).map(|k| f64::from(k) * 1e-3).collect();
     let clean: Vec<f64> = times.iter().map(|&t| value(t)).collect();
-    let rough: Vec<f64> = times.iter().map(|&t| value(t) + 3.0 * (2.0 * PI * 30.0 * t).sin()).collect();
-    let view =
-        ResponseSettings { from: 1.0, settled: 14.0, step: 0.002, cut_off: None, excursion_fraction: 0.01 };
+    let rough: Vec<f64> = times
+        .iter()
+        .map(|&t| value(t) + 3.0 * (2.0 * PI * 30.0 * t).sin())
+        .collect();
+    let view = ResponseSettings {
+        from: 1.0,
+        settled: 14.0,
+        step: 0.002,
+        cut_off: None,
+        excursion_fraction: 0.01,
+    };
     let plain = response(&times, &clean, &view)?;
     close(plain.mean, 1050.0, 0.002);
     // Analytic: the first overshoot of a step, half a period later.
@@ -214,35 +290,101 @@ fn a_response_is_told_in_its_numbers() -> Result<(), Error> {
     close(plain.peak.time, 1.25, 0.01);
     close(plain.trough.value, 1000.0, 1e-9);
     let even = resample(&times, &clean, view.from, view.step)?;
-    close(dominant(&even, view.step, [0.5, 100.0])?.expect("it rings").frequency, 2.0, 0.02);
-    close(decay(&even, view.step, 0.05)?.expect("it rings").ratio, 0.03, 1e-4);
+    close(
+        dominant(&even, view.step, [0.5, 100.0])?
+            .expect("it rings")
+            .frequency,
+        2.0,
+        0.02,
+    );
+    close(
+        decay(&even, view.step, 0.05)?.expect("it rings").ratio,
+        0.03,
+        1e-4,
+    );
     // 50 exp(-k pi zeta') > 10.5 for k = 0 to 16.
     assert_eq!(plain.excursions, Excursions { above: 8, below: 9 });
     let counted = response(&times, &rough, &view)?.excursions;
     assert!(counted.total() > 17, "chatter counts: {counted:?}");
-    let filtered = response(&times, &rough, &ResponseSettings { cut_off: Some(10.0), ..view })?;
+    let filtered = response(
+        &times,
+        &rough,
+        &ResponseSettings {
+            cut_off: Some(10.0),
+            ..view
+        },
+    )?;
     assert_eq!(filtered.excursions, plain.excursions);
-    let smooth = low_pass(&resample(&times, &rough, view.from, view.step)?, view.step, 10.0)?;
-    close(decay(&smooth, view.step, 0.05)?.expect("it rings").ratio, 0.03, 1e-3);
+    let smooth = low_pass(
+        &resample(&times, &rough, view.from, view.step)?,
+        view.step,
+        10.0,
+    )?;
+    close(
+        decay(&smooth, view.step, 0.05)?.expect("it rings").ratio,
+        0.03,
+        1e-3,
+    );
     Ok(())
 }
 
 #[test]
 fn histories_that_make_no_sense_are_refused() {
     let (times, values) = ([0.0, 1.0], [1.0, 2.0]);
-    assert_eq!(mean(&[0.0], &[1.0], 0.0), Err(Error::Few { found: 1, least: 2 }));
+    assert_eq!(
+        mean(&[0.0], &[1.0], 0.0),
+        Err(Error::Few { found: 1, least: 2 })
+    );
     assert!(mean(&times, &values, 1.0).is_err());
-    assert_eq!(mean(&times, &[1.0], 0.0), Err(Error::Samples { series: 0, found: 1, expected: 2 }));
-    assert_eq!(mean(&[1.0, 0.0], &values, 0.0), Err(Error::Order { sample: 1 }));
-    assert_eq!(mean(&[0.0, f64::NAN], &values, 0.0), Err(Error::Number { series: 1, sample: 1 }));
+    assert_eq!(
+        mean(&times, &[1.0], 0.0),
+        Err(Error::Samples {
+            series: 0,
+            found: 1,
+            expected: 2
+        })
+    );
+    assert_eq!(
+        mean(&[1.0, 0.0], &values, 0.0),
+        Err(Error::Order { sample: 1 })
+    );
+    assert_eq!(
+        mean(&[0.0, f64::NAN], &values, 0.0),
+        Err(Error::Number {
+            series: 1,
+            sample: 1
+        })
+    );
     assert!(resample(&times, &values, 0.0, 1e-30).is_err());
     assert!(resample(&times, &values, 2.0, 0.1).is_err());
     assert!(excursions(&[f64::NAN], 0.0, 0.1).is_err());
     assert!(decay(&values, 0.0, 0.1).is_err());
-    assert_eq!(envelope(&[], 0).map(|found| found.len()), Err(Error::Few { found: 0, least: 1 }));
-    let run = RunHistories { times: &times, series: &[&values] };
-    assert_eq!(envelope(&[run], 2), Err(Error::Series { run: 0, found: 1, expected: 2 }));
+    assert_eq!(
+        envelope(&[], 0).map(|found| found.len()),
+        Err(Error::Few { found: 0, least: 1 })
+    );
+    let run = RunHistories {
+        times: &times,
+        series: &[&values],
+    };
+    assert_eq!(
+        envelope(&[run], 2),
+        Err(Error::Series {
+            run: 0,
+            found: 1,
+            expected: 2
+        })
+    );
     let infinite = [1.0, f64::INFINITY];
-    let broken = RunHistories { times: &times, series: &[&infinite] };
-    assert_eq!(envelope(&[run, broken], 1), Err(Error::Number { series: 0, sample: 1 }));
+    let broken = RunHistories {
+        times: &times,
+        series: &[&infinite],
+    };
+    assert_eq!(
+        envelope(&[run, broken], 1),
+        Err(Error::Number {
+            series: 0,
+            sample: 1
+        })
+    );
 }

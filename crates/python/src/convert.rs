@@ -54,9 +54,15 @@ pub(crate) fn matrix<'py>(
 /// A table of comma-separated values as a dictionary of its columns: arrays of numbers where every cell is a number
 /// (an empty one is not a number), lists of strings elsewhere.
 pub(crate) fn table<'py>(py: Python<'py>, text: &[u8]) -> PyResult<Bound<'py, PyDict>> {
-    let unreadable = |error: csv::Error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string());
+    let unreadable =
+        |error: csv::Error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string());
     let mut reader = csv::Reader::from_reader(text);
-    let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
+    let names: Vec<String> = reader
+        .headers()
+        .map_err(unreadable)?
+        .iter()
+        .map(str::to_owned)
+        .collect();
     let mut columns: Vec<Vec<String>> = vec![Vec::new(); names.len()];
     for record in reader.records() {
         for (column, cell) in columns.iter_mut().zip(record.map_err(unreadable)?.iter()) {
@@ -65,7 +71,13 @@ pub(crate) fn table<'py>(py: Python<'py>, text: &[u8]) -> PyResult<Bound<'py, Py
     }
     let dict = PyDict::new(py);
     for (name, cells) in names.into_iter().zip(columns) {
-        let number = |cell: &String| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() };
+        let number = |cell: &String| {
+            if cell.is_empty() {
+                Some(f64::NAN)
+            } else {
+                cell.parse().ok()
+            }
+        };
         match cells.iter().map(number).collect::<Option<Vec<f64>>>() {
             Some(numbers) => dict.set_item(name, PyArray1::from_vec(py, numbers))?,
             None => dict.set_item(name, cells)?,

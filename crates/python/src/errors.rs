@@ -31,7 +31,11 @@ impl Refusal {
     }
 
     /// The refusal of one argument of a call.
-    pub(crate) fn argument(name: &str, expected: impl Into<String>, found: Option<String>) -> Refusal {
+    pub(crate) fn argument(
+        name: &str,
+        expected: impl Into<String>,
+        found: Option<String>,
+    ) -> Refusal {
         let mut fault = Diagnostic::of_file("argument", expected);
         name.clone_into(&mut fault.path);
         fault.found = found;
@@ -99,7 +103,9 @@ impl From<outputs::Error> for Refusal {
     fn from(error: outputs::Error) -> Self {
         match error {
             outputs::Error::Files(diagnostics) => Refusal::Input(diagnostics),
-            outputs::Error::NotShown(why) | outputs::Error::NoResults(why) => Refusal::Untrusted(why),
+            outputs::Error::NotShown(why) | outputs::Error::NoResults(why) => {
+                Refusal::Untrusted(why)
+            }
         }
     }
 }
@@ -107,5 +113,7 @@ impl From<outputs::Error> for Refusal {
 /// The exception of something that cannot happen.
 pub(crate) fn internal(error: impl std::fmt::Display) -> PyErr {
     let version = env!("CARGO_PKG_VERSION");
-    PyRuntimeError::new_err(format!("internal error in version {version}: please report it: {error}"))
+    PyRuntimeError::new_err(format!(
+        "internal error in version {version}: please report it: {error}"
+    ))
 }

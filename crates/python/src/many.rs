@@ -25,12 +25,17 @@ pub(crate) fn run_many<'py>(
 ) -> PyResult<Bound<'py, PyList>> {
     let patches: Vec<_> = patches.into_iter().map(changes).collect();
     let each = each.map(|each| each.clone().unbind());
-    let options = RunOptions { threads, girders: GirderTime::OnDemand };
+    let options = RunOptions {
+        threads,
+        girders: GirderTime::OnDemand,
+    };
     let all = without_lock(py, progress, |state| -> Result<Vec<Py<PyAny>>, Refusal> {
         let source = scene.scene()?;
         let observe = |fraction: f64| state.advance(fraction);
         let each = |_: usize, run: Result<_, results::Error>| {
-            let found = run.map(|run| (run, StageClock::new())).map_err(Refusal::from);
+            let found = run
+                .map(|run| (run, StageClock::new()))
+                .map_err(Refusal::from);
             Python::attach(|py| {
                 let value = made(py, found).and_then(|run| match &each {
                     Some(each) => each.call1(py, (run,)),
@@ -39,7 +44,14 @@ pub(crate) fn run_many<'py>(
                 value.unwrap_or_else(|error| error.into_value(py).into_any())
             })
         };
-        Ok(results::many::run_many(&source, &patches, comparisons, options, &observe, &each))
+        Ok(results::many::run_many(
+            &source,
+            &patches,
+            comparisons,
+            options,
+            &observe,
+            &each,
+        ))
     })?;
     PyList::new(py, all.map_err(|refusal| refusal.exception(py))?)
 }

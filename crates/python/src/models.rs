@@ -13,7 +13,10 @@ use crate::errors::Refusal;
 /// Reads a model of another program. Returns the text of a beam spec and warnings.
 #[pyfunction]
 #[pyo3(signature = (path, length, force, up, rails, fix, sections, spc, skip, skip_unused, mass))]
-#[expect(clippy::too_many_arguments, reason = "the options of the command, each by its name")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "the options of the command, each by its name"
+)]
 pub(crate) fn import_model(
     py: Python<'_>,
     path: PathBuf,
@@ -34,48 +37,75 @@ pub(crate) fn import_model(
             None => None,
         };
         let options = ImportOptions {
-            length: word("length", length, &Length::ALL.map(|unit| (unit.word(), unit)))?,
+            length: word(
+                "length",
+                length,
+                &Length::ALL.map(|unit| (unit.word(), unit)),
+            )?,
             force: word(
                 "force",
                 force,
-                &[Force::Pound, Force::Kip, Force::Newton, Force::Kilonewton].map(|unit| (unit.word(), unit)),
+                &[Force::Pound, Force::Kip, Force::Newton, Force::Kilonewton]
+                    .map(|unit| (unit.word(), unit)),
             )?,
             up,
             rails: parsed("rails", &rails)?,
             fix: parsed("fix", &fix)?,
             sections,
             spc,
-            skip: skip.iter().map(|name| name.trim().to_ascii_uppercase()).collect(),
+            skip: skip
+                .iter()
+                .map(|name| name.trim().to_ascii_uppercase())
+                .collect(),
             skip_unused,
             mass: word(
                 "mass",
                 mass,
-                &[("lumped", MassDistribution::Lumped), ("distributed", MassDistribution::Distributed)],
+                &[
+                    ("lumped", MassDistribution::Lumped),
+                    ("distributed", MassDistribution::Distributed),
+                ],
             )?,
         };
         let imported = import(&path, &read_file, &options)?;
-        Ok((imported.text, imported.warnings.iter().map(ToString::to_string).collect()))
+        Ok((
+            imported.text,
+            imported.warnings.iter().map(ToString::to_string).collect(),
+        ))
     };
     py.detach(read).map_err(|refusal| refusal.exception(py))
 }
 
 /// The value of a word.
-fn word<T: Copy>(name: &str, given: Option<&str>, known: &[(&str, T)]) -> Result<Option<T>, Refusal> {
+fn word<T: Copy>(
+    name: &str,
+    given: Option<&str>,
+    known: &[(&str, T)],
+) -> Result<Option<T>, Refusal> {
     let Some(given) = given else { return Ok(None) };
     match known.iter().find(|(word, _)| *word == given) {
         Some((_, value)) => Ok(Some(*value)),
         None => {
             let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
             let expected = format!("must be one of {}", words.join(", "));
-            Err(Refusal::argument(name, expected, Some(format!("{given:?}"))))
+            Err(Refusal::argument(
+                name,
+                expected,
+                Some(format!("{given:?}")),
+            ))
         }
     }
 }
 
 /// Requests in the words of the command line.
-fn parsed<T: std::str::FromStr<Err = String>>(name: &str, given: &[String]) -> Result<Vec<T>, Refusal> {
+fn parsed<T: std::str::FromStr<Err = String>>(
+    name: &str,
+    given: &[String],
+) -> Result<Vec<T>, Refusal> {
     let each = given.iter().map(|text| {
-        text.parse().map_err(|expected: String| Refusal::argument(name, expected, Some(format!("{text:?}"))))
+        text.parse().map_err(|expected: String| {
+            Refusal::argument(name, expected, Some(format!("{text:?}")))
+        })
     });
     each.collect()
 }

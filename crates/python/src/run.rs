@@ -45,11 +45,20 @@ impl Run {
         let cases = run.cases.iter_mut().map(|case| {
             case.drop_history();
             let columns = case.columns.columns.iter_mut();
-            let arrays = columns.map(|column| array(py, std::mem::take(&mut column.values)).unbind());
-            CaseColumns { label: case.label.clone(), arrays: arrays.collect() }
+            let arrays =
+                columns.map(|column| array(py, std::mem::take(&mut column.values)).unbind());
+            CaseColumns {
+                label: case.label.clone(),
+                arrays: arrays.collect(),
+            }
         });
         let cases = cases.collect();
-        Run { run: Mutex::new(run), clock, cases, why_incomplete }
+        Run {
+            run: Mutex::new(run),
+            clock,
+            cases,
+            why_incomplete,
+        }
     }
 
     /// Calls `read` with the whole run and the extremes of its girders, without the lock of the interpreter; the clock
@@ -60,8 +69,11 @@ impl Run {
         read: impl FnOnce(&SceneRun, StageClock) -> R + Send,
     ) -> PyResult<R> {
         let copy = |array: &Py<PyArray1<f64>>| array.bind(py).readonly().as_array().to_vec();
-        let copies: Vec<Vec<Vec<f64>>> =
-            self.cases.iter().map(|case| case.arrays.iter().map(copy).collect()).collect();
+        let copies: Vec<Vec<Vec<f64>>> = self
+            .cases
+            .iter()
+            .map(|case| case.arrays.iter().map(copy).collect())
+            .collect();
         let mut clock = self.clock.clone();
         let made = without_lock(py, None, move |state| {
             let mut run = self.run.lock().unwrap_or_else(PoisonError::into_inner);
@@ -75,7 +87,10 @@ impl Run {
             clock.prolong();
             let made = computed.map(|()| read(&run, clock));
             for case in &mut run.cases {
-                case.columns.columns.iter_mut().for_each(|column| column.values = Vec::new());
+                case.columns
+                    .columns
+                    .iter_mut()
+                    .for_each(|column| column.values = Vec::new());
             }
             made
         })?;
@@ -88,7 +103,9 @@ impl Run {
     }
 
     fn case(&self, index: usize) -> PyResult<&CaseColumns> {
-        self.cases.get(index).ok_or_else(|| internal("no such case"))
+        self.cases
+            .get(index)
+            .ok_or_else(|| internal("no such case"))
     }
 }
 
@@ -110,7 +127,12 @@ impl Run {
     fn columns<'py>(&self, py: Python<'py>, case: usize) -> PyResult<Bound<'py, PyDict>> {
         let arrays = &self.case(case)?.arrays;
         let names: Vec<String> = self.with_run(py, |run| {
-            run.cases[case].columns.columns.iter().map(|column| column.name.clone()).collect()
+            run.cases[case]
+                .columns
+                .columns
+                .iter()
+                .map(|column| column.name.clone())
+                .collect()
         });
         let dict = PyDict::new(py);
         for (name, array) in names.into_iter().zip(arrays) {
@@ -138,7 +160,9 @@ impl Run {
     fn envelope<'py>(&self, py: Python<'py>, case: usize) -> PyResult<Bound<'py, PyDict>> {
         self.case(case)?;
         let text = self.with_girders(py, |run, _| {
-            run.cases[case].girders().csv(&run.document.cases[case].scene, case + 1)
+            run.cases[case]
+                .girders()
+                .csv(&run.document.cases[case].scene, case + 1)
         })?;
         match text.map_err(internal)? {
             Some(text) => table(py, &text),
@@ -158,16 +182,23 @@ impl Run {
     /// Writes the files of `girderway run` to a folder.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<PathBuf> {
         let saved = self.with_girders(py, |run, clock| save_run(run, &path, force, None, clock))?;
-        saved.map(|written| written.folder).map_err(|error| Refusal::from(error).exception(py))
+        saved
+            .map(|written| written.folder)
+            .map_err(|error| Refusal::from(error).exception(py))
     }
 }
 
 /// The run as an object of Python, or the exception of its error. An incomplete run is the member `run` of its
 /// exception.
-pub(crate) fn made(py: Python<'_>, made: Result<(SceneRun, StageClock), Refusal>) -> PyResult<Py<Run>> {
+pub(crate) fn made(
+    py: Python<'_>,
+    made: Result<(SceneRun, StageClock), Refusal>,
+) -> PyResult<Py<Run>> {
     let (run, clock) = made.map_err(|refusal| refusal.exception(py))?;
     let run = Py::new(py, Run::new(py, run, clock))?;
-    let Some(why) = run.get().why_incomplete.clone() else { return Ok(run) };
+    let Some(why) = run.get().why_incomplete.clone() else {
+        return Ok(run);
+    };
     let error = untrusted_error(py, &why)?;
     error.value(py).setattr("run", run)?;
     Err(error)
@@ -185,7 +216,10 @@ pub(crate) fn run(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Py<Run>> {
     // most callers ask for columns alone
-    let options = RunOptions { threads, girders: GirderTime::OnDemand };
+    let options = RunOptions {
+        threads,
+        girders: GirderTime::OnDemand,
+    };
     let found = without_lock(py, progress, |state| {
         let mut clock = StageClock::new();
         let source = scene.scene()?;

@@ -34,7 +34,12 @@ impl Design {
 
     /// The columns of `envelope.csv`, `reactions.csv` or `influence.csv`.
     fn table<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
-        let SolvedDesign { design, result, lines, .. } = &self.solved;
+        let SolvedDesign {
+            design,
+            result,
+            lines,
+            ..
+        } = &self.solved;
         let text = match name {
             "envelope" => ::design::envelope_csv(design, result),
             "reactions" => ::design::reactions_csv(result),
@@ -61,5 +66,6 @@ pub(crate) fn design(py: Python<'_>, design: GivenInput) -> PyResult<Design> {
         let (design, inputs) = DesignInput::read(inputs, &source)?;
         Ok(SolvedDesign::of(&design, inputs)?)
     })?;
-    made.map(Design::new).map_err(|refusal| refusal.exception(py))
+    made.map(Design::new)
+        .map_err(|refusal| refusal.exception(py))
 }

@@ -45,5 +45,8 @@ impl GivenInput {
 
 /// Changes of a scene as a text.
 pub(crate) fn changes(text: String) -> Source {
-    Source { name: "changes".to_owned(), text }
+    Source {
+        name: "changes".to_owned(),
+        text,
+    }
 }

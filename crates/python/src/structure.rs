@@ -59,13 +59,30 @@ impl Structure {
     /// Index of a rail by its name, which may be left out where there is one.
     fn rail(&self, name: Option<&str>, argument: &str) -> Result<usize, Refusal> {
         let rails = self.spec.rails();
-        let words = || rails.iter().map(|rail| rail.name.as_str()).collect::<Vec<_>>().join(", ");
+        let words = || {
+            rails
+                .iter()
+                .map(|rail| rail.name.as_str())
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         match name {
             None if rails.len() == 1 => Ok(0),
-            None => Err(Refusal::argument(argument, format!("must be one of {}", words()), None)),
-            Some(name) => rails.iter().position(|rail| rail.name == name).ok_or_else(|| {
-                Refusal::argument(argument, format!("must be one of {}", words()), Some(format!("{name:?}")))
-            }),
+            None => Err(Refusal::argument(
+                argument,
+                format!("must be one of {}", words()),
+                None,
+            )),
+            Some(name) => rails
+                .iter()
+                .position(|rail| rail.name == name)
+                .ok_or_else(|| {
+                    Refusal::argument(
+                        argument,
+                        format!("must be one of {}", words()),
+                        Some(format!("{name:?}")),
+                    )
+                }),
         }
     }
 }
@@ -83,7 +100,12 @@ impl Structure {
         let made = py.detach(|| {
             let (inputs, source) = spec.open("spec")?;
             let spec = Spec::read(&source, None)?;
-            Ok(Structure { spec, source, inputs, solved: OnceLock::new() })
+            Ok(Structure {
+                spec,
+                source,
+                inputs,
+                solved: OnceLock::new(),
+            })
         });
         made.map_err(|refusal: Refusal| refusal.exception(py))
     }
@@ -134,22 +156,36 @@ impl Structure {
     /// Notes on the spec and its solution.
     fn notes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let solved = self.solved(py)?;
-        Ok(self.spec.notes.iter().chain(&solved.grid.notes).cloned().collect())
+        Ok(self
+            .spec
+            .notes
+            .iter()
+            .chain(&solved.grid.notes)
+            .cloned()
+            .collect())
     }
 
     /// Guaranteed bound of the relative error of the influence coefficients by rounding.
     #[getter]
     fn error_bound(&self, py: Python<'_>) -> PyResult<Option<f64>> {
-        Ok(self.solved(py)?.grid.certificate.map(|certificate| certificate.error_bound))
+        Ok(self
+            .solved(py)?
+            .grid
+            .certificate
+            .map(|certificate| certificate.error_bound))
     }
 
     /// Critical factor on the preload, of axial forces alone; infinite where there is none up to 1e6, `None` without preload.
     #[getter]
     fn critical_factor(&self, py: Python<'_>) -> PyResult<Option<f64>> {
-        Ok(self.solved(py)?.grid.critical.map(|critical| match critical {
-            GridCritical::At(factor) => factor,
-            GridCritical::Above(_) => f64::INFINITY,
-        }))
+        Ok(self
+            .solved(py)?
+            .grid
+            .critical
+            .map(|critical| match critical {
+                GridCritical::At(factor) => factor,
+                GridCritical::Above(_) => f64::INFINITY,
+            }))
     }
 
     /// Influence coefficients between places of two rails.
@@ -163,11 +199,17 @@ impl Structure {
         load_rail: Option<&str>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let refuse = |refusal: Refusal| refusal.exception(py);
-        let known = GridBlock::ALL.into_iter().find(|block| block.name() == axis);
+        let known = GridBlock::ALL
+            .into_iter()
+            .find(|block| block.name() == axis);
         let Some(block) = known else {
             let words: Vec<&str> = GridBlock::ALL.iter().map(|block| block.name()).collect();
             let expected = format!("must be one of {}", words.join(", "));
-            return Err(refuse(Refusal::argument("axis", expected, Some(format!("{axis:?}")))));
+            return Err(refuse(Refusal::argument(
+                "axis",
+                expected,
+                Some(format!("{axis:?}")),
+            )));
         };
         let own = self.rail(rail, "rail").map_err(refuse)?;
         let other = match load_rail {
@@ -176,7 +218,9 @@ impl Structure {
         };
         let solved = self.solved(py)?;
         let (x, z) = (x.as_slice()?, z.as_slice()?);
-        let found = solved.influence(block, [own, other], x, z).map_err(|error| refuse(off_rail(&error)))?;
+        let found = solved
+            .influence(block, [own, other], x, z)
+            .map_err(|error| refuse(off_rail(&error)))?;
         // numpy stores rows one after the other, the matrix its columns
         matrix(py, x.len(), z.len(), found.transpose().as_slice().to_vec())
     }
@@ -187,7 +231,10 @@ impl Structure {
         let dict = PyDict::new(py);
         for (block, values) in &solved.grid.blocks {
             let rows = values.transpose().as_slice().to_vec();
-            dict.set_item(block.name(), matrix(py, values.nrows(), values.ncols(), rows)?)?;
+            dict.set_item(
+                block.name(),
+                matrix(py, values.nrows(), values.ncols(), rows)?,
+            )?;
         }
         Ok(dict)
     }
@@ -196,13 +243,23 @@ impl Structure {
     fn modes(&self, py: Python<'_>, count: usize) -> PyResult<Modes> {
         let refuse = |refusal: Refusal| refusal.exception(py);
         if count == 0 {
-            return Err(refuse(Refusal::argument("count", "must be positive", Some("0".to_owned()))));
+            return Err(refuse(Refusal::argument(
+                "count",
+                "must be positive",
+                Some("0".to_owned()),
+            )));
         }
         let solved = self.solved(py)?;
-        let found = py.detach(|| fea::refined_modes(&solved.model, &solved.rails, count, MESH_TOLERANCE));
-        let refined =
-            found.map_err(|error| refuse(Refusal::from(self.spec.locate_error(&self.source, &error))))?;
-        let rails = self.spec.rails().into_iter().map(|rail| rail.name).collect();
+        let found =
+            py.detach(|| fea::refined_modes(&solved.model, &solved.rails, count, MESH_TOLERANCE));
+        let refined = found
+            .map_err(|error| refuse(Refusal::from(self.spec.locate_error(&self.source, &error))))?;
+        let rails = self
+            .spec
+            .rails()
+            .into_iter()
+            .map(|rail| rail.name)
+            .collect();
         Ok(Modes { refined, rails })
     }
 
@@ -213,11 +270,11 @@ impl Structure {
             let format = TableFormat::of(&path.display().to_string())?;
             let set = TableSet::of_grid(&solved.grid);
             if set.tables.is_empty() {
-                let expected =
-                    "must have a rail of at least four stations: a SPLINE has four x values or more";
+                let expected = "must have a rail of at least four stations: a SPLINE has four x values or more";
                 return Err(Refusal::argument("stations", expected, None));
             }
-            let bytes = tables::write(&set, format).map_err(|error| Refusal::Untrusted(error.to_string()))?;
+            let bytes = tables::write(&set, format)
+                .map_err(|error| Refusal::Untrusted(error.to_string()))?;
             Ok(files::write(&path, &bytes)?)
         };
         py.detach(write).map_err(|refusal| refusal.exception(py))
@@ -226,9 +283,14 @@ impl Structure {
     /// Writes the grid file, as `girderway fea` does.
     fn write_grid(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let solved = self.solved(py)?;
-        let write =
-            || files::write(&path, grid_file::write(&solved.grid, solved.surface.as_ref()).as_bytes());
-        py.detach(write).map_err(|error| Refusal::from(error).exception(py))
+        let write = || {
+            files::write(
+                &path,
+                grid_file::write(&solved.grid, solved.surface.as_ref()).as_bytes(),
+            )
+        };
+        py.detach(write)
+            .map_err(|error| Refusal::from(error).exception(py))
     }
 
     /// Solves a design, given as a text that names the spec as `spec`.
@@ -239,7 +301,8 @@ impl Structure {
             let (design, inputs) = DesignInput::read(inputs, &source)?;
             Ok(SolvedDesign::of(&design, inputs)?)
         })?;
-        made.map(Design::new).map_err(|refusal| refusal.exception(py))
+        made.map(Design::new)
+            .map_err(|refusal| refusal.exception(py))
     }
 }
 
@@ -255,7 +318,15 @@ impl Modes {
     /// Frequencies in Hz, lowest first.
     #[getter]
     fn frequency<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        array(py, self.refined.modes.modes.iter().map(|mode| mode.omega / TAU).collect())
+        array(
+            py,
+            self.refined
+                .modes
+                .modes
+                .iter()
+                .map(|mode| mode.omega / TAU)
+                .collect(),
+        )
     }
 
     /// Estimated relative error of the frequencies due to the mesh.
@@ -273,11 +344,18 @@ impl Modes {
         rail: Option<&str>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let refuse = |refusal: Refusal| refusal.exception(py);
-        let axes =
-            [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+        let axes = [
+            ("vertical", Axis::Vertical),
+            ("lateral", Axis::Lateral),
+            ("longitudinal", Axis::Longitudinal),
+        ];
         let Some((_, axis)) = axes.into_iter().find(|(word, _)| *word == axis) else {
             let expected = "must be one of vertical, lateral, longitudinal";
-            return Err(refuse(Refusal::argument("axis", expected, Some(format!("{axis:?}")))));
+            return Err(refuse(Refusal::argument(
+                "axis",
+                expected,
+                Some(format!("{axis:?}")),
+            )));
         };
         let index = match rail {
             None if self.rails.len() == 1 => Some(0),
@@ -286,14 +364,19 @@ impl Modes {
         };
         let Some(rail) = index else {
             let expected = format!("must be one of {}", self.rails.join(", "));
-            return Err(refuse(Refusal::argument("rail", expected, rail.map(|name| format!("{name:?}")))));
+            return Err(refuse(Refusal::argument(
+                "rail",
+                expected,
+                rail.map(|name| format!("{name:?}")),
+            )));
         };
         let count = self.refined.modes.modes.len();
         let x = x.as_slice()?;
         let mut rows = vec![0.0; count * x.len()];
         for (i, &x_i) in x.iter().enumerate() {
             let found = self.refined.modes.at(Probe { rail, x: x_i, axis });
-            let found = found.map_err(|error| refuse(Refusal::argument("x", error.to_string(), None)))?;
+            let found =
+                found.map_err(|error| refuse(Refusal::argument("x", error.to_string(), None)))?;
             for (k, [value, _]) in found.into_iter().enumerate() {
                 rows[k * x.len() + i] = value;
             }

@@ -38,7 +38,14 @@ pub(crate) fn sweep<'py>(
             SweepProgress::Made(made, all) => state.advance(made as f64 / all as f64),
         };
         let go_on = || state.go_on();
-        Ok(make_sweep((&read, &own), shard, (&output, force), threads, &mut observe, &go_on)?)
+        Ok(make_sweep(
+            (&read, &own),
+            shard,
+            (&output, force),
+            threads,
+            &mut observe,
+            &go_on,
+        )?)
     })?;
     written(py, made)
 }

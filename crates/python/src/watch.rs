@@ -23,7 +23,8 @@ pub(crate) struct WorkState {
 impl WorkState {
     /// Notes the fraction that is done, 0 to 1, and says whether to go on.
     pub(crate) fn advance(&self, fraction: f64) -> ControlFlow<()> {
-        self.done.store((PARTS * fraction) as u64, Ordering::Relaxed);
+        self.done
+            .store((PARTS * fraction) as u64, Ordering::Relaxed);
         self.go_on()
     }
 
@@ -62,7 +63,9 @@ pub(crate) fn without_lock<R: Send>(
                 let looked = Python::attach(|py| {
                     py.check_signals()?;
                     let fraction = state.done.load(Ordering::Relaxed) as f64 / PARTS;
-                    progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (fraction,)).map(|_| ()))
+                    progress.as_ref().map_or(Ok(()), |progress| {
+                        progress.call1(py, (fraction,)).map(|_| ())
+                    })
                 });
                 if let Err(error) = looked {
                     raised = Some(error);

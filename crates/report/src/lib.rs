@@ -35,7 +35,9 @@ pub mod text;
 pub(crate) use document::code::coded;
 pub use document::number::{cleared, is_rounding, number};
 pub use document::page::Report;
-pub use document::section::{Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
+pub use document::section::{
+    Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
+};
 pub use error::Error;
 
 #[cfg(test)]

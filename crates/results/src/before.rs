@@ -23,9 +23,16 @@ use crate::run_error::equilibrium_hint;
 pub fn check(document: &Document) -> Result<(), Vec<Diagnostic>> {
     let mut wrong: Vec<Diagnostic> = Vec::new();
     for case in &document.cases {
-        let Some(fault) = fault(&case.scene) else { continue };
+        let Some(fault) = fault(&case.scene) else {
+            continue;
+        };
         let found = document.diagnose(case.label.as_deref(), &Faults(vec![fault]));
-        wrong.extend(found.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>());
+        wrong.extend(
+            found
+                .into_iter()
+                .filter(|new| !wrong.contains(new))
+                .collect::<Vec<_>>(),
+        );
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
@@ -55,19 +62,22 @@ pub fn of_error(error: &foundations::Error, scene: &Scene) -> Option<Fault> {
         foundations::Error::Modes { structure, source } => {
             let list = root.key("structures");
             let (key, hint) = match source {
-                fea::Error::TooManyModes { .. } | fea::Error::Elements { .. } => {
-                    ("elements", "use fewer, or \"modal\", which computes only the lowest modes")
-                }
-                fea::Error::NoMass => {
-                    ("foundation", "give its materials a density, or the girder `mass_per_length`")
-                }
+                fea::Error::TooManyModes { .. } | fea::Error::Elements { .. } => (
+                    "elements",
+                    "use fewer, or \"modal\", which computes only the lowest modes",
+                ),
+                fea::Error::NoMass => (
+                    "foundation",
+                    "give its materials a density, or the girder `mass_per_length`",
+                ),
                 _ => return None,
             };
             Some(Fault::new(&list.key(structure).key(key), source.to_string()).hint(hint))
         }
         foundations::Error::Simulation(sim::Error::NoEquilibrium { body, .. }) => {
             let list = root.key("bodies");
-            let expected = "has no static equilibrium: its wheels on the rail cannot carry its weight";
+            let expected =
+                "has no static equilibrium: its wheels on the rail cannot carry its weight";
             let hint = equilibrium_hint(scene);
             let fault = match body {
                 Some(body) => Fault::new(&list.key(&scene.bodies[*body].name), expected).at_key(),
@@ -89,8 +99,11 @@ pub fn located(document: &Document, error: Error) -> Error {
             Some(fault) => Error::Input(diagnosed(fault)),
             None => error,
         },
-        Error::Run { body: Some(body), .. } => {
-            let fault = Fault::new(&Place::root().key("bodies").key(body), error.to_string()).at_key();
+        Error::Run {
+            body: Some(body), ..
+        } => {
+            let fault =
+                Fault::new(&Place::root().key("bodies").key(body), error.to_string()).at_key();
             Error::NoSolution(diagnosed(fault).iter().map(ToString::to_string).collect())
         }
         _ => error,

@@ -67,13 +67,19 @@ impl CaseResult {
     /// ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)), the first who asks computes them.
     #[must_use]
     pub fn girders(&self) -> &GirderExtremes {
-        self.girders.get(&self.input, &self.run.history, &self.response.envelopes)
+        self.girders
+            .get(&self.input, &self.run.history, &self.response.envelopes)
     }
 
     /// The extremes and envelopes of the girders as [`CaseResult::girders`] returns them; `None` where `go_on` has broken
     /// off. Who asks again computes them from the beginning.
     pub fn girders_while(&self, go_on: &dyn Fn() -> ControlFlow<()>) -> Option<&GirderExtremes> {
-        self.girders.get_while(&self.input, &self.run.history, &self.response.envelopes, &mut |_| go_on())
+        self.girders.get_while(
+            &self.input,
+            &self.run.history,
+            &self.response.envelopes,
+            &mut |_| go_on(),
+        )
     }
 
     /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders

@@ -85,7 +85,15 @@ pub fn simulate(
         progress(now);
         ControlFlow::Continue(())
     };
-    simulate_while(document, known, RunOptions { threads, ..RunOptions::default() }, &observed)
+    simulate_while(
+        document,
+        known,
+        RunOptions {
+            threads,
+            ..RunOptions::default()
+        },
+        &observed,
+    )
 }
 
 /// Runs every case like [`simulate`], with options, until `progress` breaks off.
@@ -105,8 +113,13 @@ pub fn simulate_while(
     let mut outcomes = parallel_map(&order, options.threads, |_, &index| {
         let case = &cases[index];
         let fraction = || {
-            let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
-            progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)))
+            let sum: u64 = done
+                .iter()
+                .map(|thousandths| thousandths.load(Ordering::Relaxed))
+                .sum();
+            progress(SimulationProgress::Fraction(
+                sum as f64 / (1000.0 * cases.len() as f64),
+            ))
         };
         let mut watch = |t: f64| {
             // extremes of girders may repeat the run, whose time starts again from zero
@@ -120,7 +133,10 @@ pub fn simulate_while(
             let _ = progress(SimulationProgress::Trial(trial));
             let _ = fraction();
         };
-        (index, run_case(case, &members, options.girders, &trial, &mut watch))
+        (
+            index,
+            run_case(case, &members, options.girders, &trial, &mut watch),
+        )
     });
     outcomes.sort_by_key(|(index, _)| *index);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
@@ -134,7 +150,9 @@ fn longest_first(cases: &[Case]) -> Vec<usize> {
         _ if structure.auto => 4,
         scene::Foundation::Full { .. } => 3,
         scene::Foundation::Modal { .. } => 2,
-        scene::Foundation::Parts { .. } | scene::Foundation::Ties { .. } | scene::Foundation::Influence => 1,
+        scene::Foundation::Parts { .. }
+        | scene::Foundation::Ties { .. }
+        | scene::Foundation::Influence => 1,
         scene::Foundation::Rigid => 0,
     };
     let rank = |own: &Scene| {
@@ -152,8 +170,14 @@ const MAX_RECORDED_VALUES: f64 = 1e7;
 
 /// Criterion for storing the degrees of freedom of a structure (its index, its foundation) in the history of a run of
 /// `scene`: columns of reactions or internal forces need them, or they are fewer than 1e7 values.
-pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, &Foundation) -> bool + use<> {
-    let (has_columns, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
+pub fn records_dofs(
+    scene: &Scene,
+    known: &[SolvedStructure],
+) -> impl Fn(usize, &Foundation) -> bool + use<> {
+    let (has_columns, rows) = (
+        response::structures_with_columns(scene, known),
+        scene.end / scene.dt,
+    );
     move |s, foundation| {
         let dofs = foundation.dofs();
         dofs > 0 && (has_columns[s] || dofs as f64 * rows < MAX_RECORDED_VALUES)
@@ -174,10 +198,23 @@ fn run_case(
     input.scene.records_steps = true;
     let recorded = records_dofs(&scene, known);
     let mut observer = ColumnObserver::new(&case.scene, &input, known, trial);
-    let chosen =
-        foundations::select_and_run(&mut scene, &input.scene, known, &recorded, &mut observer, watch);
-    let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
-    let foundations::AutoRun { choices, mut run, built } = chosen.map_err(|error| match error {
+    let chosen = foundations::select_and_run(
+        &mut scene,
+        &input.scene,
+        known,
+        &recorded,
+        &mut observer,
+        watch,
+    );
+    let label = case
+        .label
+        .clone()
+        .unwrap_or_else(|| foundation_label(&scene));
+    let foundations::AutoRun {
+        choices,
+        mut run,
+        built,
+    } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
             let why = crate::run_error::in_scene_names(&error, &case.scene);
             let at_fault = match error {
@@ -185,32 +222,59 @@ fn run_case(
                 _ => None,
             };
             let body = at_fault.map(|body| case.scene.bodies[body].name.clone());
-            Error::Run { label: label.clone(), why, body }
+            Error::Run {
+                label: label.clone(),
+                why,
+                body,
+            }
         }
         other => Error::Foundation(other),
     })?;
     if run.status == Status::Stopped {
         return Err(Error::Stopped);
     }
-    let solved: Vec<Option<&SolvedModel>> =
-        scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
+    let solved: Vec<Option<&SolvedModel>> = scene
+        .structures
+        .iter()
+        .map(|structure| solution_of(known, &structure.origin))
+        .collect();
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
-    let mut response = Response::new(&scene, &input, &run.history, &built, &solved, &lines, &mut record)?;
-    let (mut foundations, bases): (Vec<Foundation>, Vec<_>) =
-        built.into_iter().map(|built| (built.foundation, built.basis)).unzip();
+    let mut response = Response::new(
+        &scene,
+        &input,
+        &run.history,
+        &built,
+        &solved,
+        &lines,
+        &mut record,
+    )?;
+    let (mut foundations, bases): (Vec<Foundation>, Vec<_>) = built
+        .into_iter()
+        .map(|built| (built.foundation, built.basis))
+        .unzip();
     for (s, foundation) in foundations.iter_mut().enumerate() {
         foundation.recorded = recorded(s, foundation);
     }
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
-    let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };
+    let spans = SpanResponse {
+        history: &run.history,
+        solved: &solved,
+        deflections: &response.deflections,
+    };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
     if let Some((column, time)) = record.first_not_finite() {
-        return Err(Error::NotFinite { label, column: column.to_owned(), time });
+        return Err(Error::NotFinite {
+            label,
+            column: column.to_owned(),
+            time,
+        });
     }
     let built = foundations.into_iter().zip(bases);
-    let built = built.map(|(foundation, basis)| BuiltFoundation { foundation, basis }).collect();
+    let built = built
+        .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
+        .collect();
     let inputs = GirderInputs::new(scene, built, Arc::clone(members), &mut run);
     let girders = match when {
         GirderTime::OnDemand => DeferredGirders::of(inputs),
@@ -237,7 +301,11 @@ fn run_case(
 
 /// Label of the run of the scene itself: the foundations of its structures.
 fn foundation_label(scene: &Scene) -> String {
-    let mut words: Vec<&str> = scene.structures.iter().map(|structure| structure.foundation.word()).collect();
+    let mut words: Vec<&str> = scene
+        .structures
+        .iter()
+        .map(|structure| structure.foundation.word())
+        .collect();
     words.dedup();
     words.join(" and ")
 }

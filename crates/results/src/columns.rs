@@ -47,24 +47,49 @@ impl NamedColumns {
     /// The columns of a run of `scene`, in the order of [`quantities`]; each is a sum of channels with factors.
     #[must_use]
     pub fn new(scene: &Scene, history: &History) -> NamedColumns {
-        let columns = quantities(scene).into_iter().map(|Quantity { name, dimension, terms }| {
-            let parts: Vec<(Vec<f64>, f64)> =
-                terms.into_iter().map(|(channel, factor)| (history.column(channel), factor)).collect();
-            let sum = |i: usize| parts.iter().fold(0.0, |sum, (values, factor)| sum + factor * values[i]);
-            HistoryColumn { name, dimension, values: (0..history.len()).map(sum).collect() }
-        });
-        NamedColumns { columns: columns.collect() }
+        let columns = quantities(scene).into_iter().map(
+            |Quantity {
+                 name,
+                 dimension,
+                 terms,
+             }| {
+                let parts: Vec<(Vec<f64>, f64)> = terms
+                    .into_iter()
+                    .map(|(channel, factor)| (history.column(channel), factor))
+                    .collect();
+                let sum = |i: usize| {
+                    parts
+                        .iter()
+                        .fold(0.0, |sum, (values, factor)| sum + factor * values[i])
+                };
+                HistoryColumn {
+                    name,
+                    dimension,
+                    values: (0..history.len()).map(sum).collect(),
+                }
+            },
+        );
+        NamedColumns {
+            columns: columns.collect(),
+        }
     }
 
     /// Appends a column.
     pub fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
-        self.columns.push(HistoryColumn { name: name.into(), dimension, values });
+        self.columns.push(HistoryColumn {
+            name: name.into(),
+            dimension,
+            values,
+        });
     }
 
     /// Values of the column `name`; empty where there is none.
     #[must_use]
     pub fn values(&self, name: &str) -> &[f64] {
-        self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
+        self.columns
+            .iter()
+            .find(|column| column.name == name)
+            .map_or(&[], |column| &column.values)
     }
 
     /// Values of the column `<owner>.<part>`, such as a body's deflection; empty where there is none.
@@ -76,7 +101,11 @@ impl NamedColumns {
     /// The points (x, y) of two columns.
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<[f64; 2]> {
-        self.values(x).iter().zip(self.values(y)).map(|(&x, &y)| [x, y]).collect()
+        self.values(x)
+            .iter()
+            .zip(self.values(y))
+            .map(|(&x, &y)| [x, y])
+            .collect()
     }
 
     /// Name of the first column with a value that is not a finite number, and the time of that value.
@@ -84,7 +113,10 @@ impl NamedColumns {
     pub fn first_not_finite(&self) -> Option<(&str, f64)> {
         self.columns.iter().find_map(|column| {
             let row = column.values.iter().position(|value| !value.is_finite())?;
-            Some((column.name.as_str(), self.values("time").get(row).copied().unwrap_or_default()))
+            Some((
+                column.name.as_str(),
+                self.values("time").get(row).copied().unwrap_or_default(),
+            ))
         })
     }
 
@@ -116,11 +148,17 @@ impl NamedColumns {
 /// # Errors
 /// None in practice: writing to memory does not fail.
 pub fn bytes(writer: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    writer
+        .into_inner()
+        .map_err(|error| csv::Error::from(error.into_error()))
 }
 
 /// Largest value of a column, with its index (the last one of equal values); `None` for an empty column.
 #[must_use]
 pub fn peak(values: &[f64]) -> Option<(usize, f64)> {
-    values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+    values
+        .iter()
+        .copied()
+        .enumerate()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
 }

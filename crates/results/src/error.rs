@@ -82,7 +82,11 @@ pub enum Error {
 
 /// One line for each diagnostic.
 fn lines(diagnostics: &[Diagnostic]) -> String {
-    diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    diagnostics
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 impl From<Vec<Diagnostic>> for Error {

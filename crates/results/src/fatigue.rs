@@ -47,8 +47,13 @@ pub struct FatigueResult {
 
 impl Resistance {
     fn new(detail: Detail, fatigue: &Fatigue, units: Units) -> Result<Resistance, practice::Error> {
-        let unit =
-            |length, force| Scale { from: Units { length, force }, to: units }.factor(Dimension::STRESS);
+        let unit = |length, force| {
+            Scale {
+                from: Units { length, force },
+                to: units,
+            }
+            .factor(Dimension::STRESS)
+        };
         match detail {
             Detail::Eurocode(category) => {
                 let category = category * unit(Length::Millimetre, Force::Newton);
@@ -92,14 +97,21 @@ impl Resistance {
 pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<FatigueResult>, Error> {
     let mut all = Vec::new();
     for structure in &scene.structures {
-        let Origin::Spec { spec, .. } = &structure.origin else { continue };
+        let Origin::Spec { spec, .. } = &structure.origin else {
+            continue;
+        };
         for cut in &spec.effects {
             for point in &cut.points {
                 let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
                 let values = record.values(&column);
-                let Some(detail) = point.detail.filter(|_| !values.is_empty()) else { continue };
+                let Some(detail) = point.detail.filter(|_| !values.is_empty()) else {
+                    continue;
+                };
                 let result = fatigue_result(scene, column.clone(), detail, values);
-                all.push(result.map_err(|source| Error::Cycles { column: column.clone(), source })?);
+                all.push(result.map_err(|source| Error::Cycles {
+                    column: column.clone(),
+                    source,
+                })?);
             }
         }
     }
@@ -169,7 +181,10 @@ impl FatigueResult {
 /// The member `fatigue` of a run's summary; `None` without stress points.
 #[must_use]
 pub fn json(results: &[FatigueResult]) -> Option<Value> {
-    let all: Map<_, _> = results.iter().map(|result| (result.column.clone(), result.json())).collect();
+    let all: Map<_, _> = results
+        .iter()
+        .map(|result| (result.column.clone(), result.json()))
+        .collect();
     (!all.is_empty()).then_some(Value::Object(all))
 }
 
@@ -177,7 +192,10 @@ pub fn json(results: &[FatigueResult]) -> Option<Value> {
 ///
 /// # Errors
 /// None in practice: writing to memory does not fail.
-pub fn csv(results: &[FatigueResult], record: &NamedColumns) -> Result<Option<Vec<u8>>, csv::Error> {
+pub fn csv(
+    results: &[FatigueResult],
+    record: &NamedColumns,
+) -> Result<Option<Vec<u8>>, csv::Error> {
     if results.is_empty() {
         return Ok(None);
     }
@@ -187,7 +205,14 @@ pub fn csv(results: &[FatigueResult], record: &NamedColumns) -> Result<Option<Ve
     for result in results {
         for (cycle, damage) in result.cycles.iter().zip(&result.cycle_damage) {
             let [from, to] = cycle.samples.map(|row| time[row]);
-            let numbers = [cycle.range(), cycle.mean() + 0.0, cycle.count, from, to, *damage];
+            let numbers = [
+                cycle.range(),
+                cycle.mean() + 0.0,
+                cycle.count,
+                from,
+                to,
+                *damage,
+            ];
             let numbers = numbers.into_iter().map(|number| format!("{number:?}"));
             writer.write_record(std::iter::once(result.column.clone()).chain(numbers))?;
         }

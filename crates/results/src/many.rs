@@ -61,10 +61,18 @@ pub fn run_many<R: Send>(
             return Err(Error::Stopped);
         }
         let document = source.document(Some(changes), compares)?;
-        SceneRun::of(document, &cache, RunOptions { threads: Some(1), ..options }, &|now| match now {
-            SimulationProgress::Fraction(_) => progress(fraction()),
-            SimulationProgress::Trial(_) => ControlFlow::Continue(()),
-        })
+        SceneRun::of(
+            document,
+            &cache,
+            RunOptions {
+                threads: Some(1),
+                ..options
+            },
+            &|now| match now {
+                SimulationProgress::Fraction(_) => progress(fraction()),
+                SimulationProgress::Trial(_) => ControlFlow::Continue(()),
+            },
+        )
     };
     parallel_map(changes, options.threads, |index, changes| {
         let made = each(index, run(changes));

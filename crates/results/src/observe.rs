@@ -40,7 +40,13 @@ impl<'a> ColumnObserver<'a> {
         known: &'a [SolvedStructure],
         trial: &'a dyn Fn(&str),
     ) -> Self {
-        ColumnObserver { scene, input, known, lines: None, trial }
+        ColumnObserver {
+            scene,
+            input,
+            known,
+            lines: None,
+            trial,
+        }
     }
 
     fn solved(&self, structure: usize) -> Option<&'a SolvedModel> {
@@ -51,12 +57,15 @@ impl<'a> ColumnObserver<'a> {
     fn lines(&mut self) -> Result<&mut [Option<ColumnInfluence>], Error> {
         if self.lines.is_none() {
             let structures = self.scene.structures.iter();
-            let bare: Vec<BuiltFoundation> = structures.map(|_| sim::Foundation::rigid().into()).collect();
+            let bare: Vec<BuiltFoundation> = structures
+                .map(|_| sim::Foundation::rigid().into())
+                .collect();
             let solved: Vec<_> = (0..bare.len()).map(|s| self.solved(s)).collect();
-            let lines = influence_lines(self.scene, &bare, &solved).map_err(|error| match error {
-                crate::Error::Lines { structure, source } => Error::Frame { structure, source },
-                other => Error::Observed(other.to_string()),
-            })?;
+            let lines =
+                influence_lines(self.scene, &bare, &solved).map_err(|error| match error {
+                    crate::Error::Lines { structure, source } => Error::Frame { structure, source },
+                    other => Error::Observed(other.to_string()),
+                })?;
             self.lines = Some(lines);
         }
         Ok(self.lines.get_or_insert_default())
@@ -72,7 +81,9 @@ impl<'a> ColumnObserver<'a> {
     ) -> Result<(), Error> {
         let (scene, solved) = (self.scene, self.solved(s));
         let loads = WheelLoadReader::new(scene, self.input, history);
-        let (Some(lines), Some(solved)) = (&mut self.lines()?[s], solved) else { return Ok(()) };
+        let (Some(lines), Some(solved)) = (&mut self.lines()?[s], solved) else {
+            return Ok(());
+        };
         let frame_error = Error::frame(&scene.structures[s].name);
         lines.set_motion(basis, solved).map_err(frame_error)?;
         let start = history.position(Channel::Acceleration(s, 0));
@@ -81,8 +92,15 @@ impl<'a> ColumnObserver<'a> {
         for sample in history.samples() {
             let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
             let on = loads.at(sample);
-            lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
-            values.iter_mut().zip(&now).for_each(|(column, value)| column.push(*value));
+            lines.at(
+                on.iter().filter(|load| load.structure == s),
+                acceleration,
+                &mut now,
+            );
+            values
+                .iter_mut()
+                .zip(&now)
+                .for_each(|(column, value)| column.push(*value));
         }
         quantities.extend(lines.columns().iter().zip(values).map(|(column, values)| {
             let kind = match column.dimension {
@@ -120,10 +138,17 @@ impl<'a> ColumnObserver<'a> {
     /// Sets the least scales of moments and rotations, which may all be zero but for rounding: those that the largest
     /// force and displacement make with the longest rail, times 1e-6.
     fn set_least_scales(&self, found: &mut [RecordedQuantity]) {
-        let lengths = self.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
+        let lengths = self
+            .scene
+            .rails
+            .iter()
+            .map(|rail| rail.range[1] - rail.range[0]);
         let length = lengths.fold(0.0, f64::max);
         let largest = |kind: &str| {
-            let values = found.iter().filter(|own| own.kind == kind).flat_map(|own| &own.values);
+            let values = found
+                .iter()
+                .filter(|own| own.kind == kind)
+                .flat_map(|own| &own.values);
             values.fold(0.0_f64, |most, value| most.max(value.abs()))
         };
         let (moment, rotation) = (largest(FORCE) * length, largest(DISPLACEMENT) / length);
@@ -133,22 +158,41 @@ impl<'a> ColumnObserver<'a> {
                 ROTATION => rotation,
                 _ => continue,
             };
-            own.least_scale = if scale.is_finite() { ROUNDING * scale } else { 0.0 };
+            own.least_scale = if scale.is_finite() {
+                ROUNDING * scale
+            } else {
+                0.0
+            };
         }
     }
 }
 
 impl TrialObserver for ColumnObserver<'_> {
-    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error> {
+    fn record(
+        &mut self,
+        history: &History,
+        bases: &[Option<MotionBasis>],
+    ) -> Result<Record, Error> {
         let mut found = Vec::new();
         for quantity in quantities(self.scene) {
-            let Some((kind, is_position)) = quantity.terms.first().and_then(|(channel, _)| kind(*channel))
+            let Some((kind, is_position)) = quantity
+                .terms
+                .first()
+                .and_then(|(channel, _)| kind(*channel))
             else {
                 continue;
             };
-            let parts: Vec<(Vec<f64>, f64)> =
-                quantity.terms.iter().map(|(channel, factor)| (history.column(*channel), *factor)).collect();
-            let sum = |i: usize| parts.iter().map(|(values, factor)| factor * values[i]).sum::<f64>();
+            let parts: Vec<(Vec<f64>, f64)> = quantity
+                .terms
+                .iter()
+                .map(|(channel, factor)| (history.column(*channel), *factor))
+                .collect();
+            let sum = |i: usize| {
+                parts
+                    .iter()
+                    .map(|(values, factor)| factor * values[i])
+                    .sum::<f64>()
+            };
             let channel = match quantity.terms.as_slice() {
                 [(channel, _)] => Some(*channel),
                 _ => None,
@@ -169,10 +213,17 @@ impl TrialObserver for ColumnObserver<'_> {
             self.columns(s, history, basis.as_ref(), &mut found)?;
         }
         self.set_least_scales(&mut found);
-        Ok(Record { time: history.column(Channel::Time), quantities: found })
+        Ok(Record {
+            time: history.column(Channel::Time),
+            quantities: found,
+        })
     }
 
-    fn effects(&mut self, structure: usize, basis: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error> {
+    fn effects(
+        &mut self,
+        structure: usize,
+        basis: &MotionBasis,
+    ) -> Result<Vec<(String, Vec<f64>)>, Error> {
         let solved = self.solved(structure);
         let frame_error = Error::frame(&self.scene.structures[structure].name);
         let (Some(lines), Some(solved)) = (&mut self.lines()?[structure], solved) else {
@@ -180,7 +231,9 @@ impl TrialObserver for ColumnObserver<'_> {
         };
         lines.set_motion(Some(basis), solved).map_err(frame_error)?;
         let columns = lines.columns().iter().enumerate();
-        Ok(columns.map(|(c, column)| (column.name.clone(), lines.per_acceleration(c))).collect())
+        Ok(columns
+            .map(|(c, column)| (column.name.clone(), lines.per_acceleration(c)))
+            .collect())
     }
 
     fn begin(&mut self, trial: &str) {
@@ -195,15 +248,21 @@ fn kind(channel: Channel) -> Option<(&'static str, bool)> {
         Channel::Displacement(_, BodyDof::X) | Channel::Position(_) | Channel::SpinAngle(_) => {
             ("position", true)
         }
-        Channel::Displacement(_, BodyDof::Roll | BodyDof::Yaw | BodyDof::Pitch) => (ROTATION, false),
-        Channel::Displacement(..) | Channel::Deflection(_) | Channel::Gauge(_) => (DISPLACEMENT, false),
+        Channel::Displacement(_, BodyDof::Roll | BodyDof::Yaw | BodyDof::Pitch) => {
+            (ROTATION, false)
+        }
+        Channel::Displacement(..) | Channel::Deflection(_) | Channel::Gauge(_) => {
+            (DISPLACEMENT, false)
+        }
         Channel::Penetration(_) => ("penetration", false),
         Channel::Speed(..) => ("speed", false),
         Channel::SpinSpeed(_) => ("spin", false),
         Channel::SpinMoment(_) => (MOMENT, false),
         Channel::Length(_) => ("length", false),
         Channel::Drive(_) | Channel::Brake(_) | Channel::Traction(_) => (FORCE, false),
-        Channel::Vertical(_) | Channel::Lateral(_) | Channel::Tension(_) | Channel::Stop(_) => (FORCE, false),
+        Channel::Vertical(_) | Channel::Lateral(_) | Channel::Tension(_) | Channel::Stop(_) => {
+            (FORCE, false)
+        }
         Channel::Coordinate(..) | Channel::Acceleration(..) => return None,
     })
 }

@@ -27,7 +27,9 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
 #[must_use]
 pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     match status {
-        Status::Failed(t, error) => Some(format!("at t = {t:.4} s: {}", in_scene_names(error, scene))),
+        Status::Failed(t, error) => {
+            Some(format!("at t = {t:.4} s: {}", in_scene_names(error, scene)))
+        }
         status => self::status(status).1,
     }
 }
@@ -49,15 +51,27 @@ pub(crate) fn equilibrium_hint(scene: &Scene) -> String {
 #[must_use]
 pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
     let structure = |index: usize| {
-        scene.structures.get(index).map_or_else(|| format!("structure {index}"), |one| one.name.clone())
+        scene
+            .structures
+            .get(index)
+            .map_or_else(|| format!("structure {index}"), |one| one.name.clone())
     };
     let body = |index: usize| {
-        let known = scene.bodies.get(index).map(|body| format!("\"{}\"", body.name));
+        let known = scene
+            .bodies
+            .get(index)
+            .map(|body| format!("\"{}\"", body.name));
         known.unwrap_or_else(|| format!("body {index}"))
     };
     match error {
-        Error::Compliance { structure: s, source: splines::Error::OffRail { rail, x } } => {
-            let found = scene.rails.iter().find(|known| (known.structure, known.rail) == (*s, *rail));
+        Error::Compliance {
+            structure: s,
+            source: splines::Error::OffRail { rail, x },
+        } => {
+            let found = scene
+                .rails
+                .iter()
+                .find(|known| (known.structure, known.rail) == (*s, *rail));
             match found {
                 Some(rail) => format!(
                     "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
@@ -69,14 +83,19 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
                 None => error.to_string(),
             }
         }
-        Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
+        Error::Compliance {
+            structure: s,
+            source,
+        } => format!("{}: {source}", structure(*s)),
         Error::NoInertia { body: b, dof } => format!(
             "{} is free in {}, but no mass has inertia in this motion  hint: give `inertia` [roll, yaw, pitch] about \
              the centre of mass, or remove the motion from `dof`",
             body(*b),
             DOFS[*dof as usize]
         ),
-        Error::NoEquilibrium { body: unbalanced, .. } => {
+        Error::NoEquilibrium {
+            body: unbalanced, ..
+        } => {
             let of = unbalanced.map_or_else(String::new, |b| format!(" of {}", body(b)));
             format!("{error}{of}  hint: {}", equilibrium_hint(scene))
         }

@@ -83,7 +83,11 @@ impl SceneRun {
     ) -> Result<SceneRun, Error> {
         let cases = simulate_while(&document, &structures, options, progress)
             .map_err(|error| before::located(&document, error))?;
-        Ok(SceneRun { document, structures, cases })
+        Ok(SceneRun {
+            document,
+            structures,
+            cases,
+        })
     }
 
     /// Computes the extremes of girders that the runs have left ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)),
@@ -96,24 +100,37 @@ impl SceneRun {
         threads: Option<u16>,
         go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
     ) -> Result<(), Error> {
-        let found = parallel_map(&self.cases, threads, |_, case| case.girders_while(&|| go_on()).is_some());
-        if found.into_iter().all(|found| found) { Ok(()) } else { Err(Error::Stopped) }
+        let found = parallel_map(&self.cases, threads, |_, case| {
+            case.girders_while(&|| go_on()).is_some()
+        });
+        if found.into_iter().all(|found| found) {
+            Ok(())
+        } else {
+            Err(Error::Stopped)
+        }
     }
 
     /// The reason why the run of a case did not reach its end, with the label of the first such case; `None` where all
     /// did.
     #[must_use]
     pub fn reason_incomplete(&self) -> Option<String> {
-        self.cases.iter().zip(&self.document.cases).find_map(|(result, case)| {
-            reason_incomplete(&result.run.status, &case.scene).map(|why| format!("{}: {why}", result.label))
-        })
+        self.cases
+            .iter()
+            .zip(&self.document.cases)
+            .find_map(|(result, case)| {
+                reason_incomplete(&result.run.status, &case.scene)
+                    .map(|why| format!("{}: {why}", result.label))
+            })
     }
 
     /// The solution of each structure of the scene; `None` for structures that are defined by tables.
     #[must_use]
     pub fn solutions(&self) -> Vec<Option<&SolvedModel>> {
         let structures = &self.document.scene().structures;
-        structures.iter().map(|structure| solution_of(&self.structures, &structure.origin)).collect()
+        structures
+            .iter()
+            .map(|structure| solution_of(&self.structures, &structure.origin))
+            .collect()
     }
 
     /// Statistics of the runs beside each other, computed on at most `threads` threads.
@@ -125,12 +142,18 @@ impl SceneRun {
     /// The contents of `summary.json`.
     #[must_use]
     pub fn summary(&self, comparison: &RunComparison) -> Value {
-        summary::of_document(&self.document, &self.cases, comparison.json(&self.compared()))
+        summary::of_document(
+            &self.document,
+            &self.cases,
+            comparison.json(&self.compared()),
+        )
     }
 
     /// The cases as [`RunComparison`] takes them.
     fn compared(&self) -> Vec<(&str, &NamedColumns, &Response)> {
         let cases = self.cases.iter();
-        cases.map(|case| (case.label.as_str(), &case.columns, &case.response)).collect()
+        cases
+            .map(|case| (case.label.as_str(), &case.columns, &case.response))
+            .collect()
     }
 }

@@ -13,7 +13,9 @@ static AVAILABLE: LazyLock<usize> =
 
 /// Number of threads for the items of a list: at most `threads` (`None`: as many as the machine has), and at least one.
 fn thread_count<T>(threads: Option<u16>, items: &[T]) -> usize {
-    threads.map_or_else(|| *AVAILABLE, usize::from).clamp(1, items.len().max(1))
+    threads
+        .map_or_else(|| *AVAILABLE, usize::from)
+        .clamp(1, items.len().max(1))
 }
 
 /// The next item with its index, for any thread that asks; `None` at the end of the list.
@@ -94,7 +96,11 @@ fn in_order<R>(mut made: Vec<(usize, R)>) -> Vec<R> {
 ///
 /// # Panics
 /// If `work` panics, with its message.
-pub fn watched<R: Send>(interval: Duration, work: impl FnOnce() -> R + Send, mut watch: impl FnMut()) -> R {
+pub fn watched<R: Send>(
+    interval: Duration,
+    work: impl FnOnce() -> R + Send,
+    mut watch: impl FnMut(),
+) -> R {
     std::thread::scope(|scope| {
         let (ended, ends) = mpsc::channel::<()>();
         let worker = scope.spawn(move || {
@@ -105,7 +111,9 @@ pub fn watched<R: Send>(interval: Duration, work: impl FnOnce() -> R + Send, mut
         while ends.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
             watch();
         }
-        worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        worker
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     })
 }
 
@@ -197,7 +205,14 @@ impl<T: Send + 'static, R: Send + 'static> Background<T, R> {
     pub fn new(threads: u16, work: fn(T) -> R) -> Background<T, R> {
         let (items, waiting) = mpsc::channel();
         let waiting = Arc::new(Mutex::new(waiting));
-        Background { work, threads, begun: 0, items: Some(items), waiting, workers: Vec::new() }
+        Background {
+            work,
+            threads,
+            begun: 0,
+            items: Some(items),
+            waiting,
+            workers: Vec::new(),
+        }
     }
 
     /// Begins the work on an item; it starts a thread until all are there.
@@ -205,12 +220,21 @@ impl<T: Send + 'static, R: Send + 'static> Background<T, R> {
         if self.workers.len() < usize::from(self.threads.max(1)) {
             let (work, waiting) = (self.work, Arc::clone(&self.waiting));
             self.workers.push(std::thread::spawn(move || {
-                let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
-                std::iter::from_fn(|| next().ok()).map(|(index, item)| (index, work(item))).collect()
+                let next = || {
+                    waiting
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner)
+                        .recv()
+                };
+                std::iter::from_fn(|| next().ok())
+                    .map(|(index, item)| (index, work(item)))
+                    .collect()
             }));
         }
         let items = self.items.as_ref().expect("it is closed in a wait alone");
-        items.send((self.begun, item)).expect("the receiver lives as long as this value");
+        items
+            .send((self.begun, item))
+            .expect("the receiver lives as long as this value");
         self.begun += 1;
     }
 
@@ -220,7 +244,9 @@ impl<T: Send + 'static, R: Send + 'static> Background<T, R> {
     /// If `work` panics, with its message.
     pub fn wait(&mut self) -> Vec<R> {
         let mut ended = std::mem::replace(self, Background::new(self.threads, self.work));
-        ended.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        ended
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 }
 
@@ -304,7 +330,9 @@ mod tests {
             let made = parallel_map(&items, threads, |index, item| (index, item * item));
             assert_eq!(made.len(), 100);
             assert!(
-                made.iter().enumerate().all(|(k, (index, square))| *index == k && *square == (k * k) as u64)
+                made.iter()
+                    .enumerate()
+                    .all(|(k, (index, square))| *index == k && *square == (k * k) as u64)
             );
         }
     }

@@ -11,23 +11,47 @@ use results::warning::case_warnings;
 
 /// The warnings about bounces, and the largest number of cycles, of an example with `changes`.
 fn run_of(example: &str, changes: &str) -> (Vec<String>, f64) {
-    let path = format!("{}/../../examples/{example}/scene.json", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/../../examples/{example}/scene.json",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let source = SceneSource::open(path.as_ref()).expect("an example");
     let text = format!(r#"{{"accuracy": 1e-4, {changes}}}"#);
-    let changes = Source { name: "changes".to_owned(), text };
-    let document = source.document(Some(&changes), false).expect("a scene without faults");
+    let changes = Source {
+        name: "changes".to_owned(),
+        text,
+    };
+    let document = source
+        .document(Some(&changes), false)
+        .expect("a scene without faults");
     let go_on = |_: SimulationProgress<'_>| ControlFlow::Continue(());
-    let run =
-        SceneRun::of(document, &StructureCache::default(), RunOptions::default(), &go_on).expect("a run");
+    let run = SceneRun::of(
+        document,
+        &StructureCache::default(),
+        RunOptions::default(),
+        &go_on,
+    )
+    .expect("a run");
     let case = &run.cases[0];
     let all = case_warnings(&run.document.cases[0].scene, case).into_iter();
-    let own = all.filter(|warning| warning.contains("free bounces")).collect();
-    (own, case.fatigue.iter().map(|result| result.count()).fold(0.0, f64::max))
+    let own = all
+        .filter(|warning| warning.contains("free bounces"))
+        .collect();
+    (
+        own,
+        case.fatigue
+            .iter()
+            .map(|result| result.count())
+            .fold(0.0, f64::max),
+    )
 }
 
 /// The same of a truck on the girderway of a mill building.
 fn run(changes: &str) -> (Vec<String>, f64) {
-    run_of("mill_girderway", &format!(r#""end": {{"time": 30}}, {changes}"#))
+    run_of(
+        "mill_girderway",
+        &format!(r#""end": {{"time": 30}}, {changes}"#),
+    )
 }
 
 fn wheels(damper: &str) -> String {
@@ -43,7 +67,10 @@ fn cycles_of_wheels_that_bounce_without_damping_are_warned_of() {
     assert!(count > 4.0 * few, "{count} cycles, by statics {few}");
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     let counted = format!("({count} of aisle.bay3.bottom flange) contain free bounces of truck");
-    assert!(warnings[0].contains(&counted) && warnings[0].contains("`c`"), "{warnings:?}");
+    assert!(
+        warnings[0].contains(&counted) && warnings[0].contains("`c`"),
+        "{warnings:?}"
+    );
 }
 
 #[test]
@@ -61,12 +88,18 @@ fn on_modes(damping: f64) -> (Vec<String>, f64) {
         r#""girder": {{"spec": "girder.json", "foundation": "modal", "modes": 4, "damping": {damping}, "gauges": null}}"#
     );
     let wheels = r#""wheels": {"crane": {"vertical": {"c": 0}}}"#;
-    run_of("runway", &format!(r#""end": {{"time": 5}}, "structures": {{{girder}}}, {wheels}"#))
+    run_of(
+        "runway",
+        &format!(r#""end": {{"time": 5}}, "structures": {{{girder}}}, {wheels}"#),
+    )
 }
 
 #[test]
 fn structures_that_damp_the_bounces_are_not_warned_of() {
     let ((warnings, _), (damped, _)) = (on_modes(0.001), on_modes(0.02));
-    assert!(warnings.len() == 1 && warnings[0].contains("`modal`"), "{warnings:?}");
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("`modal`"),
+        "{warnings:?}"
+    );
     assert_eq!(damped, Vec::<String>::new());
 }

@@ -16,10 +16,18 @@ fn run(changes: &str) -> SceneRun {
 fn run_of(example: &str, changes: &str) -> SceneRun {
     let path = format!("../../examples/{example}/scene.json");
     let scene = SceneSource::open(path.as_ref()).expect("the example");
-    let changes = Source { name: "changes".to_owned(), text: changes.to_owned() };
-    let document = scene.document(Some(&changes), false).expect("a scene without faults");
+    let changes = Source {
+        name: "changes".to_owned(),
+        text: changes.to_owned(),
+    };
+    let document = scene
+        .document(Some(&changes), false)
+        .expect("a scene without faults");
     let cache = StructureCache::default();
-    SceneRun::of(document, &cache, RunOptions::default(), &|_| ControlFlow::Continue(())).expect("it runs")
+    SceneRun::of(document, &cache, RunOptions::default(), &|_| {
+        ControlFlow::Continue(())
+    })
+    .expect("it runs")
 }
 
 fn warnings(changes: &str) -> Vec<String> {
@@ -58,11 +66,22 @@ fn cables_that_would_go_slack_are_named() {
         ))
     };
     let heavy = in_first_bay(100.0);
-    assert!(heavy.iter().any(|text| text.contains("cell [1, 2] would go slack")), "{heavy:?}");
+    assert!(
+        heavy
+            .iter()
+            .any(|text| text.contains("cell [1, 2] would go slack")),
+        "{heavy:?}"
+    );
     let light = in_first_bay(1.0);
-    assert!(!light.iter().any(|text| text.contains("slack")), "{light:?}");
+    assert!(
+        !light.iter().any(|text| text.contains("slack")),
+        "{light:?}"
+    );
     let given = warnings(r#"{"end": {"time": 0.1}}"#);
-    assert!(!given.iter().any(|text| text.contains("slack")), "{given:?}");
+    assert!(
+        !given.iter().any(|text| text.contains("slack")),
+        "{given:?}"
+    );
 }
 
 /// The columns of the mill soften under the truck by its weight over their critical load, about 1/69: a note. A girder on
@@ -72,11 +91,25 @@ fn what_second_order_would_change_is_told() {
     let about = |example: &str| {
         let run = run_of(example, r#"{"end": {"time": 12}}"#);
         let case = &run.cases[0];
-        let all = [case_notes(run.document.scene(), case), case_warnings(run.document.scene(), case)];
-        all.map(|texts| texts.into_iter().filter(|text| text.contains("second order")).collect::<Vec<_>>())
+        let all = [
+            case_notes(run.document.scene(), case),
+            case_warnings(run.document.scene(), case),
+        ];
+        all.map(|texts| {
+            texts
+                .into_iter()
+                .filter(|text| text.contains("second order"))
+                .collect::<Vec<_>>()
+        })
     };
     let [notes, warnings] = about("mill_girderway");
-    assert!(notes.len() == 1 && warnings.is_empty(), "{notes:?} {warnings:?}");
+    assert!(
+        notes.len() == 1 && warnings.is_empty(),
+        "{notes:?} {warnings:?}"
+    );
     let [notes, warnings] = about("bogie");
-    assert!(notes.is_empty() && warnings.is_empty(), "{notes:?} {warnings:?}");
+    assert!(
+        notes.is_empty() && warnings.is_empty(),
+        "{notes:?} {warnings:?}"
+    );
 }

@@ -9,7 +9,13 @@ const LONG: usize = 24;
 pub fn plain(name: &str) -> String {
     name.chars()
         .filter(|letter| !letter.is_whitespace())
-        .map(|letter| if letter == '\u{d7}' { 'X' } else { letter.to_ascii_uppercase() })
+        .map(|letter| {
+            if letter == '\u{d7}' {
+                'X'
+            } else {
+                letter.to_ascii_uppercase()
+            }
+        })
         .collect()
 }
 
@@ -34,7 +40,11 @@ pub fn nearest(wrong: &str, names: impl Iterator<Item = &'static str>) -> Vec<&'
         .filter(|(edits, _, _)| *edits <= allowed)
         .collect();
     found.sort();
-    found.into_iter().take(NEAR).map(|(_, _, name)| name).collect()
+    found
+        .into_iter()
+        .take(NEAR)
+        .map(|(_, _, name)| name)
+        .collect()
 }
 
 /// Sum of the differences between the whole numbers of two names, in order.
@@ -44,7 +54,9 @@ fn difference(a: &str, b: &str) -> u64 {
         parts.filter_map(|part| part.parse().ok()).collect()
     };
     let pairs = numbers(a).into_iter().zip(numbers(b));
-    pairs.fold(0, |sum, (one, other)| sum.saturating_add(one.abs_diff(other)))
+    pairs.fold(0, |sum, (one, other)| {
+        sum.saturating_add(one.abs_diff(other))
+    })
 }
 
 /// Edit distance between two words: insertions, deletions and substitutions.
@@ -55,7 +67,9 @@ fn distance(a: &str, b: &str) -> usize {
         let mut before = row[0];
         row[0] = i + 1;
         for (j, other) in b.iter().enumerate() {
-            let best = (before + usize::from(letter != *other)).min(row[j] + 1).min(row[j + 1] + 1);
+            let best = (before + usize::from(letter != *other))
+                .min(row[j] + 1)
+                .min(row[j + 1] + 1);
             before = std::mem::replace(&mut row[j + 1], best);
         }
     }
@@ -77,7 +91,10 @@ mod tests {
     #[test]
     fn the_nearest_names_come_first() {
         let names = ["HEB 360", "HEB 400", "HEB 450", "IPE 400"];
-        assert_eq!(nearest("HEB 410", names.into_iter()), ["HEB 400", "HEB 450", "HEB 360"]);
+        assert_eq!(
+            nearest("HEB 410", names.into_iter()),
+            ["HEB 400", "HEB 450", "HEB 360"]
+        );
         assert!(nearest("oak beam", names.into_iter()).is_empty());
         assert!(nearest(&"HEB400".repeat(1000), names.into_iter()).is_empty());
         assert_eq!(distance("kitten", "sitting"), 3);

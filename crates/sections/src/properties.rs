@@ -49,7 +49,13 @@ impl SectionDimensions {
     /// M. H. El Darwish, B. G. Johnston: Torsion of structural shapes, J. Struct. Div. ASCE 91 (ST1), 1965 (J).
     #[must_use]
     pub fn properties(&self) -> RolledProperties {
-        let SectionDimensions { height, width, web, flange, radius } = *self;
+        let SectionDimensions {
+            height,
+            width,
+            web,
+            flange,
+            radius,
+        } = *self;
         let clear = height - 2.0 * flange;
         let fillet = (1.0 - PI / 4.0) * radius.powi(2);
         let own = (1.0 / 3.0 - PI / 16.0 - 1.0 / (9.0 * (4.0 - PI))) * radius.powi(4);
@@ -68,7 +74,13 @@ impl SectionDimensions {
 
     /// The torsion constant of El Darwish and Johnston.
     fn torsion(&self, clear: f64) -> f64 {
-        let SectionDimensions { width, web, flange, radius, .. } = *self;
+        let SectionDimensions {
+            width,
+            web,
+            flange,
+            radius,
+            ..
+        } = *self;
         let circle = ((radius + 0.5 * web).powi(2) + (radius + flange).powi(2) - radius.powi(2))
             / (2.0 * radius + flange);
         let junction = web / flange * (0.145 + 0.1 * radius / flange);

@@ -46,11 +46,24 @@ impl RailProfile {
             ("height of the centroid", self.centroid),
         ];
         match needed.map(|(_, value)| value) {
-            [Some(area), Some(i_vertical), Some(i_lateral), Some(centroid)] => {
-                Ok((PlaneSection { area, i_vertical, i_lateral }, centroid))
-            }
+            [
+                Some(area),
+                Some(i_vertical),
+                Some(i_lateral),
+                Some(centroid),
+            ] => Ok((
+                PlaneSection {
+                    area,
+                    i_vertical,
+                    i_lateral,
+                },
+                centroid,
+            )),
             _ => {
-                let missing = needed.iter().filter(|(_, value)| value.is_none()).map(|(what, _)| *what);
+                let missing = needed
+                    .iter()
+                    .filter(|(_, value)| value.is_none())
+                    .map(|(what, _)| *what);
                 Err(missing.collect::<Vec<_>>().join(", "))
             }
         }
@@ -91,10 +104,15 @@ pub fn crane_rails() -> &'static [RailProfile] {
 pub fn crane_rail(name: &str) -> Option<&'static RailProfile> {
     let wanted = plain(name);
     let known = |name: &str| RAILS.iter().find(|rail| plain(rail.name) == name);
-    let din = ["DIN536-1", "DIN536", "DIN"].iter().find_map(|prefix| wanted.strip_prefix(prefix));
-    let american = ["ASCE", "BETHLEHEM", "ASTM"].iter().find_map(|prefix| wanted.strip_prefix(prefix));
+    let din = ["DIN536-1", "DIN536", "DIN"]
+        .iter()
+        .find_map(|prefix| wanted.strip_prefix(prefix));
+    let american = ["ASCE", "BETHLEHEM", "ASTM"]
+        .iter()
+        .find_map(|prefix| wanted.strip_prefix(prefix));
     let size = american.or_else(|| wanted.strip_suffix("CR"));
-    let size = size.filter(|size| !size.is_empty() && size.bytes().all(|digit| digit.is_ascii_digit()));
+    let size =
+        size.filter(|size| !size.is_empty() && size.bytes().all(|digit| digit.is_ascii_digit()));
     known(&wanted)
         .or_else(|| known(din?).filter(|rail| rail.standard.starts_with("DIN")))
         .or_else(|| known(&format!("CR{}", size?)))

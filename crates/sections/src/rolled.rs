@@ -31,7 +31,9 @@ impl SectionSeries {
         match self {
             SectionSeries::W => "AISC Manual, 16th ed. (ASTM A6)",
             SectionSeries::Ipe => "EN 10365 (Euronorm 19-57)",
-            SectionSeries::Hea | SectionSeries::Heb | SectionSeries::Hem => "EN 10365 (Euronorm 53-62)",
+            SectionSeries::Hea | SectionSeries::Heb | SectionSeries::Hem => {
+                "EN 10365 (Euronorm 53-62)"
+            }
         }
     }
 }
@@ -49,7 +51,9 @@ pub struct RolledSection {
 
 static SECTIONS: LazyLock<Vec<RolledSection>> = LazyLock::new(|| {
     let european = rows(include_str!("../data/european.csv")).map(european);
-    european.chain(rows(include_str!("../data/american.csv")).map(american)).collect()
+    european
+        .chain(rows(include_str!("../data/american.csv")).map(american))
+        .collect()
 });
 
 /// A row of the European table: name, height, width, web, flange, root radius in mm.
@@ -61,15 +65,35 @@ fn european(row: Vec<&'static str>) -> RolledSection {
         Some("HEM") => SectionSeries::Hem,
         _ => SectionSeries::Ipe,
     };
-    let dimensions = SectionDimensions { height, width, web, flange, radius };
-    RolledSection { name: row[0], series, dimensions }
+    let dimensions = SectionDimensions {
+        height,
+        width,
+        web,
+        flange,
+        radius,
+    };
+    RolledSection {
+        name: row[0],
+        series,
+        dimensions,
+    }
 }
 
 /// A row of the American table: name, depth, flange width, web, flange and distance k in inches; the root radius is k - flange.
 fn american(row: Vec<&'static str>) -> RolledSection {
     let [height, width, web, flange, k] = [1, 2, 3, 4, 5].map(|cell| required(&row, cell) * INCH);
-    let dimensions = SectionDimensions { height, width, web, flange, radius: k - flange };
-    RolledSection { name: row[0], series: SectionSeries::W, dimensions }
+    let dimensions = SectionDimensions {
+        height,
+        width,
+        web,
+        flange,
+        radius: k - flange,
+    };
+    RolledSection {
+        name: row[0],
+        series: SectionSeries::W,
+        dimensions,
+    }
 }
 
 /// All rolled sections, series by series.
@@ -82,14 +106,20 @@ pub fn rolled_sections() -> &'static [RolledSection] {
 #[must_use]
 pub fn rolled(name: &str) -> Option<&'static RolledSection> {
     let wanted = series_first(plain(name));
-    SECTIONS.iter().find(|section| plain(section.name) == wanted)
+    SECTIONS
+        .iter()
+        .find(|section| plain(section.name) == wanted)
 }
 
 /// `HEB400` for `HE400B`, other names unchanged.
 fn series_first(name: String) -> String {
-    let split = name.strip_prefix("HE").and_then(|rest| Some((rest, rest.strip_suffix(['A', 'B', 'M'])?)));
+    let split = name
+        .strip_prefix("HE")
+        .and_then(|rest| Some((rest, rest.strip_suffix(['A', 'B', 'M'])?)));
     match split {
-        Some((rest, size)) if !size.is_empty() && size.bytes().all(|digit| digit.is_ascii_digit()) => {
+        Some((rest, size))
+            if !size.is_empty() && size.bytes().all(|digit| digit.is_ascii_digit()) =>
+        {
             format!("HE{}{size}", &rest[size.len()..])
         }
         _ => name,
@@ -99,5 +129,8 @@ fn series_first(name: String) -> String {
 /// The names that are nearest to one that is not in the table, nearest first; empty if all are far.
 #[must_use]
 pub fn nearest_rolled(name: &str) -> Vec<&'static str> {
-    nearest(&series_first(plain(name)), SECTIONS.iter().map(|section| section.name))
+    nearest(
+        &series_first(plain(name)),
+        SECTIONS.iter().map(|section| section.name),
+    )
 }

@@ -12,17 +12,32 @@ fn published(text: &str) -> Vec<(&str, Vec<f64>)> {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let row = |line| -> (&str, Vec<f64>) {
         let (name, numbers) = str::split_once(line, ',').expect("a name and numbers");
-        (name, numbers.split(',').map(|number| number.parse().expect("a number")).collect())
+        (
+            name,
+            numbers
+                .split(',')
+                .map(|number| number.parse().expect("a number"))
+                .collect(),
+        )
     };
     lines.map(row).collect()
 }
 
 /// Area, second moments, torsion constant and mass of a section, in powers of `unit` mm and in kg/m.
 fn computed(name: &str, unit: f64) -> [f64; 5] {
-    let found = rolled(name).expect("the section is in the table").dimensions.properties();
+    let found = rolled(name)
+        .expect("the section is in the table")
+        .dimensions
+        .properties();
     let [two, four] = [unit.powi(2), unit.powi(4)];
     let mass = found.area * 1e-6 * STEEL_DENSITY;
-    [found.area / two, found.i_strong / four, found.i_weak / four, found.j / four, mass]
+    [
+        found.area / two,
+        found.i_strong / four,
+        found.i_weak / four,
+        found.j / four,
+        mass,
+    ]
 }
 
 #[test]
@@ -52,7 +67,13 @@ fn torsion_constants_have_their_published_digits() {
     for (name, known) in [("HEB 400", 355.7), ("HEA 300", 85.17), ("IPE 300", 20.12)] {
         assert_near(name, source, known, computed(name, 10.0)[3], 1.5e-4);
     }
-    assert_near("W24x94", "AISC Shapes Database v16.0", 5.26, computed("W24x94", 25.4)[3], 1e-2);
+    assert_near(
+        "W24x94",
+        "AISC Shapes Database v16.0",
+        5.26,
+        computed("W24x94", 25.4)[3],
+        1e-2,
+    );
 }
 
 #[test]
@@ -78,18 +99,37 @@ fn american_sections_have_their_published_properties() {
 
 #[test]
 fn shear_areas_are_the_elastic_ones() {
-    let found = rolled("HEB 400").expect("in the table").dimensions.properties();
+    let found = rolled("HEB 400")
+        .expect("in the table")
+        .dimensions
+        .properties();
     assert_near("web", "(400 - 24) 13.5 mm2", 5076.0, found.shear_web, 1e-15);
-    assert_near("flanges", "5/6 of 2 300 24 mm2", 12_000.0, found.shear_flanges, 1e-15);
+    assert_near(
+        "flanges",
+        "5/6 of 2 300 24 mm2",
+        12_000.0,
+        found.shear_flanges,
+        1e-15,
+    );
 }
 
 #[test]
 fn every_section_is_found_by_its_name_and_leaves_space_between_its_flanges() {
     assert_eq!(rolled_sections().len(), 90 + 289);
     for section in rolled_sections() {
-        assert_eq!(rolled(&section.name.to_lowercase()), Some(section), "{}", section.name);
+        assert_eq!(
+            rolled(&section.name.to_lowercase()),
+            Some(section),
+            "{}",
+            section.name
+        );
         let size = section.dimensions;
-        let sides = [size.web, size.flange, size.radius, size.width - size.web - 2.0 * size.radius];
+        let sides = [
+            size.web,
+            size.flange,
+            size.radius,
+            size.width - size.web - 2.0 * size.radius,
+        ];
         assert!(sides.iter().all(|side| *side > 0.0), "{size:?}");
         assert!(size.height > 2.0 * (size.flange + size.radius), "{size:?}");
     }
@@ -97,10 +137,17 @@ fn every_section_is_found_by_its_name_and_leaves_space_between_its_flanges() {
 
 #[test]
 fn names_have_several_spellings() {
-    for (written, name) in
-        [("heb400", "HEB 400"), ("HE 400 B", "HEB 400"), ("ipe  300", "IPE 300"), ("w 24 x 94", "W24X94")]
-    {
-        assert_eq!(rolled(written).map(|section| section.name), Some(name), "{written}");
+    for (written, name) in [
+        ("heb400", "HEB 400"),
+        ("HE 400 B", "HEB 400"),
+        ("ipe  300", "IPE 300"),
+        ("w 24 x 94", "W24X94"),
+    ] {
+        assert_eq!(
+            rolled(written).map(|section| section.name),
+            Some(name),
+            "{written}"
+        );
     }
     for (written, name) in [
         ("a 75", "A75"),
@@ -110,7 +157,11 @@ fn names_have_several_spellings() {
         ("175CR", "CR 175"),
         ("Bethlehem 171", "CR 171"),
     ] {
-        assert_eq!(crane_rail(written).map(|rail| rail.name), Some(name), "{written}");
+        assert_eq!(
+            crane_rail(written).map(|rail| rail.name),
+            Some(name),
+            "{written}"
+        );
     }
     for unknown in ["HE", "HE B", "HEB", "", "X", "W24X93", "DIN CR 135"] {
         assert_eq!(rolled(unknown), None, "{unknown}");
@@ -126,27 +177,64 @@ fn rails_agree_with_themselves() {
         assert_eq!(crane_rail(rail.name), Some(rail));
         assert!(rail.head < rail.base && rail.mass > 0.0, "{rail:?}");
         if let Some(area) = rail.area {
-            assert_near(rail.name, "mass / density", rail.mass / STEEL_DENSITY, area * 1e-6, 1e-3);
+            assert_near(
+                rail.name,
+                "mass / density",
+                rail.mass / STEEL_DENSITY,
+                area * 1e-6,
+                1e-3,
+            );
         }
         if let Some(centroid) = rail.centroid {
-            assert!(centroid > 0.4 * rail.height && centroid < 0.5 * rail.height, "{rail:?}");
+            assert!(
+                centroid > 0.4 * rail.height && centroid < 0.5 * rail.height,
+                "{rail:?}"
+            );
         }
     }
     let heavy = crane_rail("CR 175").expect("in the table");
-    assert_near("CR 175", "175 lb/yd", 175.0 * 0.453_592_37 / 0.9144, heavy.mass, 2e-4);
+    assert_near(
+        "CR 175",
+        "175 lb/yd",
+        175.0 * 0.453_592_37 / 0.9144,
+        heavy.mass,
+        2e-4,
+    );
     let missing = crane_rail("A150").expect("in the table").plane_section();
     assert_eq!(missing, Err("second moment for lateral bending".to_owned()));
 }
 
 #[test]
 fn a_girder_with_its_rail_is_one_plane_section() {
-    let (rail, centroid) = crane_rail("A75").expect("in the table").plane_section().expect("complete");
-    let girder = rolled("HEB 400").expect("in the table").dimensions.properties();
-    let own = PlaneSection { area: girder.area, i_vertical: girder.i_strong, i_lateral: girder.i_weak };
+    let (rail, centroid) = crane_rail("A75")
+        .expect("in the table")
+        .plane_section()
+        .expect("complete");
+    let girder = rolled("HEB 400")
+        .expect("in the table")
+        .dimensions
+        .properties();
+    let own = PlaneSection {
+        area: girder.area,
+        i_vertical: girder.i_strong,
+        i_lateral: girder.i_weak,
+    };
     let height = 200.0 + centroid;
     let (whole, shift) = own.with_rail(&rail, height);
     // by integration about the girder's centroid, then moved to the common one
     let about = own.i_vertical + rail.i_vertical + rail.area * height * height;
-    assert_near("I", "Steiner", about - whole.area * shift * shift, whole.i_vertical, 1e-14);
-    assert_near("shift", "first moment", rail.area * height / (own.area + rail.area), shift, 1e-15);
+    assert_near(
+        "I",
+        "Steiner",
+        about - whole.area * shift * shift,
+        whole.i_vertical,
+        1e-14,
+    );
+    assert_near(
+        "shift",
+        "first moment",
+        rail.area * height / (own.area + rail.area),
+        shift,
+        1e-15,
+    );
 }

@@ -22,7 +22,13 @@ fn main() {
 
 fn places(count: usize) -> Vec<Probe> {
     let at = |k: usize| SPAN * (k as f64 + 0.5) / count as f64;
-    (0..count).map(|k| Probe { rail: 0, x: at(k), axis: Axis::Vertical }).collect()
+    (0..count)
+        .map(|k| Probe {
+            rail: 0,
+            x: at(k),
+            axis: Axis::Vertical,
+        })
+        .collect()
 }
 
 /// Depths under which every wheel presses alike.
@@ -68,7 +74,8 @@ fn active<const N: usize>(bencher: Bencher<'_, '_>) {
         matrix.copy_from(&influence.value);
         (0..N).for_each(|i| matrix[(i, i)] += 1.0 / STIFFNESS);
         forces.fill(1.0);
-        let sweeps = complementarity::complementarity(matrix.as_slice(), depth.as_slice(), &mut forces);
+        let sweeps =
+            complementarity::complementarity(matrix.as_slice(), depth.as_slice(), &mut forces);
         black_box(&forces);
         (done, sweeps)
     });

@@ -13,8 +13,12 @@ const SLOW: &str = include_str!("../../../fea/reference/bogie_s1.json");
 const FAST: &str = include_str!("../../../fea/reference/bogie_s2.json");
 
 /// Method and relative error of the deflection.
-const CASES: [(Method, f64); 4] =
-    [(Method::Sdirk4, 1e-3), (Method::Sdirk4, 1e-4), (Method::Radau, 1e-3), (Method::Radau, 1e-4)];
+const CASES: [(Method, f64); 4] = [
+    (Method::Sdirk4, 1e-3),
+    (Method::Sdirk4, 1e-4),
+    (Method::Radau, 1e-3),
+    (Method::Radau, 1e-4),
+];
 
 fn main() {
     divan::main();
@@ -32,7 +36,12 @@ fn fast(bencher: Bencher<'_, '_>, case: (Method, f64)) {
     crossing(bencher, bogie(100.0, 0.55, Damper::Ground), FAST, case);
 }
 
-fn crossing(bencher: Bencher<'_, '_>, mut scene: Scene, text: &str, (method, error): (Method, f64)) {
+fn crossing(
+    bencher: Bencher<'_, '_>,
+    mut scene: Scene,
+    text: &str,
+    (method, error): (Method, f64),
+) {
     let foundations = [Foundation::massless(Box::new(surface()), 1)];
     let wanted = reference(text);
     let peak = wanted.iter().fold(0.0_f64, |max, row| max.max(row[1]));
@@ -45,11 +54,17 @@ fn crossing(bencher: Bencher<'_, '_>, mut scene: Scene, text: &str, (method, err
 }
 
 fn solve(method: Method, scene: &Scene, foundations: &[Foundation]) -> Run {
-    sim::run_by(method, scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene")
+    sim::run_by(method, scene, foundations, &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene")
 }
 
 /// Largest error of the deflection.
 fn error_of(run: &Run, wanted: &[[f64; 5]]) -> f64 {
     let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
-    wanted.iter().zip(y).fold(0.0, |max, (row, y)| max.max((y + row[1]).abs()))
+    wanted
+        .iter()
+        .zip(y)
+        .fold(0.0, |max, (row, y)| max.max((y + row[1]).abs()))
 }

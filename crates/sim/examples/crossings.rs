@@ -10,7 +10,10 @@
 //! vertical forces of each wheel at these times follow, one wheel after the other; `fea/bench_scenes.py` compares both.
 //! History, audit and events are on. Settings are interleaved: every repetition runs all.
 
-#![allow(clippy::print_stdout, reason = "the figures are what the example is for")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures are what the example is for"
+)]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -23,14 +26,19 @@ use common::{EI, GRAVITY, SPAN, WEIGHT, bogie, surface};
 use mesh::Beam;
 use rustix::time::{ClockId, clock_gettime};
 use sim::{
-    Body, BodyDof, Channel, Contact, Damper, Error, Foundation, Method, Pin, Run, Scene, Status, run_by,
+    Body, BodyDof, Channel, Contact, Damper, Error, Foundation, Method, Pin, Run, Scene, Status,
+    run_by,
 };
 use splines::{Axis, Compliance, Influence, Probe};
 
 const REPETITIONS: usize = 15;
 
 fn main() -> Result<(), Error> {
-    if std::env::args().nth(1).as_deref() == Some("wheels") { wheels() } else { crossings() }
+    if std::env::args().nth(1).as_deref() == Some("wheels") {
+        wheels()
+    } else {
+        crossings()
+    }
 }
 
 /// Time that this thread has worked, ms: other jobs of the machine do not count.
@@ -40,7 +48,9 @@ fn clock() -> f64 {
 }
 
 fn solve(scene: &Scene, foundations: &[Foundation]) -> Result<Run, Error> {
-    run_by(Method::Auto, scene, foundations, &mut |_| ControlFlow::Continue(()))
+    run_by(Method::Auto, scene, foundations, &mut |_| {
+        ControlFlow::Continue(())
+    })
 }
 
 /// The span of Yang and Yau's bridge, m, and its bending stiffness, N m^2.
@@ -54,8 +64,11 @@ impl Compliance for Bridge {
         let (length, bending) = BRIDGE;
         for (i, p) in at.iter().enumerate() {
             for (j, q) in at.iter().enumerate() {
-                let (x, z, sign) =
-                    if p.x <= q.x { (p.x, q.x, 1.0) } else { (length - p.x, length - q.x, -1.0) };
+                let (x, z, sign) = if p.x <= q.x {
+                    (p.x, q.x, 1.0)
+                } else {
+                    (length - p.x, length - q.x, -1.0)
+                };
                 let by = (length - z) / (6.0 * length * bending);
                 let vertical = p.axis == Axis::Vertical && q.axis == Axis::Vertical;
                 let scale = if vertical { by } else { 0.0 };
@@ -105,7 +118,10 @@ fn train() -> Scene {
         inertia: [0.0, 0.0, inertia],
         free: [false, false, false, false, false, true],
         motion: None,
-        pinned: Some(Pin { body: to, at: [at, 0.0, 0.0] }),
+        pinned: Some(Pin {
+            body: to,
+            at: [at, 0.0, 0.0],
+        }),
         ..scene.bodies[0].clone()
     };
     let equalisers = [-6.0, 6.0].map(|at| rider(0, at, 2700.0));
@@ -113,7 +129,13 @@ fn train() -> Scene {
     scene.bodies.extend(equalisers);
     scene.bodies.extend(bogies);
     let wheel = scene.contacts[0].clone();
-    let pair = |body| [-4.0 / 3.0, 4.0 / 3.0].map(|at| Contact { body, offsets: vec![at], ..wheel.clone() });
+    let pair = |body| {
+        [-4.0 / 3.0, 4.0 / 3.0].map(|at| Contact {
+            body,
+            offsets: vec![at],
+            ..wheel.clone()
+        })
+    };
     scene.contacts = (3..7).flat_map(pair).collect();
     scene.wheels[0].normal.bilateral = true;
     scene
@@ -121,21 +143,63 @@ fn train() -> Scene {
 
 fn crossings() -> Result<(), Error> {
     let girder = || Foundation::massless(Box::new(surface()), 1);
-    let paper = Beam { span: SPAN, overhang: 15.0, bending: EI, mass: 15.2 };
-    let bridge = Beam { span: BRIDGE.0, overhang: 0.0, bending: BRIDGE.1, mass: 2303.0 };
-    let none = Error::Number { what: "mass", wanted: "positive", found: 0.0 };
-    let massive = |modes| paper.foundation(1.25, modes, surface()).ok_or_else(|| none.clone());
-    let heavy = |modes| bridge.foundation(BRIDGE.0 / 48.0, modes, Bridge).ok_or_else(|| none.clone());
+    let paper = Beam {
+        span: SPAN,
+        overhang: 15.0,
+        bending: EI,
+        mass: 15.2,
+    };
+    let bridge = Beam {
+        span: BRIDGE.0,
+        overhang: 0.0,
+        bending: BRIDGE.1,
+        mass: 2303.0,
+    };
+    let none = Error::Number {
+        what: "mass",
+        wanted: "positive",
+        found: 0.0,
+    };
+    let massive = |modes| {
+        paper
+            .foundation(1.25, modes, surface())
+            .ok_or_else(|| none.clone())
+    };
+    let heavy = |modes| {
+        bridge
+            .foundation(BRIDGE.0 / 48.0, modes, Bridge)
+            .ok_or_else(|| none.clone())
+    };
     let (slow, quick) = ((5.0, 12.0), (100.0, 0.55));
     let mut scenes = vec![
-        ("S1", String::new(), bogie(slow.0, slow.1, Damper::Ground), girder()),
-        ("S2", String::new(), bogie(quick.0, quick.1, Damper::Ground), girder()),
+        (
+            "S1",
+            String::new(),
+            bogie(slow.0, slow.1, Damper::Ground),
+            girder(),
+        ),
+        (
+            "S2",
+            String::new(),
+            bogie(quick.0, quick.1, Damper::Ground),
+            girder(),
+        ),
         ("S3", String::new(), train(), girder()),
     ];
     for modes in [2, 6] {
         let told = format!(" {modes} modes");
-        scenes.push(("S1 beam", told.clone(), bogie(slow.0, slow.1, Damper::Rail), massive(modes)?));
-        scenes.push(("S2 beam", told.clone(), bogie(quick.0, quick.1, Damper::Rail), massive(modes)?));
+        scenes.push((
+            "S1 beam",
+            told.clone(),
+            bogie(slow.0, slow.1, Damper::Rail),
+            massive(modes)?,
+        ));
+        scenes.push((
+            "S2 beam",
+            told.clone(),
+            bogie(quick.0, quick.1, Damper::Rail),
+            massive(modes)?,
+        ));
         scenes.push(("S4 beam", told, car(), heavy(modes)?));
     }
     let mut settings = Vec::new();
@@ -215,8 +279,16 @@ fn wheels() -> Result<(), Error> {
             us = us.min(1e3 * (clock() - start) / done.counts.steps.max(1) as f64);
         }
         let Some(run) = run else { continue };
-        let sim::Counts { steps, stages, events, .. } = run.counts;
-        println!("{n},{steps},{stages},{events},{us:.2},{:.1e}", run.audit.residual());
+        let sim::Counts {
+            steps,
+            stages,
+            events,
+            ..
+        } = run.counts;
+        println!(
+            "{n},{steps},{stages},{events},{us:.2},{:.1e}",
+            run.audit.residual()
+        );
     }
     Ok(())
 }

@@ -6,7 +6,10 @@
 //!
 //! A bridge on four wheels, a trolley on four that crosses it; least of nine runs. History, audit and events are on.
 
-#![allow(clippy::print_stdout, reason = "the figures are what the example is for")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures are what the example is for"
+)]
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -33,7 +36,10 @@ fn main() -> Result<(), Error> {
         let mut least = f64::INFINITY;
         let mut figures = (0, 0, 0.0);
         for _ in 0..REPETITIONS {
-            let foundations = [Foundation::rigid(), carried([0.0, 0.0, 1.0], [1.5, 3.0, -2.0])];
+            let foundations = [
+                Foundation::rigid(),
+                carried([0.0, 0.0, 1.0], [1.5, 3.0, -2.0]),
+            ];
             let start = Instant::now();
             let run = sim::run(&scene, &foundations, &mut |_| ControlFlow::Continue(()))?;
             least = least.min(start.elapsed().as_secs_f64());
@@ -41,7 +47,10 @@ fn main() -> Result<(), Error> {
         }
         let (steps, stages, residual) = figures;
         let freedoms = bridge.len() + trolley.len();
-        println!("{name},{freedoms},{steps},{stages},{:.2},{residual:.1e}", 1e6 * least / stages as f64);
+        println!(
+            "{name},{freedoms},{steps},{stages},{:.2},{residual:.1e}",
+            1e6 * least / stages as f64
+        );
     }
     Ok(())
 }

@@ -155,11 +155,20 @@ pub fn run_by(
         _ => return Ok(first),
     };
     let is_repetition = |&(method, factor): &(Method, f64)| factor == 1.0 && method == abandoned.0;
-    for (method, factor) in ALTERNATIVES.into_iter().filter(|alternative| !is_repetition(alternative)) {
-        let finer = Scene { accuracy: factor * scene.accuracy, ..scene.clone() };
+    for (method, factor) in ALTERNATIVES
+        .into_iter()
+        .filter(|alternative| !is_repetition(alternative))
+    {
+        let finer = Scene {
+            accuracy: factor * scene.accuracy,
+            ..scene.clone()
+        };
         match attempt(Stepping { method, ..stepping }, &finer, foundations, watch) {
             Ok(run) if run.status.is_complete() || run.status == Status::Stopped => {
-                return Ok(Run { abandoned: Some(abandoned), ..run });
+                return Ok(Run {
+                    abandoned: Some(abandoned),
+                    ..run
+                });
             }
             _ => {}
         }
@@ -179,16 +188,25 @@ fn attempt(
     method.check(&system)?;
     let method = method.chosen(&system);
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
-        return Err(Error::Number { what: "step", wanted: "positive", found });
+        return Err(Error::Number {
+            what: "step",
+            wanted: "positive",
+            found,
+        });
     }
     let mut method = method;
     if method == Method::Series {
         if step.is_none()
             && scene.analysis == Analysis::Dynamic
-            && let Some(crossed) = crossing::run(&system, starting(&system), placed(&system), watch)?
+            && let Some(crossed) =
+                crossing::run(&system, starting(&system), placed(&system), watch)?
         {
             return Ok(Run {
-                status: if crossed.is_stopped { Status::Stopped } else { Status::Done },
+                status: if crossed.is_stopped {
+                    Status::Stopped
+                } else {
+                    Status::Done
+                },
                 history: crossed.history,
                 steps: History::default(),
                 fired: Vec::new(),
@@ -209,7 +227,13 @@ fn attempt(
     place_below_ropes(&mut solver, &mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
-        Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(
+            Stepping { method, step },
+            &system,
+            &mut solver,
+            state,
+            watch,
+        ),
     }
 }
 
@@ -258,14 +282,21 @@ pub fn check_equilibrium(scene: &Scene, foundations: &[Foundation]) -> Result<()
     locate_wheels(&mut solver, &state)?;
     place_below_ropes(&mut solver, &mut state)?;
     match equilibrate(&mut solver, &mut state) {
-        Err(Error::NoEquilibrium { .. }) if acting_springs(&solver, &state).next().is_some() => Ok(()),
+        Err(Error::NoEquilibrium { .. }) if acting_springs(&solver, &state).next().is_some() => {
+            Ok(())
+        }
         found => found,
     }
 }
 
 /// Sets the entries of every body's degrees of freedom to the six values that `of` returns for the body.
 fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6]) {
-    for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
+    for (body, numbers) in system
+        .scene
+        .bodies
+        .iter()
+        .zip(&system.mechanics.kinematics.numbers)
+    {
         for (number, value) in numbers.iter().zip(of(body)) {
             if let Some(number) = *number {
                 values[number] = value;
@@ -278,7 +309,9 @@ fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6
 fn placed(system: &System) -> bool {
     system.scene.bodies.iter().enumerate().any(|(b, body)| {
         system.mechanics.wheels.iter().any(|wheel| wheel.body == b)
-            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
+            && [1, 3, 5]
+                .iter()
+                .any(|&i| body.free[i] && body.start[i] != 0.0)
     })
 }
 
@@ -293,8 +326,16 @@ fn integrate(
     let scene = system.scene;
     begin(system, solver, &mut state)?;
     let mut samples = Samples::new(solver, &state, scene.records_steps)?;
-    let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
-    let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
+    let first = (0.1 * scene.output_dt)
+        .min(1e-3 * scene.end)
+        .max(1e-9 * scene.end);
+    let mut stepper = Stepper::new(
+        solver,
+        state,
+        stepping,
+        LOCAL_PER_GLOBAL * scene.accuracy,
+        first,
+    )?;
     let mut fired = Vec::new();
     let status = advance(scene, &mut stepper, &mut samples, &mut fired, watch)?;
     let [history, steps] = samples.histories();
@@ -323,8 +364,19 @@ fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), 
     if system.traits.is_uneven {
         follow_rigid_rails(solver, state);
     }
-    let is_settled = if is_placed { settle(solver, state)? } else { settle_start(solver, state)? };
-    if is_settled { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0, body: None }) }
+    let is_settled = if is_placed {
+        settle(solver, state)?
+    } else {
+        settle_start(solver, state)?
+    };
+    if is_settled {
+        Ok(())
+    } else {
+        Err(Error::NoEquilibrium {
+            time: 0.0,
+            body: None,
+        })
+    }
 }
 
 /// Takes steps to the end of the scene, recording samples at the output times and executing rules; returns how the
@@ -376,7 +428,9 @@ fn advance(
 /// The status after the first rule that ended the run.
 fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     let rules = &scene.actuators.rules;
-    let last = fired.iter().find(|fired| rules[fired.rule].actions.contains(&Action::End));
+    let last = fired
+        .iter()
+        .find(|fired| rules[fired.rule].actions.contains(&Action::End));
     last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
@@ -388,7 +442,8 @@ fn sweep(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.mechanics.kinematics.numbers[b][0].is_some())
+    if let Some(body) =
+        (0..scene.bodies.len()).find(|&b| system.mechanics.kinematics.numbers[b][0].is_some())
     {
         return Err(Error::NotPrescribed { body });
     }

@@ -4,7 +4,10 @@
 //! by the largest force of the wheel. The reference is the same model at a much smaller accuracy; SDIRK4, another method,
 //! agrees with it.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 #[path = "../examples/crossings/mesh.rs"]
@@ -17,8 +20,8 @@ use common::random::Random;
 use common::{EI, GRAVITY, SPAN, WEIGHT, bogie, surface};
 use mesh::Beam;
 use sim::{
-    Body, BodyDof, Channel, Contact, Damper, Foundation, Irregularity, Load, Method, MotionKind, Pin,
-    Profile, Run, Scene, Schedule, Status, run_by,
+    Body, BodyDof, Channel, Contact, Damper, Foundation, Irregularity, Load, Method, MotionKind,
+    Pin, Profile, Run, Scene, Schedule, Status, run_by,
 };
 
 fn girder() -> Foundation {
@@ -27,7 +30,12 @@ fn girder() -> Foundation {
 
 /// The girder with mass in its lowest `modes` and the compliance of the others, or in all 24 of its mesh.
 fn massive(modes: usize) -> Foundation {
-    let paper = Beam { span: SPAN, overhang: 15.0, bending: EI, mass: 15.2 };
+    let paper = Beam {
+        span: SPAN,
+        overhang: 15.0,
+        bending: EI,
+        mass: 15.2,
+    };
     if modes < 24 {
         return paper.foundation(1.25, modes, surface()).expect("modes");
     }
@@ -48,7 +56,10 @@ fn train(damper: Damper) -> Scene {
         inertia: [0.0, 0.0, inertia],
         free: [false, false, false, false, false, true],
         motion: None,
-        pinned: Some(Pin { body: to, at: [at, 0.0, 0.0] }),
+        pinned: Some(Pin {
+            body: to,
+            at: [at, 0.0, 0.0],
+        }),
         ..scene.bodies[0].clone()
     };
     let equalisers = [-6.0, 6.0].map(|at| rider(0, at, 2700.0));
@@ -56,7 +67,13 @@ fn train(damper: Damper) -> Scene {
     scene.bodies.extend(equalisers);
     scene.bodies.extend(bogies);
     let wheel = scene.contacts[0].clone();
-    let pair = |body| [-4.0 / 3.0, 4.0 / 3.0].map(|at| Contact { body, offsets: vec![at], ..wheel.clone() });
+    let pair = |body| {
+        [-4.0 / 3.0, 4.0 / 3.0].map(|at| Contact {
+            body,
+            offsets: vec![at],
+            ..wheel.clone()
+        })
+    };
     scene.contacts = (3..7).flat_map(pair).collect();
     scene.wheels[0].normal.bilateral = true;
     scene
@@ -76,8 +93,14 @@ fn car() -> Scene {
 }
 
 fn go(method: Method, scene: &Scene, accuracy: f64, foundation: &[Foundation]) -> Run {
-    let scene = Scene { accuracy, ..scene.clone() };
-    run_by(method, &scene, foundation, &mut |_| ControlFlow::Continue(())).expect("a valid scene")
+    let scene = Scene {
+        accuracy,
+        ..scene.clone()
+    };
+    run_by(method, &scene, foundation, &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene")
 }
 
 /// Errors of a run: of wheel forces and of the deflection of the first body, relative to their largest values, and of the
@@ -104,44 +127,92 @@ fn period(scene: &Scene) -> f64 {
 /// Whether each sample is away from contact events and corners of the rail. Left out are the two samples on both sides of
 /// one at which a wheel has force in only one of the runs or from which on it gains or loses its force, and those within
 /// `accuracy` times the period of a wheel of a corner.
-fn is_judged(columns: &[[Vec<f64>; 2]], places: &[Vec<f64>], corners: &[f64], reach: f64) -> Vec<bool> {
+fn is_judged(
+    columns: &[[Vec<f64>; 2]],
+    places: &[Vec<f64>],
+    corners: &[f64],
+    reach: f64,
+) -> Vec<bool> {
     let last = columns[0][0].len() - 1;
     let is_open = |own: &[Vec<f64>; 2], i: usize| [own[0][i] == 0.0, own[1][i] == 0.0];
     let switches = |i: usize| {
         let mut wheels = columns.iter();
-        wheels.any(|own| is_open(own, i) != is_open(own, i + 1) || is_open(own, i)[0] != is_open(own, i)[1])
+        wheels.any(|own| {
+            is_open(own, i) != is_open(own, i + 1) || is_open(own, i)[0] != is_open(own, i)[1]
+        })
     };
     let at_corner = |i: usize| {
-        let near = |place: &Vec<f64>| corners.iter().any(|corner| (place[i] - corner).abs() <= reach);
+        let near = |place: &Vec<f64>| {
+            corners
+                .iter()
+                .any(|corner| (place[i] - corner).abs() <= reach)
+        };
         places.iter().any(near)
     };
-    (0..=last).map(|i| !(i.saturating_sub(2)..(i + 2).min(last)).any(switches) && !at_corner(i)).collect()
+    (0..=last)
+        .map(|i| !(i.saturating_sub(2)..(i + 2).min(last)).any(switches) && !at_corner(i))
+        .collect()
 }
 
 /// Errors of `run` outside the windows of events at the accuracy asked. The impulse of all wheels on one body is m g t - m
 /// v plus that of the loads, so that errors of impulses across events are m times the change of the error of v.
-fn errors(run: &Run, reference: &Run, (scene, rail): (&Scene, &Foundation), accuracy: f64) -> Errors {
+fn errors(
+    run: &Run,
+    reference: &Run,
+    (scene, rail): (&Scene, &Foundation),
+    accuracy: f64,
+) -> Errors {
     let both = |channel: Channel| [run, reference].map(|run| run.history.column(channel));
-    let size = |column: &[f64]| column.iter().fold(f64::MIN_POSITIVE, |max, value| max.max(value.abs()));
+    let size = |column: &[f64]| {
+        column
+            .iter()
+            .fold(f64::MIN_POSITIVE, |max, value| max.max(value.abs()))
+    };
     let wheels = 0..scene.contacts.len();
     let forces: Vec<[Vec<f64>; 2]> = wheels.clone().map(|w| both(Channel::Vertical(w))).collect();
-    let places: Vec<Vec<f64>> = wheels.map(|w| reference.history.column(Channel::Position(w))).collect();
-    let corners: Vec<f64> = rail.irregularities.iter().flat_map(|own| own.breaks().to_vec()).collect();
+    let places: Vec<Vec<f64>> = wheels
+        .map(|w| reference.history.column(Channel::Position(w)))
+        .collect();
+    let corners: Vec<f64> = rail
+        .irregularities
+        .iter()
+        .flat_map(|own| own.breaks().to_vec())
+        .collect();
     let speed = (places[0][1] - places[0][0]) / scene.output_dt;
     let judged = is_judged(&forces, &places, &corners, speed * accuracy * period(scene));
     let worst = |[own, true_values]: &[Vec<f64>; 2], judged: &dyn Fn(usize) -> bool| {
-        let all = own.iter().zip(true_values).enumerate().filter(|(i, _)| judged(*i));
-        all.map(|(_, (own, value))| (own - value).abs()).fold(0.0, f64::max) / size(true_values)
+        let all = own
+            .iter()
+            .zip(true_values)
+            .enumerate()
+            .filter(|(i, _)| judged(*i));
+        all.map(|(_, (own, value))| (own - value).abs())
+            .fold(0.0, f64::max)
+            / size(true_values)
     };
-    let force = forces.iter().map(|own| worst(own, &|i| judged[i])).fold(0.0, f64::max);
+    let force = forces
+        .iter()
+        .map(|own| worst(own, &|i| judged[i]))
+        .fold(0.0, f64::max);
     let deflection = worst(&both(Channel::Displacement(0, BodyDof::Y)), &|_| true);
     let [own, true_values] = both(Channel::Speed(0, BodyDof::Y));
-    let error: Vec<f64> = own.iter().zip(&true_values).map(|(own, value)| own - value).collect();
-    let largest =
-        forces.iter().map(|[_, force]| size(force)).fold(0.0, f64::max) * scene.contacts.len() as f64;
+    let error: Vec<f64> = own
+        .iter()
+        .zip(&true_values)
+        .map(|(own, value)| own - value)
+        .collect();
+    let largest = forces
+        .iter()
+        .map(|[_, force]| size(force))
+        .fold(0.0, f64::max)
+        * scene.contacts.len() as f64;
     let across = (1..judged.len()).filter(|&i| !judged[i] && scene.bodies.len() == 1);
     let impulse = across.map(|i| scene.bodies[0].mass * (error[i] - error[i - 1]).abs());
-    Errors { force, deflection, impulse: impulse.fold(0.0, f64::max) / (largest * period(scene)) }
+    Errors {
+        force,
+        deflection,
+        impulse: impulse.fold(0.0, f64::max) / (largest * period(scene)),
+    }
 }
 
 /// Steps of a run by SDIRK4 above which the next smaller accuracy is not judged.
@@ -150,7 +221,13 @@ const MANY: usize = 200_000;
 /// Judges every method that suits the scene at each of `accuracies` against [`Method::Auto`] at `fine`. Prints a row of
 /// the table for each method; returns the largest error by the accuracy, and how closely SDIRK4 at the smallest accuracy
 /// at which it was run agrees with the reference.
-fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64], fine: f64) -> [f64; 2] {
+fn judge(
+    name: &str,
+    mut scene: Scene,
+    foundation: Foundation,
+    accuracies: &[f64],
+    fine: f64,
+) -> [f64; 2] {
     scene.output_dt = scene.end / 731.3;
     let foundation = [foundation];
     let reference = go(Method::Auto, &scene, fine, &foundation);
@@ -181,7 +258,10 @@ fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64
             let [force, deflection] = [found.force, found.deflection].map(|error| error / accuracy);
             row.push_str(&format!(" {force:.2}, {deflection:.2} ({steps}) |"));
         }
-        println!("| {name} | `{}` |{row}", format!("{method:?}").to_lowercase());
+        println!(
+            "| {name} | `{}` |{row}",
+            format!("{method:?}").to_lowercase()
+        );
     }
     [largest, agreement]
 }
@@ -191,19 +271,46 @@ fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64
 fn wheel_forces_and_deflections_keep_the_accuracy_asked() {
     let accuracies = [1e-2, 1e-3, 1e-4, 1e-5];
     let cases = [
-        ("S1, damped to ground", bogie(5.0, 12.0, Damper::Ground), girder()),
-        ("S1, damped to the rail", bogie(5.0, 12.0, Damper::Rail), girder()),
-        ("S1, damped to the rail, 2 modes", bogie(5.0, 12.0, Damper::Rail), massive(2)),
-        ("S2, damped to the rail", bogie(100.0, 0.55, Damper::Rail), girder()),
-        ("S2, damped to the rail, 6 modes", bogie(100.0, 0.55, Damper::Rail), massive(6)),
-        ("S2, damped to ground, 2 modes", bogie(100.0, 0.55, Damper::Ground), massive(2)),
+        (
+            "S1, damped to ground",
+            bogie(5.0, 12.0, Damper::Ground),
+            girder(),
+        ),
+        (
+            "S1, damped to the rail",
+            bogie(5.0, 12.0, Damper::Rail),
+            girder(),
+        ),
+        (
+            "S1, damped to the rail, 2 modes",
+            bogie(5.0, 12.0, Damper::Rail),
+            massive(2),
+        ),
+        (
+            "S2, damped to the rail",
+            bogie(100.0, 0.55, Damper::Rail),
+            girder(),
+        ),
+        (
+            "S2, damped to the rail, 6 modes",
+            bogie(100.0, 0.55, Damper::Rail),
+            massive(6),
+        ),
+        (
+            "S2, damped to ground, 2 modes",
+            bogie(100.0, 0.55, Damper::Ground),
+            massive(2),
+        ),
         ("S3, damped to ground", train(Damper::Ground), girder()),
         ("S4", car(), girder()),
         ("S4, 2 modes", car(), massive(2)),
     ];
     for (name, scene, foundation) in cases {
         let [largest, agreement] = judge(name, scene, foundation, &accuracies, 1e-9);
-        assert!(largest <= 1.0 && agreement < 1e-5, "{name}: {largest}, {agreement}");
+        assert!(
+            largest <= 1.0 && agreement < 1e-5,
+            "{name}: {largest}, {agreement}"
+        );
     }
 }
 
@@ -228,8 +335,16 @@ type Crossing = (&'static str, fn(Damper) -> Scene, &'static [Damper]);
 fn every_crossing_keeps_the_accuracy_asked_in_every_method() {
     let accuracies = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
     let scenes: [Crossing; 4] = [
-        ("S1", |damper| bogie(5.0, 12.0, damper), &[Damper::Ground, Damper::Rail]),
-        ("S2", |damper| bogie(100.0, 0.55, damper), &[Damper::Ground, Damper::Rail]),
+        (
+            "S1",
+            |damper| bogie(5.0, 12.0, damper),
+            &[Damper::Ground, Damper::Rail],
+        ),
+        (
+            "S2",
+            |damper| bogie(100.0, 0.55, damper),
+            &[Damper::Ground, Damper::Rail],
+        ),
         ("S3", train, &[Damper::Ground, Damper::Rail]),
         ("S4", |_| car(), &[Damper::Rail]),
     ];
@@ -247,8 +362,11 @@ fn every_crossing_keeps_the_accuracy_asked_in_every_method() {
                     0 => format!("{name}{place}, massless"),
                     _ => format!("{name}{place}, {modes} modes"),
                 };
-                let [largest, agreement] = judge(&named, scene(*damper), foundation, &accuracies, 1e-10);
-                println!("    {named}: largest error {largest:.2}, SDIRK4 agrees to {agreement:.0e}");
+                let [largest, agreement] =
+                    judge(&named, scene(*damper), foundation, &accuracies, 1e-10);
+                println!(
+                    "    {named}: largest error {largest:.2}, SDIRK4 agrees to {agreement:.0e}"
+                );
                 if largest > 1.0 {
                     missed.push((named, largest));
                 }
@@ -267,13 +385,18 @@ fn every_crossing_keeps_the_accuracy_asked_in_every_method() {
 /// 0.02 to 20 times the mass of the girder.
 fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
     let speed = 10.0_f64.powf(random.between(0.5, 2.0));
-    let damper = if random.between(0.0, 1.0) < 0.6 { Damper::Rail } else { Damper::Ground };
+    let damper = if random.between(0.0, 1.0) < 0.6 {
+        Damper::Rail
+    } else {
+        Damper::Ground
+    };
     let start = random.between(3.0, 12.0);
     let end = (random.between(20.0, 44.0) / speed).min(6.0);
     let mut scene = bogie(speed, end, damper);
     let mass = 15.2 * SPAN * 10.0_f64.powf(random.between(-1.7, 1.3));
     let body = &mut scene.bodies[0];
-    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], start, 0.0).expect("a valid table"));
+    body.motion =
+        Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], start, 0.0).expect("a valid table"));
     (body.mass, body.inertia) = (mass, [0.0, 0.0, mass * random.between(0.5, 4.0)]);
     let count = random.between(1.0, 4.999) as usize;
     let normal = &mut scene.wheels[0].normal;
@@ -289,12 +412,24 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
     scene.contacts.truncate(1);
     let wheel = scene.contacts[0].clone();
     let place = |i: usize| (i as f64 - 0.5 * (count - 1) as f64) * 1.7;
-    scene.contacts = (0..count).map(|i| Contact { offsets: vec![place(i)], ..wheel.clone() }).collect();
+    scene.contacts = (0..count)
+        .map(|i| Contact {
+            offsets: vec![place(i)],
+            ..wheel.clone()
+        })
+        .collect();
     if random.between(0.0, 1.0) < 0.4 {
-        let (force, at) = (random.between(-0.5, 0.8) * mass * GRAVITY, random.between(0.2, 0.6) * end);
+        let (force, at) = (
+            random.between(-0.5, 0.8) * mass * GRAVITY,
+            random.between(0.2, 0.6) * end,
+        );
         let value = Schedule::new(&[[0.0, 0.0], [at, 0.0], [1.002 * at, force]]);
         let value = value.expect("a valid table");
-        scene.actuators.loads = vec![Load { body: 0, dof: BodyDof::Y, value }];
+        scene.actuators.loads = vec![Load {
+            body: 0,
+            dof: BodyDof::Y,
+            value,
+        }];
     }
     let kind = random.between(0.0, 1.0);
     let mut foundation = match kind {
@@ -303,8 +438,17 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
         _ => massive([2, 6, 24][random.between(0.0, 2.999) as usize]),
     };
     if random.between(0.0, 1.0) < 0.4 {
-        let (x, depth) = (start + random.between(6.0, 12.0), depth * random.between(0.1, 0.9));
-        let rows = [[-20.0, 0.0], [x, 0.0], [x + 1.0, -depth], [x + 2.0, 0.0], [80.0, 0.0]];
+        let (x, depth) = (
+            start + random.between(6.0, 12.0),
+            depth * random.between(0.1, 0.9),
+        );
+        let rows = [
+            [-20.0, 0.0],
+            [x, 0.0],
+            [x + 1.0, -depth],
+            [x + 2.0, 0.0],
+            [80.0, 0.0],
+        ];
         foundation.irregularities = vec![Irregularity::new(&rows, &[]).expect("rows in order")];
     }
     (scene, foundation)
@@ -330,7 +474,10 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
         let foundation = [foundation];
         let reference = go(Method::Auto, &scene, 1e-8, &foundation);
         let second = go(Method::Sdirk4, &scene, 1e-7, &foundation);
-        if ![&reference.status, &second.status].into_iter().all(|status| *status == Status::Done) {
+        if ![&reference.status, &second.status]
+            .into_iter()
+            .all(|status| *status == Status::Done)
+        {
             println!("{number}: {:?} {:?}", reference.status, second.status);
             tally.open += 1;
             continue;
@@ -338,7 +485,10 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
         for accuracy in [1e-2, 1e-3, 1e-4] {
             let judged = |run: &Run| errors(run, &reference, (&scene, &foundation[0]), accuracy);
             if judged(&second).largest() > 0.1 * accuracy {
-                println!("{number} at {accuracy:.0e}: the references agree to {:?}", judged(&second));
+                println!(
+                    "{number} at {accuracy:.0e}: the references agree to {:?}",
+                    judged(&second)
+                );
                 tally.open += 1;
                 continue;
             }
@@ -350,14 +500,16 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
                 tally.judged += 1;
                 tally.steps += run.counts.steps;
                 let found = judged(&run);
-                let has_missed = run.status != Status::Done || found.force.max(found.deflection) > accuracy;
+                let has_missed =
+                    run.status != Status::Done || found.force.max(found.deflection) > accuracy;
                 tally.misses += usize::from(has_missed);
                 tally.missed_impulses += usize::from(found.impulse > accuracy);
                 if has_missed || found.impulse > accuracy {
                     println!(
                         "{number} {:?} at {accuracy:.0e}: {:.2?} ({} steps, {} events, {:?})",
                         run.method,
-                        [found.force, found.deflection, found.impulse].map(|error| error / accuracy),
+                        [found.force, found.deflection, found.impulse]
+                            .map(|error| error / accuracy),
                         run.counts.steps,
                         run.counts.events,
                         run.status
@@ -375,7 +527,13 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
 #[ignore = "two minutes"]
 fn scenes_at_random_keep_the_accuracy_asked() {
     for seed in [20_260_722, 77_001, 9_118_273_645] {
-        let Tally { judged, misses, missed_impulses, open, steps } = judge_at_random(seed, 70);
+        let Tally {
+            judged,
+            misses,
+            missed_impulses,
+            open,
+            steps,
+        } = judge_at_random(seed, 70);
         println!(
             "seed {seed}: {misses} misses, {missed_impulses} of impulses, in {judged} runs, {open} not judged, {steps} steps"
         );

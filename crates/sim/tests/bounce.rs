@@ -1,6 +1,9 @@
 //! Wheels that bounce: each flight and each stay against closed forms, and no end of bounces that stops a run.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -40,7 +43,11 @@ fn an_undamped_wheel_bounces_for_ever_to_the_same_height() {
     let run = go(&scene, Foundation::rigid());
     let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     let last = y.last().copied().expect("samples");
-    println!("after {bounces} bounces {last} ft, {:?}, energy {:e}", run.counts, run.audit.residual());
+    println!(
+        "after {bounces} bounces {last} ft, {:?}, energy {:e}",
+        run.counts,
+        run.audit.residual()
+    );
     assert_eq!(run.counts.events, 2 * bounces as usize, "{:?}", run.counts);
     assert!((last / height - 1.0).abs() < 1e-3, "{last}");
     assert!(run.audit.residual() < 1e-5, "{:e}", run.audit.residual());
@@ -55,7 +62,14 @@ fn bounces_on_a_rigid_rail_die_out_and_leave_the_weight_at_rest() {
             for accuracy in [1e-3, 1e-5] {
                 let mut scene = dropped(22.0, 0.2, c, 40.0);
                 scene.accuracy = accuracy;
-                let run = go(&scene, if flexible { girder() } else { Foundation::rigid() });
+                let run = go(
+                    &scene,
+                    if flexible {
+                        girder()
+                    } else {
+                        Foundation::rigid()
+                    },
+                );
                 let force = run.history.column(Channel::Vertical(0));
                 let last = force.last().copied().expect("samples") / WEIGHT;
                 let off = force.iter().filter(|force| **force == 0.0).count();
@@ -65,8 +79,15 @@ fn bounces_on_a_rigid_rail_die_out_and_leave_the_weight_at_rest() {
                     run.audit.residual()
                 );
                 assert!(off > 0, "it never left the rail");
-                assert!(flexible || (last - 1.0).abs() < 1e-6, "{name}, c {c:e}, {accuracy:e}: {last}");
-                assert!(run.audit.residual() < 10.0 * accuracy, "{:e}", run.audit.residual());
+                assert!(
+                    flexible || (last - 1.0).abs() < 1e-6,
+                    "{name}, c {c:e}, {accuracy:e}: {last}"
+                );
+                assert!(
+                    run.audit.residual() < 10.0 * accuracy,
+                    "{:e}",
+                    run.audit.residual()
+                );
             }
         }
     }
@@ -84,13 +105,18 @@ fn samples_just_before_a_damped_wheel_leaves_have_its_force() {
     };
     let fine = forces(1e-7);
     let peak = fine.iter().fold(0.0_f64, |most, force| most.max(*force));
-    let first = fine.iter().position(|force| *force == peak).expect("a sample");
+    let first = fine
+        .iter()
+        .position(|force| *force == peak)
+        .expect("a sample");
     assert!(fine[first..].contains(&0.0), "it leaves");
     for accuracy in [1e-3, 1e-4, 1e-5] {
         let found = forces(accuracy);
-        let off =
-            found[first..].iter().zip(&fine[first..]).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
-                / peak;
+        let off = found[first..]
+            .iter()
+            .zip(&fine[first..])
+            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+            / peak;
         println!("accuracy {accuracy:e}: {off:.1e} of the largest force");
         assert!(off < 5e-3, "{accuracy:e}: {off:e}");
     }
@@ -109,10 +135,20 @@ fn two_wheels_that_clatter_on_a_girder_come_to_rest() {
             scene.accuracy = accuracy;
             let run = go(&scene, girder());
             let residual = run.audit.residual();
-            println!("c {c:e}, accuracy {accuracy:e}: {:?}, energy {residual:e}", run.counts);
+            println!(
+                "c {c:e}, accuracy {accuracy:e}: {:?}, energy {residual:e}",
+                run.counts
+            );
             assert!(run.counts.events > 4, "{:?}", run.counts);
-            assert!(run.counts.stages < 60 * run.counts.steps, "{:?}", run.counts);
-            assert!(residual < 10.0 * accuracy, "c {c:e}, {accuracy:e}: {residual:e}");
+            assert!(
+                run.counts.stages < 60 * run.counts.steps,
+                "{:?}",
+                run.counts
+            );
+            assert!(
+                residual < 10.0 * accuracy,
+                "c {c:e}, {accuracy:e}: {residual:e}"
+            );
         }
     }
 }

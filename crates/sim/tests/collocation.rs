@@ -1,6 +1,9 @@
 //! Collocation with exact modes against the diagonally implicit method.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -14,8 +17,10 @@ use sim::{Channel, Damper, Error, Foundation, Method, Run, Scene, Status, Steppi
 
 fn solved(stepping: impl Into<Stepping>, scene: &Scene, foundation: Foundation) -> Run {
     let (begun, stepping) = (Instant::now(), stepping.into());
-    let run =
-        run_by(stepping, scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run = run_by(stepping, scene, &[foundation], &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene");
     println!(
         "{stepping:?}: {:?}, {} steps, {} rejected, {:.0?}, audit {:.1e}",
         run.status,
@@ -32,7 +37,10 @@ fn solved(stepping: impl Into<Stepping>, scene: &Scene, foundation: Foundation) 
 fn apart(a: &Run, b: &Run, channel: Channel) -> f64 {
     let (a, b) = (a.history.column(channel), b.history.column(channel));
     let size = b.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-    a.iter().zip(&b).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / size
+    a.iter()
+        .zip(&b)
+        .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
+        / size
 }
 
 /// Independent: the same scene by SDIRK4 at accuracy 1e-9.
@@ -60,7 +68,10 @@ fn radau_meets_sdirk_with_many_wheels() {
         let mut scene = bogie(20.0, 0.3, Damper::Ground);
         let share = f64::from(count);
         scene.bodies[0].start[0] = 25.0;
-        (scene.wheels[0].normal.stiffness, scene.wheels[0].normal.damping) = (2e8 / share, damping / share);
+        (
+            scene.wheels[0].normal.stiffness,
+            scene.wheels[0].normal.damping,
+        ) = (2e8 / share, damping / share);
         let pattern = scene.contacts[0].clone();
         scene.contacts = (0..count)
             .map(|i| {
@@ -101,7 +112,10 @@ fn radau_meets_sdirk_on_modes() {
 fn samples_inside_a_step_have_the_modes_where_they_are() {
     let mut scene = oscillator(1.0, 1.0, 0.01);
     scene.output_dt = scene.end / 1000.0;
-    let fine = Stepping { method: Method::Radau, step: Some(scene.output_dt / 10.0) };
+    let fine = Stepping {
+        method: Method::Radau,
+        step: Some(scene.output_dt / 10.0),
+    };
     let reference = solved(fine, &scene, beam(120, false));
     scene.accuracy = 1e-3;
     let found = solved(Method::Radau, &scene, beam(120, false));
@@ -114,6 +128,14 @@ fn samples_inside_a_step_have_the_modes_where_they_are() {
 #[test]
 fn gauss_refuses_a_damper_between_wheel_and_rail() {
     let scene = bogie(20.0, 1.0, Damper::Rail);
-    let found = run_by(Method::Gauss3, &scene, &[girder()], &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(found, Err(Error::Method { method: Method::Gauss3, .. })));
+    let found = run_by(Method::Gauss3, &scene, &[girder()], &mut |_| {
+        ControlFlow::Continue(())
+    });
+    assert!(matches!(
+        found,
+        Err(Error::Method {
+            method: Method::Gauss3,
+            ..
+        })
+    ));
 }

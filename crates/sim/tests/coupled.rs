@@ -1,7 +1,10 @@
 //! Flanges, IMPACT and equalisers on a rail whose vertical and lateral give are coupled, each against a reference of
 //! other make.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -10,7 +13,9 @@ use std::ops::ControlFlow;
 use common::kutta::{Kernel, rk4};
 use common::{GRAVITY, bogie};
 use nalgebra::{DMatrix, DVector};
-use sim::{Analysis, BodyDof, Channel, Damper, Flange, Foundation, MotionKind, Profile, Run, Scene, Status};
+use sim::{
+    Analysis, BodyDof, Channel, Damper, Flange, Foundation, MotionKind, Profile, Run, Scene, Status,
+};
 use splines::{Axis, Probe};
 
 const MASS: f64 = 4.0;
@@ -52,24 +57,39 @@ fn scene(offsets: &[f64], clearance: f64, speed: f64, end: f64) -> Scene {
     scene.contacts[0].offsets = offsets.to_vec();
     let wheel = &mut scene.wheels[0];
     (wheel.normal.stiffness, wheel.normal.damping) = (K, 0.0);
-    wheel.flange = Some(Flange { stiffness: FLANGE, clearance, release: None });
+    wheel.flange = Some(Flange {
+        stiffness: FLANGE,
+        clearance,
+        release: None,
+    });
     scene.accuracy = 1e-8;
     scene
 }
 
 fn run(scene: &Scene) -> Run {
-    let run = sim::run(scene, &[rail()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[rail()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
 
 fn last(run: &Run, channel: Channel) -> f64 {
-    run.history.column(channel).last().copied().expect("a run has rows")
+    run.history
+        .column(channel)
+        .last()
+        .copied()
+        .expect("a run has rows")
 }
 
 fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    println!("{what}: {found} of {expected}, {:.1e}", (found - expected).abs());
-    assert!((found - expected).abs() < tolerance, "{what}: {found} is not {expected}");
+    println!(
+        "{what}: {found} of {expected}, {:.1e}",
+        (found - expected).abs()
+    );
+    assert!(
+        (found - expected).abs() < tolerance,
+        "{what}: {found} is not {expected}"
+    );
 }
 
 /// Vertical force down and lateral force to the right on the rail of one wheel at x = 0, in contact to the right or to the
@@ -108,7 +128,11 @@ fn wheel_that_bounces_between_its_flanges_moves_a_coupled_rail_up_and_down() {
     assert!(vy.abs() > 1e-3, "the coupling makes the body bounce");
     close("height", last(&found, Y), y, 1e-7);
     close("side", last(&found, Z), z, 1e-6);
-    assert!(found.audit.residual() < 1e-7, "{:e}", found.audit.residual());
+    assert!(
+        found.audit.residual() < 1e-7,
+        "{:e}",
+        found.audit.residual()
+    );
 }
 
 #[test]
@@ -138,8 +162,17 @@ fn impact_law_with_a_damper_and_flanges_follow_an_independent_integration() {
     });
     close("height", last(&found, Y), y, 1e-7);
     close("side", last(&found, Z), z, 1e-7);
-    close("penetration", last(&found, Channel::Penetration(0)), p, 1e-7);
-    assert!(found.audit.residual() < 1e-6, "{:e}", found.audit.residual());
+    close(
+        "penetration",
+        last(&found, Channel::Penetration(0)),
+        p,
+        1e-7,
+    );
+    assert!(
+        found.audit.residual() < 1e-6,
+        "{:e}",
+        found.audit.residual()
+    );
 }
 
 /// Compliance of one vertical force shared by two wheels and of their two flanges at `x`, with the springs' own.
@@ -173,15 +206,29 @@ fn equaliser_that_travels_over_a_coupled_rail_shares_its_force() {
     let y0 = -(all[(0, 0)] * WEIGHT + all[(0, 1)] * sides[0] + all[(0, 2)] * sides[1]);
     close("height at rest", found.history.column(Y)[0], y0, 1e-12);
     let [y, _, z, _] = rk4([y0, 0.0, 0.0, 0.4], end, 4000, |t, [y, vy, z, vz]| {
-        let forces = shared(at(t)).lu().solve(&DVector::from_row_slice(&[-y, z, z]));
+        let forces = shared(at(t))
+            .lu()
+            .solve(&DVector::from_row_slice(&[-y, z, z]));
         let forces = forces.expect("a positive matrix");
-        [vy, forces[0] / MASS - GRAVITY, vz, -(forces[1] + forces[2]) / MASS]
+        [
+            vy,
+            forces[0] / MASS - GRAVITY,
+            vz,
+            -(forces[1] + forces[2]) / MASS,
+        ]
     });
     close("height", last(&found, Y), y, 1e-7);
     close("side", last(&found, Z), z, 1e-7);
     let [left, right] = [0, 1].map(|w| last(&found, Channel::Vertical(w)));
-    assert!((left - right).abs() < 1e-12 * WEIGHT, "an equaliser shares evenly");
-    assert!(found.audit.residual() < 1e-7, "{:e}", found.audit.residual());
+    assert!(
+        (left - right).abs() < 1e-12 * WEIGHT,
+        "an equaliser shares evenly"
+    );
+    assert!(
+        found.audit.residual() < 1e-7,
+        "{:e}",
+        found.audit.residual()
+    );
 }
 
 #[test]
@@ -197,7 +244,12 @@ fn flanges_that_hold_a_body_aside_lift_it_on_a_coupled_rail_at_rest() {
         // Analytic: N = W; both flanges press to the right.
         let all = shared([2.0 * t - 0.4, 2.0 * t + 0.4]);
         let pressed = DVector::from_element(2, 0.05 - 0.01) - all.view((1, 0), (2, 1)) * WEIGHT;
-        let sides = all.view((1, 1), (2, 2)).into_owned().lu().solve(&pressed).expect("a positive matrix");
+        let sides = all
+            .view((1, 1), (2, 2))
+            .into_owned()
+            .lu()
+            .solve(&pressed)
+            .expect("a positive matrix");
         assert!(sides.min() > 0.0);
         let expected = -(all[(0, 0)] * WEIGHT + all[(0, 1)] * sides[0] + all[(0, 2)] * sides[1]);
         worst = worst.max((y - expected).abs() / expected.abs());
@@ -205,5 +257,9 @@ fn flanges_that_hold_a_body_aside_lift_it_on_a_coupled_rail_at_rest() {
     println!("at rest: {worst:.1e}");
     assert!(worst < 1e-11);
     let vertical = found.history.column(Channel::Vertical(0));
-    assert!(vertical.iter().all(|force| (force - 0.5 * WEIGHT).abs() < 1e-11 * WEIGHT));
+    assert!(
+        vertical
+            .iter()
+            .all(|force| (force - 0.5 * WEIGHT).abs() < 1e-11 * WEIGHT)
+    );
 }

@@ -1,6 +1,9 @@
 //! What couples and what does not: bodies side by side, friction on a rail that gives, a body on a girder with mass.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -9,12 +12,13 @@ use std::ops::ControlFlow;
 use common::parts::{inertia, massive};
 use common::{EI, GRAVITY, WEIGHT, bogie, girder};
 use sim::{
-    Analysis, BodyDof, Channel, Damper, Foundation, Friction, FrictionLaw, MotionKind, Profile, Run, Scene,
-    Status,
+    Analysis, BodyDof, Channel, Damper, Foundation, Friction, FrictionLaw, MotionKind, Profile,
+    Run, Scene, Status,
 };
 
 fn run(scene: &Scene, foundations: &[Foundation]) -> Run {
-    let run = sim::run(scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -24,7 +28,8 @@ fn light() -> Scene {
     let mut scene = bogie(30.0, 1.0, Damper::Ground);
     let body = &mut scene.bodies[0];
     body.mass *= 0.5;
-    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 30.0]], 0.0, 10.0).expect("a valid table"));
+    body.motion =
+        Some(Profile::new(MotionKind::Speed, &[[0.0, 30.0]], 0.0, 10.0).expect("a valid table"));
     scene.wheels[0].normal.stiffness = 3e7;
     scene
 }
@@ -50,18 +55,25 @@ fn difference(ours: (&Run, &[Channel]), theirs: (&Run, &[Channel])) -> f64 {
         assert_eq!(our.len(), their.len());
         let peak = their.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         assert!(peak > 0.0, "something happens");
-        worst = our.iter().zip(&their).fold(worst, |max, (a, b)| max.max((a - b).abs() / peak));
+        worst = our
+            .iter()
+            .zip(&their)
+            .fold(worst, |max, (a, b)| max.max((a - b).abs() / peak));
     }
     worst
 }
 
 #[test]
 fn bodies_on_two_structures_do_not_feel_each_other() {
-    let displacements = |b| [BodyDof::Y, BodyDof::Pitch].map(|freedom| Channel::Displacement(b, freedom));
+    let displacements =
+        |b| [BodyDof::Y, BodyDof::Pitch].map(|freedom| Channel::Displacement(b, freedom));
     let forces = |b| [0, 1].map(|w| Channel::Vertical(2 * b + w));
     let (mut heavy, mut light) = (bogie(50.0, 1.0, Damper::Rail), light());
     // Forces between the ends of steps are those of the interpolant, whose penetrations are cubic.
-    for (analysis, bounds) in [(Analysis::QuasiStatic, [1e-14; 2]), (Analysis::Dynamic, [1e-8, 1e-5])] {
+    for (analysis, bounds) in [
+        (Analysis::QuasiStatic, [1e-14; 2]),
+        (Analysis::Dynamic, [1e-8, 1e-5]),
+    ] {
         for scene in [&mut heavy, &mut light] {
             scene.analysis = analysis;
             scene.accuracy = 1e-8;
@@ -74,16 +86,26 @@ fn bodies_on_two_structures_do_not_feel_each_other() {
                 difference((&together, &forces(b)), (alone, &forces(0))),
             ];
             println!("{analysis:?}, body {b}: {:.1e} {:.1e}", found[0], found[1]);
-            assert!(found[0] < bounds[0] && found[1] < bounds[1], "{analysis:?}, body {b}: {found:?}");
+            assert!(
+                found[0] < bounds[0] && found[1] < bounds[1],
+                "{analysis:?}, body {b}: {found:?}"
+            );
         }
         // Energies are sums over the bodies.
         for (what, of) in [
-            ("stored", (|run: &Run| run.audit.end.total()) as fn(&Run) -> f64),
+            (
+                "stored",
+                (|run: &Run| run.audit.end.total()) as fn(&Run) -> f64,
+            ),
             ("lost in dampers", |run| run.audit.exchanged.dampers),
             ("put in", |run| run.audit.exchanged.drives),
         ] {
             let (sum, scale) = (of(&alone[0]) + of(&alone[1]), together.audit.peak_stored);
-            assert!((of(&together) - sum).abs() <= 1e-6 * scale, "{what}: {} for {sum}", of(&together));
+            assert!(
+                (of(&together) - sum).abs() <= 1e-6 * scale,
+                "{what}: {} for {sum}",
+                of(&together)
+            );
         }
     }
 }
@@ -102,7 +124,11 @@ fn sliding(accuracy: f64) -> Scene {
     let inertia = 0.5 * body.mass * 1.25 * 1.25;
     let wheel = &mut scene.wheels[0];
     wheel.normal.damping = 0.0;
-    wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
+    wheel.friction = Some(Friction {
+        law: FrictionLaw::Step,
+        coefficient: 0.2,
+        slip: 0.1,
+    });
     wheel.spin_inertia = Some(inertia);
     scene
 }
@@ -114,14 +140,23 @@ fn energy_of_a_sliding_wheel_on_a_rail_that_gives_closes_with_the_accuracy() {
         let run = run(&sliding(accuracy), &[girder()]);
         let residual = run.audit.residual();
         let friction = run.audit.exchanged.friction;
-        println!("asked {accuracy:.0e}: residual {residual:.1e}, friction {friction:.6e}, {:?}", run.counts);
+        println!(
+            "asked {accuracy:.0e}: residual {residual:.1e}, friction {friction:.6e}, {:?}",
+            run.counts
+        );
         let spin = run.history.column(Channel::SpinSpeed(0));
         let speed = run.history.column(Channel::Speed(0, BodyDof::X));
         let end = spin.len() - 1;
-        assert!((speed[end] + 1.25 * spin[end]).abs() < 0.1 * speed[end], "the wheel rolls at the end");
+        assert!(
+            (speed[end] + 1.25 * spin[end]).abs() < 0.1 * speed[end],
+            "the wheel rolls at the end"
+        );
         // A disc that begins to roll loses a third of its energy, here more or less by what the sag does to it.
         let started = 0.5 * WEIGHT / GRAVITY * 100.0;
-        assert!((friction / started - 1.0 / 3.0).abs() < 0.1, "{friction} of {started}");
+        assert!(
+            (friction / started - 1.0 / 3.0).abs() < 0.1,
+            "{friction} of {started}"
+        );
         assert!(residual < last, "asked {accuracy}: {residual} after {last}");
         last = residual;
     }
@@ -141,7 +176,10 @@ fn frequencies(y: &[f64], h: f64) -> [f64; 2] {
         (ur, vr) = (ur + u * r, vr + v * r);
     }
     let determinant = uu * vv - uv * uv;
-    let (alpha, beta) = ((ur * vv - vr * uv) / determinant, (vr * uu - ur * uv) / determinant);
+    let (alpha, beta) = (
+        (ur * vv - vr * uv) / determinant,
+        (vr * uu - ur * uv) / determinant,
+    );
     let (half, product) = (0.25 * alpha, -0.25 * (beta + 2.0));
     let root = (half * half - product).sqrt();
     [half + root, half - root].map(|cosine| cosine.acos() / h)
@@ -174,10 +212,17 @@ fn body_on_a_girder_with_mass_swings_at_the_natural_frequencies_of_the_pair() {
         let run = run(&scene, &[massive(factor)]);
         let rest = -WEIGHT * (1.0 / stiffness + 900.0 / held);
         let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
-        assert!((y[0] / rest - 1.0).abs() < 1e-12, "it starts at rest: {} for {rest}", y[0]);
+        assert!(
+            (y[0] / rest - 1.0).abs() < 1e-12,
+            "it starts at rest: {} for {rest}",
+            y[0]
+        );
         let swing: Vec<f64> = y.iter().map(|y| y - rest).collect();
         let found = frequencies(&swing, scene.output_dt);
-        println!("inertia {factor}, k {stiffness:.0e}: {found:?} for {wanted:?}, {:?}", run.counts);
+        println!(
+            "inertia {factor}, k {stiffness:.0e}: {found:?} for {wanted:?}, {:?}",
+            run.counts
+        );
         for (found, wanted) in found.into_iter().zip(wanted) {
             assert!((found / wanted - 1.0).abs() < 1e-6, "{found} for {wanted}");
         }

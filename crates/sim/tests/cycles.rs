@@ -1,6 +1,9 @@
 //! Energy of an undamped bounce over ten thousand cycles, by method.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -23,23 +26,40 @@ fn drift(method: Method) -> [f64; 2] {
     scene.bodies[0].start_speed[1] = 0.5 * depth * omega;
     scene.end = CYCLES * cycle;
     scene.output_dt = scene.end / 2000.0;
-    let stepping = Stepping { method, step: Some(cycle / STEPS) };
-    let run = run_by(stepping, &scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()));
+    let stepping = Stepping {
+        method,
+        step: Some(cycle / STEPS),
+    };
+    let run = run_by(stepping, &scene, &[Foundation::rigid()], &mut |_| {
+        ControlFlow::Continue(())
+    });
     let run = run.expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     // Energy about the place at rest, by that at the start.
     let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     let v = run.history.column(Channel::Speed(0, BodyDof::Y));
     let size = (0.5 * depth * omega).powi(2);
-    let energy: Vec<f64> =
-        y.iter().zip(&v).map(|(y, v)| (v * v + (omega * (y + depth)).powi(2)) / size).collect();
+    let energy: Vec<f64> = y
+        .iter()
+        .zip(&v)
+        .map(|(y, v)| (v * v + (omega * (y + depth)).powi(2)) / size)
+        .collect();
     let count = energy.len() as f64;
     let cycles = |i: usize| CYCLES * i as f64 / (count - 1.0);
     let mean = energy.iter().sum::<f64>() / count;
-    let moment: f64 = energy.iter().enumerate().map(|(i, e)| (cycles(i) - 0.5 * CYCLES) * (e - mean)).sum();
-    let spread: f64 = (0..energy.len()).map(|i| (cycles(i) - 0.5 * CYCLES).powi(2)).sum();
+    let moment: f64 = energy
+        .iter()
+        .enumerate()
+        .map(|(i, e)| (cycles(i) - 0.5 * CYCLES) * (e - mean))
+        .sum();
+    let spread: f64 = (0..energy.len())
+        .map(|i| (cycles(i) - 0.5 * CYCLES).powi(2))
+        .sum();
     let last = energy[energy.len() - 1] - 1.0;
-    println!("{method:?}: {:.1e} a cycle, {last:.1e} in all", moment / spread);
+    println!(
+        "{method:?}: {:.1e} a cycle, {last:.1e} in all",
+        moment / spread
+    );
     [moment / spread, last]
 }
 

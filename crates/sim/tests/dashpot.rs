@@ -1,6 +1,9 @@
 //! A damper between wheel and rail that others eliminate within the step: G (k p + c p') = d - p along a wheel's known path.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -60,7 +63,9 @@ fn path(count: u32) -> Vec<[f64; 2]> {
 fn eliminated(theta: f64, count: u32) -> f64 {
     let h = END / f64::from(count);
     let along = path(count);
-    let most = along.iter().fold(0.0, |most, [_, force]| f64::max(most, *force));
+    let most = along
+        .iter()
+        .fold(0.0, |most, [_, force]| f64::max(most, *force));
     let [mut p, mut speed] = [rest()[2], 0.0];
     let mut worst = 0.0_f64;
     for (i, [d, wanted]) in along.iter().enumerate().skip(1) {
@@ -90,8 +95,9 @@ fn scene() -> Scene {
     let body = &mut scene.bodies[0];
     body.mass = LOAD / GRAVITY;
     body.free = [false, true, false, false, false, false];
-    body.motion =
-        Some(Profile::new(MotionKind::Speed, &[[0.0, SPEED]], place(0.0), SPEED).expect("a valid table"));
+    body.motion = Some(
+        Profile::new(MotionKind::Speed, &[[0.0, SPEED]], place(0.0), SPEED).expect("a valid table"),
+    );
     scene.contacts = vec![single()];
     scene.output_dt = 1e-3;
     scene
@@ -130,13 +136,23 @@ fn a_damper_on_the_rail_eliminated_from_steps_errs_by_their_order() {
     for accuracy in [1e-4, 1e-5, 1e-6] {
         let mut scene = scene();
         scene.accuracy = accuracy;
-        let run = sim::run(&scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+        let run = sim::run(&scene, &[girder()], &mut |_| ControlFlow::Continue(()))
+            .expect("a valid scene");
         assert_eq!(run.status, Status::Done);
         let wanted = path(steps(1.0));
-        let most = wanted.iter().fold(0.0, |most, [_, force]| f64::max(most, *force));
+        let most = wanted
+            .iter()
+            .fold(0.0, |most, [_, force]| f64::max(most, *force));
         let found = run.history.column(Channel::Vertical(0));
-        let apart = found.iter().zip(&wanted).map(|(a, b)| (a - b[1]).abs() / most).fold(0.0, f64::max);
-        println!("ours, accuracy {accuracy:e}: {apart:.1e} in {} steps, {:?}", run.counts.steps, run.method);
+        let apart = found
+            .iter()
+            .zip(&wanted)
+            .map(|(a, b)| (a - b[1]).abs() / most)
+            .fold(0.0, f64::max);
+        println!(
+            "ours, accuracy {accuracy:e}: {apart:.1e} in {} steps, {:?}",
+            run.counts.steps, run.method
+        );
         assert!(apart < 5.0 * accuracy, "{accuracy:e}: {apart:e}");
     }
 }

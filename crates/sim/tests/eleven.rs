@@ -1,6 +1,9 @@
 //! A bridge crane of 11 freedoms beside the same one written out by hand in another language, and beside other steppers.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -12,8 +15,9 @@ use common::near::{assert_at_most, assert_near};
 use nalgebra::DMatrix;
 use serde_json::Value;
 use sim::{
-    Actuators, Analysis, BodyDof, Brake, Channel, Contact, Damper, Drive, Extent, Flange, Foundation,
-    Friction, FrictionLaw, NormalLaw, Rope, RopeEnd, Run, Scene, Schedule, Status, Wheel,
+    Actuators, Analysis, BodyDof, Brake, Channel, Contact, Damper, Drive, Extent, Flange,
+    Foundation, Friction, FrictionLaw, NormalLaw, Rope, RopeEnd, Run, Scene, Schedule, Status,
+    Wheel,
 };
 use splines::{Axis, Probe};
 
@@ -40,7 +44,12 @@ impl Runway {
         for (e, ends) in COLUMNS.windows(2).enumerate() {
             let l = ends[1] - ends[0];
             let (a, b, c) = (6.0 * l, 4.0 * l * l, 2.0 * l * l);
-            let cell = [[12.0, a, -12.0, a], [a, b, -a, c], [-12.0, -a, 12.0, -a], [a, c, -a, b]];
+            let cell = [
+                [12.0, a, -12.0, a],
+                [a, b, -a, c],
+                [-12.0, -a, 12.0, -a],
+                [a, c, -a, b],
+            ];
             for (i, row) in cell.iter().enumerate() {
                 for (j, entry) in row.iter().enumerate() {
                     stiffness[(2 * e + i, 2 * e + j)] += bending / l.powi(3) * entry;
@@ -51,7 +60,10 @@ impl Runway {
             stiffness[(2 * i, 2 * i)] += column;
         }
         let compliance = stiffness.try_inverse().expect("columns hold it");
-        Runway { bending, compliance }
+        Runway {
+            bending,
+            compliance,
+        }
     }
 
     /// The cell of x, its cubic shapes and their slopes.
@@ -62,8 +74,18 @@ impl Runway {
         let (s2, s3) = (s * s, s * s * s);
         (
             e,
-            [1.0 - 3.0 * s2 + 2.0 * s3, h * (s - 2.0 * s2 + s3), 3.0 * s2 - 2.0 * s3, h * (s3 - s2)],
-            [6.0 * (s2 - s) / h, 1.0 - 4.0 * s + 3.0 * s2, 6.0 * (s - s2) / h, 3.0 * s2 - 2.0 * s],
+            [
+                1.0 - 3.0 * s2 + 2.0 * s3,
+                h * (s - 2.0 * s2 + s3),
+                3.0 * s2 - 2.0 * s3,
+                h * (s3 - s2),
+            ],
+            [
+                6.0 * (s2 - s) / h,
+                1.0 - 4.0 * s + 3.0 * s2,
+                6.0 * (s - s2) / h,
+                3.0 * s2 - 2.0 * s,
+            ],
         )
     }
 
@@ -96,7 +118,10 @@ fn clamped(x: f64, z: f64, l: f64) -> [f64; 2] {
         let b = l - z;
         let reaction = b * b * (3.0 * z + b) / l.powi(3);
         let moment = z * b * b / (l * l);
-        [0.5 * moment * x * x - reaction * x.powi(3) / 6.0, moment * x - 0.5 * reaction * x * x]
+        [
+            0.5 * moment * x * x - reaction * x.powi(3) / 6.0,
+            moment * x - 0.5 * reaction * x * x,
+        ]
     };
     if x <= z {
         left(x, z)
@@ -111,7 +136,10 @@ fn simple(x: f64, z: f64) -> [f64; 2] {
     let left = |x: f64, z: f64| {
         let b = SPAN - z;
         let core = SPAN * SPAN - b * b;
-        [b * x * (core - x * x) / (6.0 * SPAN), b * (core - 3.0 * x * x) / (6.0 * SPAN)]
+        [
+            b * x * (core - x * x) / (6.0 * SPAN),
+            b * (core - 3.0 * x * x) / (6.0 * SPAN),
+        ]
     };
     if x <= z {
         left(x, z)
@@ -123,14 +151,23 @@ fn simple(x: f64, z: f64) -> [f64; 2] {
 
 /// Both rails of the runway, which give upwards and sideways, each on its own.
 fn aisle() -> Foundation {
-    let (vertical, lateral) = (Runway::new(14.0 * E, 4e7), Runway::new(14.0 * E / 12.0, 5e6));
+    let (vertical, lateral) = (
+        Runway::new(14.0 * E, 4e7),
+        Runway::new(14.0 * E / 12.0, 5e6),
+    );
     let give = move |p: Probe, q: Probe| match (p.rail == q.rail, p.axis, q.axis) {
         (true, Axis::Vertical, Axis::Vertical) => vertical.give(p.x, q.x),
         (true, Axis::Lateral, Axis::Lateral) => lateral.give(p.x, q.x),
         _ => [0.0; 2],
     };
-    let rail = || Extent { range: Some([0.0, 240.0]), breaks: COLUMNS.to_vec() };
-    Foundation { rails: vec![rail(), rail()], ..Foundation::massless(Box::new(Kernel(give)), 2) }
+    let rail = || Extent {
+        range: Some([0.0, 240.0]),
+        breaks: COLUMNS.to_vec(),
+    };
+    Foundation {
+        rails: vec![rail(), rail()],
+        ..Foundation::massless(Box::new(Kernel(give)), 2)
+    }
 }
 
 /// Both girders of the bridge, on body 0: simply supported, x from midspan.
@@ -142,19 +179,34 @@ fn girders() -> Foundation {
             [0.0; 2]
         }
     };
-    let rail = || Extent { range: Some([-0.5 * SPAN, 0.5 * SPAN]), breaks: Vec::new() };
+    let rail = || Extent {
+        range: Some([-0.5 * SPAN, 0.5 * SPAN]),
+        breaks: Vec::new(),
+    };
     let foundation = Foundation::massless(Box::new(Kernel(give)), 2);
     let on = mount([0.0, 0.0, 1.0], [0.0, 5.0, 0.0]);
-    Foundation { rails: vec![rail(), rail()], carrier: Some(on), ..foundation }
+    Foundation {
+        rails: vec![rail(), rail()],
+        carrier: Some(on),
+        ..foundation
+    }
 }
 
 fn wheel(damping: f64, is_guided: bool) -> Wheel {
-    let flange = Flange { stiffness: 1e8, clearance: 0.0, release: None };
+    let flange = Flange {
+        stiffness: 1e8,
+        clearance: 0.0,
+        release: None,
+    };
     Wheel {
         radius: RADIUS,
         normal: NormalLaw::linear(1e8, damping, Damper::Ground),
         flange: is_guided.then_some(flange),
-        friction: Some(Friction { law: FrictionLaw::Coulomb, coefficient: 0.2, slip: 0.02 }),
+        friction: Some(Friction {
+            law: FrictionLaw::Coulomb,
+            coefficient: 0.2,
+            slip: 0.02,
+        }),
         spin_inertia: None,
     }
 }
@@ -206,7 +258,10 @@ fn scene(accuracy: f64) -> Scene {
         speed: 0.02,
         contacts: (4 * body..4 * body + 4).collect(),
     };
-    let end = |body: usize| RopeEnd { body: Some(body), at: [0.0; 3] };
+    let end = |body: usize| RopeEnd {
+        body: Some(body),
+        at: [0.0; 3],
+    };
     let (bridge_brake, trolley_brake) = (12.3457, 6.0137);
     Scene {
         gravity: G,
@@ -217,7 +272,12 @@ fn scene(accuracy: f64) -> Scene {
         actuators: Actuators {
             drives: vec![
                 drive(0, schedule(&[[0.0, 5.0]]), 2e5, bridge_brake),
-                drive(1, schedule(&[[0.0, 0.0], [2.0, 10.0 / 3.0]]), 1e5, trolley_brake),
+                drive(
+                    1,
+                    schedule(&[[0.0, 0.0], [2.0, 10.0 / 3.0]]),
+                    1e5,
+                    trolley_brake,
+                ),
             ],
             brakes: vec![brake(0, bridge_brake), brake(1, trolley_brake)],
             ropes: vec![Rope {
@@ -241,8 +301,10 @@ fn scene(accuracy: f64) -> Scene {
 }
 
 fn run(accuracy: f64) -> Run {
-    let run = sim::run(&scene(accuracy), &[aisle(), girders()], &mut |_| ControlFlow::Continue(()))
-        .expect("a valid scene");
+    let run = sim::run(&scene(accuracy), &[aisle(), girders()], &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -255,14 +317,24 @@ fn column(json: &Value, name: &str) -> Vec<f64> {
 /// Largest difference by the largest value.
 fn apart(found: &[f64], wanted: &[f64]) -> f64 {
     assert_eq!(found.len(), wanted.len());
-    let size = wanted.iter().fold(0.0, |most, own| f64::max(most, own.abs()));
-    found.iter().zip(wanted).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) / size
+    let size = wanted
+        .iter()
+        .fold(0.0, |most, own| f64::max(most, own.abs()));
+    found
+        .iter()
+        .zip(wanted)
+        .fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+        / size
 }
 
 /// Force of the northern wheels.
 fn north(run: &Run) -> Vec<f64> {
-    let wheels: Vec<Vec<f64>> = (0..8).map(|w| run.history.column(Channel::Vertical(w))).collect();
-    (0..run.history.len()).map(|k| wheels.iter().map(|wheel| wheel[k]).sum()).collect()
+    let wheels: Vec<Vec<f64>> = (0..8)
+        .map(|w| run.history.column(Channel::Vertical(w)))
+        .collect();
+    (0..run.history.len())
+        .map(|k| wheels.iter().map(|wheel| wheel[k]).sum())
+        .collect()
 }
 
 /// External: all freedoms and the wheels' forces, DOP853 at 1e-12 on equations of another make.
@@ -275,7 +347,11 @@ fn the_crane_moves_as_one_written_out_by_hand() {
         let run = run(accuracy);
         let found = north(&run);
         let error = apart(&found, &wanted);
-        println!("accuracy {accuracy:e}: {error:.1e}, {:?}, {:?}", run.counts, run.audit.residual());
+        println!(
+            "accuracy {accuracy:e}: {error:.1e}, {:?}, {:?}",
+            run.counts,
+            run.audit.residual()
+        );
         assert!(error < 0.5 * accuracy, "{accuracy:e}: {error:e}");
         let columns = [
             ("X", 0, BodyDof::X),
@@ -291,7 +367,10 @@ fn the_crane_moves_as_one_written_out_by_hand() {
             ("z_ladle", 2, BodyDof::Z),
         ];
         for (name, body, freedom) in columns {
-            let own = apart(&run.history.column(Channel::Displacement(body, freedom)), &column(&json, name));
+            let own = apart(
+                &run.history.column(Channel::Displacement(body, freedom)),
+                &column(&json, name),
+            );
             // Z swings undamped at 2 Hz: its phase errs most.
             assert!(own < 20.0 * accuracy, "{accuracy:e}, {name}: {own:e}");
         }
@@ -302,14 +381,26 @@ fn the_crane_moves_as_one_written_out_by_hand() {
             };
             of("at the start", |force| force[0]);
             of("largest", |force| force.iter().copied().fold(0.0, f64::max));
-            of("least", |force| force.iter().copied().fold(f64::INFINITY, f64::min));
+            of("least", |force| {
+                force.iter().copied().fold(f64::INFINITY, f64::min)
+            });
             of("at the end", |force| force[force.len() - 1]);
         }
         if accuracy == 1e-5 {
             let what = |of: &str| format!("simulator, accuracy 1e-5: {of}");
-            assert_at_most(what("error of the northern wheels (Radau 5, 1e-4)"), "prototype", 5.6e-6, error);
+            assert_at_most(
+                what("error of the northern wheels (Radau 5, 1e-4)"),
+                "prototype",
+                5.6e-6,
+                error,
+            );
             let stages = run.counts.stages as f64;
-            assert_at_most(what("stages (rates of LSODA, 1e-6)"), "prototype", 28_426.0, stages);
+            assert_at_most(
+                what("stages (rates of LSODA, 1e-6)"),
+                "prototype",
+                28_426.0,
+                stages,
+            );
         }
     }
 }
@@ -318,21 +409,65 @@ fn the_crane_moves_as_one_written_out_by_hand() {
 #[test]
 fn other_steppers_ask_for_more() {
     let json: Value = serde_json::from_str(REFERENCE).expect("the file is JSON");
-    assert!(json["radau_apart"].as_f64().is_some_and(|apart| apart < 1e-9), "the reference has converged");
+    assert!(
+        json["radau_apart"]
+            .as_f64()
+            .is_some_and(|apart| apart < 1e-9),
+        "the reference has converged"
+    );
     // First the prototype's error and rates, then ours. The masses, spans and laws of the prototype's scene are published;
     // its inertias, gains, brake times and the trolley's motion are not. They are those of fea/crane_reference.py, which ran
     // the steppers.
     for (index, name, known, own) in [
-        (0, "Radau 5 of scipy, rtol 1e-4", [5.6e-6, 3959.0], [1.68e-5, 9344.0]),
-        (1, "Radau 5 of scipy, rtol 1e-6", [3.8e-8, 13_002.0], [6.91e-8, 26_454.0]),
-        (2, "BDF of scipy, rtol 1e-4", [1.8e-4, 11_582.0], [3.49e-4, 11_806.0]),
-        (3, "LSODA of scipy, rtol 1e-6", [4.9e-7, 28_426.0], [2.78e-6, 27_118.0]),
-        (4, "RK45 of scipy, rtol 1e-5", [4.2e-6, 23_854.0], [1.65e-4, 50_834.0]),
-        (5, "DOP853 of scipy, rtol 1e-6", [8.7e-7, 33_751.0], [2.43e-6, 72_290.0]),
-        (6, "generalised-alpha 0.8, 10 ms", [1.5e-2, 7293.0], [6.08e-3, 14_891.0]),
+        (
+            0,
+            "Radau 5 of scipy, rtol 1e-4",
+            [5.6e-6, 3959.0],
+            [1.68e-5, 9344.0],
+        ),
+        (
+            1,
+            "Radau 5 of scipy, rtol 1e-6",
+            [3.8e-8, 13_002.0],
+            [6.91e-8, 26_454.0],
+        ),
+        (
+            2,
+            "BDF of scipy, rtol 1e-4",
+            [1.8e-4, 11_582.0],
+            [3.49e-4, 11_806.0],
+        ),
+        (
+            3,
+            "LSODA of scipy, rtol 1e-6",
+            [4.9e-7, 28_426.0],
+            [2.78e-6, 27_118.0],
+        ),
+        (
+            4,
+            "RK45 of scipy, rtol 1e-5",
+            [4.2e-6, 23_854.0],
+            [1.65e-4, 50_834.0],
+        ),
+        (
+            5,
+            "DOP853 of scipy, rtol 1e-6",
+            [8.7e-7, 33_751.0],
+            [2.43e-6, 72_290.0],
+        ),
+        (
+            6,
+            "generalised-alpha 0.8, 10 ms",
+            [1.5e-2, 7293.0],
+            [6.08e-3, 14_891.0],
+        ),
     ] {
-        let found = ["error", "rates"].map(|key| json["steppers"][index][key].as_f64().unwrap_or(f64::NAN));
-        for (k, what) in ["error of the northern wheels", "rates asked for"].iter().enumerate() {
+        let found =
+            ["error", "rates"].map(|key| json["steppers"][index][key].as_f64().unwrap_or(f64::NAN));
+        for (k, what) in ["error of the northern wheels", "rates asked for"]
+            .iter()
+            .enumerate()
+        {
             let what = format!("{name}: {what}");
             if (found[k] / known[k] - 1.0).abs() < 0.06 {
                 assert_near(what, "prototype", known[k], found[k], 0.06);

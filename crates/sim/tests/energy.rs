@@ -1,7 +1,10 @@
 //! The energy audit: its terms against closed forms, and balances that close only with the terms of hand-over, of climbing
 //! flanges and of damped contacts.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -11,11 +14,14 @@ use common::kutta::Kernel;
 use common::parts::{CENTRES, STATES, arms, basis, chain, stiffness};
 use common::{GRAVITY, WEIGHT, bogie};
 use nalgebra::DMatrix;
-use sim::{Audit, BodyDof, Channel, Damper, Extent, Flange, Foundation, Load, Run, Scene, Schedule, Status};
+use sim::{
+    Audit, BodyDof, Channel, Damper, Extent, Flange, Foundation, Load, Run, Scene, Schedule, Status,
+};
 use splines::{Axis, ExactSurface, Probe};
 
 fn run(scene: &Scene, foundation: Foundation) -> Run {
-    let run = sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -27,7 +33,11 @@ fn gap(audit: &Audit) -> f64 {
 
 #[test]
 fn the_residual_is_the_imbalance_by_the_peak_of_elastic_energy() {
-    let audit = |imbalance, peak_stored| Audit { imbalance, peak_stored, ..Audit::default() };
+    let audit = |imbalance, peak_stored| Audit {
+        imbalance,
+        peak_stored,
+        ..Audit::default()
+    };
     assert_eq!(audit(3.0, 12.0).residual(), 0.25);
     // Where nothing is elastic there is no scale, and the imbalance itself is given.
     assert_eq!(audit(3.0, 0.0).residual(), 3.0);
@@ -45,9 +55,14 @@ fn separate() -> Foundation {
         }
     }
     let chain = chain(Some(60.0));
-    let extent = Extent { range: Some(chain.range()), breaks: chain.breaks() };
+    let extent = Extent {
+        range: Some(chain.range()),
+        breaks: chain.breaks(),
+    };
     Foundation {
-        compliance: Some(Box::new(ExactSurface::new(arms(&CENTRES), nodal).expect("two states"))),
+        compliance: Some(Box::new(
+            ExactSurface::new(arms(&CENTRES), nodal).expect("two states"),
+        )),
         parts: Some(vec![chain]),
         rails: vec![extent],
         ..Foundation::default()
@@ -70,9 +85,17 @@ fn handing_a_wheel_over_from_part_to_part_closes_the_balance() {
         scene.accuracy = 1e-7;
         let audit = run(&scene, separate()).audit;
         let handed = audit.exchanged.handover;
-        println!("{damper:?} {exponent}: {handed:.4e} of {:.4e}, gap {:.1e}", audit.peak_stored, gap(&audit));
+        println!(
+            "{damper:?} {exponent}: {handed:.4e} of {:.4e}, gap {:.1e}",
+            audit.peak_stored,
+            gap(&audit)
+        );
         assert!(handed.abs() > 1e-4 * audit.peak_stored, "{handed:e}");
-        assert!(audit.residual() < 1e-6 && gap(&audit) < 1e-6 * audit.peak_stored, "{:e}", audit.residual());
+        assert!(
+            audit.residual() < 1e-6 && gap(&audit) < 1e-6 * audit.peak_stored,
+            "{:e}",
+            audit.residual()
+        );
     }
 }
 
@@ -91,23 +114,42 @@ fn a_flange_that_climbs_loses_the_energy_of_its_release() {
     scene.contacts[0].offsets = vec![0.0];
     let wheel = &mut scene.wheels[0];
     (wheel.normal.stiffness, wheel.normal.damping) = (2e5, 0.0);
-    wheel.flange = Some(Flange { stiffness, clearance, release: Some([1.26, 1.32]) });
+    wheel.flange = Some(Flange {
+        stiffness,
+        clearance,
+        release: Some([1.26, 1.32]),
+    });
     let value = Schedule::new(&[[0.0, push]]).expect("a row");
-    scene.actuators.loads.push(Load { body: 0, dof: BodyDof::Z, value });
+    scene.actuators.loads.push(Load {
+        body: 0,
+        dof: BodyDof::Z,
+        value,
+    });
     scene.accuracy = 1e-9;
     let found = run(&scene, Foundation::rigid());
     let audit = &found.audit;
     let lost = audit.exchanged.flanges;
     let side = found.history.column(Channel::Lateral(0));
-    println!("lost {lost:.4e} of {:.4e}, residual {:.1e}", audit.peak_stored, audit.residual());
+    println!(
+        "lost {lost:.4e} of {:.4e}, residual {:.1e}",
+        audit.peak_stored,
+        audit.residual()
+    );
     let holds = side.iter().filter(|force| **force != 0.0).count();
-    assert!(holds > 10 && holds + 10 < side.len(), "the flange holds, and lets go while the wheel is high");
+    assert!(
+        holds > 10 && holds + 10 < side.len(),
+        "the flange holds, and lets go while the wheel is high"
+    );
     assert!(lost.abs() > 1e-3 * audit.peak_stored, "{lost:e}");
     assert!(audit.residual() < 1e-6, "{:e}", audit.residual());
     // Analytic: what the load supplies is the push times the way to the side.
     let z = found.history.column(Channel::Displacement(0, BodyDof::Z));
     let work = push * (z[z.len() - 1] - z[0]);
-    assert!((audit.exchanged.loads - work).abs() < 1e-7 * work.abs(), "{} of {work}", audit.exchanged.loads);
+    assert!(
+        (audit.exchanged.loads - work).abs() < 1e-7 * work.abs(),
+        "{} of {work}",
+        audit.exchanged.loads
+    );
 }
 
 /// Analytic: m g y of a body at y from the place where it touches the unloaded rail, and m v^2/2.
@@ -121,13 +163,26 @@ fn gravity_is_measured_from_the_unloaded_rail() {
     let found = run(&scene, Foundation::rigid());
     let (start, end) = (found.audit.start, found.audit.end);
     let y = found.history.column(Channel::Displacement(0, BodyDof::Y));
-    assert!((y[0] + WEIGHT / 1e8).abs() < 1e-12, "it begins at rest on its wheel");
+    assert!(
+        (y[0] + WEIGHT / 1e8).abs() < 1e-12,
+        "it begins at rest on its wheel"
+    );
     let last = y[y.len() - 1];
-    assert!((start.gravity - WEIGHT * y[0]).abs() < 1e-9 * WEIGHT, "{start:?} at {}", y[0]);
-    assert!((end.gravity - WEIGHT * last).abs() < 1e-9 * WEIGHT, "{end:?} at {last}");
+    assert!(
+        (start.gravity - WEIGHT * y[0]).abs() < 1e-9 * WEIGHT,
+        "{start:?} at {}",
+        y[0]
+    );
+    assert!(
+        (end.gravity - WEIGHT * last).abs() < 1e-9 * WEIGHT,
+        "{end:?} at {last}"
+    );
     let speed = found.history.column(Channel::Speed(0, BodyDof::Y));
     let v = speed[speed.len() - 1];
-    assert!((end.kinetic - 0.5 * WEIGHT / GRAVITY * v * v).abs() < 1e-9 * WEIGHT, "{end:?} at {v}");
+    assert!(
+        (end.kinetic - 0.5 * WEIGHT / GRAVITY * v * v).abs() < 1e-9 * WEIGHT,
+        "{end:?} at {v}"
+    );
 }
 
 /// Identity: on a rail that gives to the side, the force of a flange acts on the slope of the deflected rail, and slows or
@@ -146,7 +201,11 @@ fn flanges_on_a_rail_that_gives_to_the_side_push_their_own_bodies_along() {
     let mut scene = bogie(0.0, 1.0, Damper::Rail);
     let wheel = &mut scene.wheels[0];
     (wheel.normal.stiffness, wheel.normal.damping) = (2e5, 0.0);
-    wheel.flange = Some(Flange { stiffness: 4e4, clearance: 0.002, release: None });
+    wheel.flange = Some(Flange {
+        stiffness: 4e4,
+        clearance: 0.002,
+        release: None,
+    });
     let first = scene.bodies[0].clone();
     let bodies = [(40.0, 1.0, 2.0, 150.0), (90.0, 3.0, -0.5, -80.0)];
     scene.bodies = bodies
@@ -161,12 +220,20 @@ fn flanges_on_a_rail_that_gives_to_the_side_push_their_own_bodies_along() {
             ..first.clone()
         })
         .collect();
-    scene.contacts.iter_mut().enumerate().for_each(|(body, contact)| {
-        (contact.body, contact.offsets) = (body, vec![0.0]);
-    });
+    scene
+        .contacts
+        .iter_mut()
+        .enumerate()
+        .for_each(|(body, contact)| {
+            (contact.body, contact.offsets) = (body, vec![0.0]);
+        });
     for (body, &(.., push)) in bodies.iter().enumerate() {
         let value = Schedule::new(&[[0.0, push]]).expect("a row");
-        scene.actuators.loads.push(Load { body, dof: BodyDof::Z, value });
+        scene.actuators.loads.push(Load {
+            body,
+            dof: BodyDof::Z,
+            value,
+        });
     }
     scene.accuracy = 1e-9;
     let found = run(&scene, Foundation::massless(Box::new(kernel), 1));

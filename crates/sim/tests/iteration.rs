@@ -43,7 +43,10 @@ fn passes(at: &[f64], theta: f64, count: usize) -> Vec<f64> {
 fn substitution_diverges_by_k_times_g_and_relaxation_takes_hundreds_of_passes() {
     let one: &[f64] = &[30.0];
     let two: &[f64] = &[30.0 - ARM, 30.0 + ARM];
-    for (what, at, known, its) in [("one wheel", one, 10.93, 138.0), ("two wheels", two, 21.74, 262.0)] {
+    for (what, at, known, its) in [
+        ("one wheel", one, 10.93, 138.0),
+        ("two wheels", two, 21.74, 262.0),
+    ] {
         let rho = largest(at);
         assert_near(
             format!("{what} at midspan: k times the largest eigenvalue of G"),
@@ -61,7 +64,11 @@ fn substitution_diverges_by_k_times_g_and_relaxation_takes_hundreds_of_passes() 
             1e-3,
         );
         let errors = passes(at, 2.0 / (2.0 + rho), 1000);
-        let count = errors.iter().position(|own| *own < 1e-10).expect("it converges") + 1;
+        let count = errors
+            .iter()
+            .position(|own| *own < 1e-10)
+            .expect("it converges")
+            + 1;
         assert_near(
             format!("{what}: passes to 1e-10 with the best relaxation, 2 / (2 + rho)"),
             "prototype",
@@ -74,11 +81,21 @@ fn substitution_diverges_by_k_times_g_and_relaxation_takes_hundreds_of_passes() 
         let (mut low, mut high) = (0.0, 30.0);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if of(middle) < 1.0 { low = middle } else { high = middle }
+            if of(middle) < 1.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         low
     };
-    assert_near("place where k G of one wheel is 1, ft", "prototype", 4.94, reach(&|x| largest(&[x])), 2e-3);
+    assert_near(
+        "place where k G of one wheel is 1, ft",
+        "prototype",
+        4.94,
+        reach(&|x| largest(&[x])),
+        2e-3,
+    );
     assert_near(
         "place of the first of two wheels where it is 1, ft",
         "prototype",
@@ -94,7 +111,8 @@ fn substitution_diverges_by_k_times_g_and_relaxation_takes_hundreds_of_passes() 
 fn forces_that_lag_a_step_blow_up_at_any_step() {
     let (give, mass) = (give(30.0, 30.0).0, 2.4e6 / GRAVITY);
     for h in [1e-2, 1e-3, 1e-4, 1e-5] {
-        let (mut z, mut v, mut force, mut count) = (2.4e6 * (give + 1.0 / K), 0.0, 1.001 * 2.4e6, 0);
+        let (mut z, mut v, mut force, mut count) =
+            (2.4e6 * (give + 1.0 / K), 0.0, 1.001 * 2.4e6, 0);
         while (force - 2.4e6_f64).abs() < 1e12 * 2.4e6 && count < 1000 {
             force = K * (z - give * force);
             v += h * (2.4e6 - force) / mass;
@@ -118,7 +136,10 @@ fn sweeps(a: &DMatrix<f64>, d: &DVector<f64>) -> usize {
     for sweep in 1..=5000 {
         let mut change = 0.0_f64;
         for i in 0..n {
-            let sum: f64 = (0..n).filter(|j| *j != i).map(|j| a[(i, j)] * forces[j]).sum();
+            let sum: f64 = (0..n)
+                .filter(|j| *j != i)
+                .map(|j| a[(i, j)] * forces[j])
+                .sum();
             let new = ((d[i] - sum) / a[(i, i)]).max(0.0);
             change = change.max((new - forces[i]).abs());
             forces[i] = new;

@@ -18,7 +18,11 @@ const WAY: [f64; 2] = [2.0, 56.0];
 
 fn akispl() -> TableReading {
     let way = (0, Axis::Vertical);
-    let sheet = InfluenceBlock { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
+    let sheet = InfluenceBlock {
+        deflection: way,
+        load: way,
+        table: printed::table(&printed::VERTICAL),
+    };
     TableReading::new(ReadingMethod::Akispl, &[sheet]).expect("a table")
 }
 
@@ -35,13 +39,17 @@ fn swing(foundation: Foundation, speed: f64, damping: f64) -> f64 {
     let mut scene = bogie(speed, end, Damper::Ground);
     scene.contacts.truncate(1);
     scene.contacts[0].offsets = vec![0.0];
-    (scene.wheels[0].normal.stiffness, scene.wheels[0].normal.damping) = (STIFFNESS, damping);
+    (
+        scene.wheels[0].normal.stiffness,
+        scene.wheels[0].normal.damping,
+    ) = (STIFFNESS, damping);
     let body = &mut scene.bodies[0];
     body.free[5] = false;
     body.start[0] = WAY[0];
     body.start_speed[1] = -rate(speed);
-    body.motion =
-        Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], WAY[0], speed).expect("a valid table"));
+    body.motion = Some(
+        Profile::new(MotionKind::Speed, &[[0.0, speed]], WAY[0], speed).expect("a valid table"),
+    );
     (scene.accuracy, scene.output_dt) = (1e-6, end / 8000.0);
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("valid");
     assert_eq!(run.status, Status::Done);
@@ -55,10 +63,20 @@ fn swing(foundation: Foundation, speed: f64, damping: f64) -> f64 {
 fn by_hand(of: &dyn Compliance, speed: f64, damping: f64) -> f64 {
     let own = |x: f64| {
         let mut out = Influence::zeros(1);
-        of.fill(&[Probe { rail: 0, x, axis: Axis::Vertical }], &mut out).expect("on the table");
+        of.fill(
+            &[Probe {
+                rail: 0,
+                x,
+                axis: Axis::Vertical,
+            }],
+            &mut out,
+        )
+        .expect("on the table");
         1.0 / STIFFNESS + out.value[(0, 0)]
     };
-    let force = |t: f64, [z, v]: [f64; 2]| ((z + damping / STIFFNESS * v) / own(WAY[0] + speed * t)).max(0.0);
+    let force = |t: f64, [z, v]: [f64; 2]| {
+        ((z + damping / STIFFNESS * v) / own(WAY[0] + speed * t)).max(0.0)
+    };
     let slope = |t: f64, y: [f64; 2]| [y[1], GRAVITY * (1.0 - force(t, y) / WEIGHT)];
     let steps = (8000.0_f64).max(4000.0 * (WAY[1] - WAY[0]) / speed) as usize;
     let h = (WAY[1] - WAY[0]) / speed / steps as f64;
@@ -101,7 +119,13 @@ fn kinks_of_a_table_strike_a_wheel_that_the_girder_carries_smoothly() {
             assert_near(of("exact girder"), "prototype", exact, found, tolerance);
             let found = swing(Foundation::massless(Box::new(akispl()), 1), speed, damping);
             let wanted = by_hand(&akispl(), speed, damping);
-            assert_near(of("AKISPL"), "Runge-Kutta method of this test", wanted, found, 5e-3);
+            assert_near(
+                of("AKISPL"),
+                "Runge-Kutta method of this test",
+                wanted,
+                found,
+                5e-3,
+            );
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Nine losses of contact: a wheel dropped on a rigid rail, against its closed form, by steps that do and do not look for them.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -19,10 +22,16 @@ struct Wheel {
 }
 
 /// 2.4e6 lb on 1e8 lb/ft, without its damper and with that of 1e5 lb s/ft.
-const PLAIN: Wheel = Wheel { zeta: 0.0, height: 2.0 };
+const PLAIN: Wheel = Wheel {
+    zeta: 0.0,
+    height: 2.0,
+};
 
 fn damped() -> Wheel {
-    Wheel { zeta: 0.5 * 1e5 / (1e8 * 2.4e6 / GRAVITY).sqrt(), height: 4.0 }
+    Wheel {
+        zeta: 0.5 * 1e5 / (1e8 * 2.4e6 / GRAVITY).sqrt(),
+        height: 4.0,
+    }
 }
 
 /// Time by that of the wheel on its spring, by 2 pi; place below the rail and speed, the place by the sag at rest:
@@ -36,7 +45,10 @@ fn pressed(zeta: f64, speed: f64, t: f64) -> State {
     // z - 1 from -1 with `speed`
     let across = (speed - zeta) / w;
     let decay = (-zeta * t).exp();
-    [1.0 + decay * (across * sin - cos), decay * (w * (across * cos + sin) - zeta * (across * sin - cos))]
+    [
+        1.0 + decay * (across * sin - cos),
+        decay * (w * (across * cos + sin) - zeta * (across * sin - cos)),
+    ]
 }
 
 fn force(zeta: f64, [z, v]: State) -> f64 {
@@ -60,7 +72,9 @@ fn exact(Wheel { zeta, height }: Wheel, losses: usize) -> (f64, State, f64) {
             }
             deepest = deepest.max(pressed(zeta, speed, middle)[0]);
         }
-        deepest = (0..400).map(|i| pressed(zeta, speed, 0.01 * f64::from(i))[0]).fold(deepest, f64::max);
+        deepest = (0..400)
+            .map(|i| pressed(zeta, speed, 0.01 * f64::from(i))[0])
+            .fold(deepest, f64::max);
         let [z, v] = pressed(zeta, speed, low);
         t += low;
         let flight = -v + (v * v - 2.0 * z).sqrt();
@@ -75,7 +89,14 @@ fn exact(Wheel { zeta, height }: Wheel, losses: usize) -> (f64, State, f64) {
 }
 
 fn rate(zeta: f64, y: State, is_pressed: bool) -> State {
-    [y[1], if is_pressed { 1.0 - force(zeta, y) } else { 1.0 }]
+    [
+        y[1],
+        if is_pressed {
+            1.0 - force(zeta, y)
+        } else {
+            1.0
+        },
+    ]
 }
 
 /// As one that does not look for events has it.
@@ -107,7 +128,11 @@ fn alpha(zeta: f64, [z, v, a]: [f64; 3], h: f64) -> [f64; 3] {
         let mean = [(1.0 - f) * end[0] + f * z, (1.0 - f) * end[1] + f * v];
         let is_pressed = mean[0] > 0.0 && force(zeta, mean) > 0.0;
         let residual = (1.0 - m) * next + m * a - rate(zeta, mean, is_pressed)[1];
-        let by = if is_pressed { (1.0 - f) * (beta * h * h + 2.0 * zeta * gamma * h) } else { 0.0 };
+        let by = if is_pressed {
+            (1.0 - f) * (beta * h * h + 2.0 * zeta * gamma * h)
+        } else {
+            0.0
+        };
         let change = residual / (1.0 - m + by);
         next -= change;
         if change.abs() < 1e-14 {
@@ -123,14 +148,24 @@ fn located(zeta: f64, mut y: State, is_pressed: &mut bool, h: f64) -> State {
     loop {
         let own = *is_pressed;
         let step = |h: f64| kutta(y, h, |y| rate(zeta, y, own));
-        let over = |y: State| if own { force(zeta, y) <= 0.0 } else { y[0] >= 0.0 && y[1] > 0.0 };
+        let over = |y: State| {
+            if own {
+                force(zeta, y) <= 0.0
+            } else {
+                y[0] >= 0.0 && y[1] > 0.0
+            }
+        };
         if !over(step(left)) {
             return step(left);
         }
         let [mut low, mut high] = [0.0, left];
         while high - low > 4.0 * f64::EPSILON * left {
             let middle = 0.5 * (low + high);
-            if over(step(middle)) { high = middle } else { low = middle }
+            if over(step(middle)) {
+                high = middle
+            } else {
+                low = middle
+            }
         }
         y = step(high);
         left -= high;
@@ -149,7 +184,12 @@ struct Judge {
 impl Judge {
     fn new(wheel: Wheel) -> Judge {
         let (end, wanted, deepest) = exact(wheel, 9);
-        Judge { wheel, end, wanted, deepest }
+        Judge {
+            wheel,
+            end,
+            wanted,
+            deepest,
+        }
     }
 
     fn begin(&self) -> State {
@@ -168,7 +208,11 @@ impl Judge {
 
     fn plain(&self, length: f64) -> f64 {
         let (count, h) = self.steps(length);
-        self.error((0..count).fold(self.begin(), |y, _| kutta(y, h, |y| blind(self.wheel.zeta, y)))[0])
+        self.error(
+            (0..count).fold(self.begin(), |y, _| {
+                kutta(y, h, |y| blind(self.wheel.zeta, y))
+            })[0],
+        )
     }
 
     fn located(&self, length: f64) -> f64 {
@@ -186,7 +230,13 @@ impl Judge {
 
     fn adaptive(&self, tolerance: f64) -> f64 {
         let zeta = self.wheel.zeta;
-        let ended = dormand(self.begin(), self.end, [tolerance, 1e-9], |y| blind(zeta, y), |_, _| ());
+        let ended = dormand(
+            self.begin(),
+            self.end,
+            [tolerance, 1e-9],
+            |y| blind(zeta, y),
+            |_, _| (),
+        );
         println!("RK45 {tolerance:e}: {} rates", ended.rates);
         self.error(ended.y[0])
     }
@@ -194,12 +244,20 @@ impl Judge {
     /// The same wheel in the simulator.
     fn ours(&self, stepping: Stepping, accuracy: f64) -> (f64, sim::Run) {
         let (scene, second, foot) = self.scene(accuracy);
-        let stepping = Stepping { step: stepping.step.map(|step| step * second), ..stepping };
-        let run = sim::run_by(stepping, &scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()))
-            .expect("a valid scene");
+        let stepping = Stepping {
+            step: stepping.step.map(|step| step * second),
+            ..stepping
+        };
+        let run = sim::run_by(stepping, &scene, &[Foundation::rigid()], &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("a valid scene");
         assert_eq!(run.status, Status::Done);
         let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
-        (self.error(-y.last().copied().unwrap_or(f64::NAN) / foot), run)
+        (
+            self.error(-y.last().copied().unwrap_or(f64::NAN) / foot),
+            run,
+        )
     }
 
     /// The scene with its unit of time and of length.
@@ -221,10 +279,14 @@ impl Judge {
 /// Slope of ln(error) by ln(step) by least squares, steps halved each time.
 fn order(errors: &[f64]) -> f64 {
     let middle = 0.5 * (errors.len() - 1) as f64;
-    let (above, below) = errors.iter().enumerate().fold((0.0, 0.0), |(above, below), (i, error)| {
-        let x = middle - i as f64;
-        (above + x * error.log2(), below + x * x)
-    });
+    let (above, below) =
+        errors
+            .iter()
+            .enumerate()
+            .fold((0.0, 0.0), |(above, below), (i, error)| {
+                let x = middle - i as f64;
+                (above + x * error.log2(), below + x * x)
+            });
     above / below
 }
 
@@ -245,7 +307,11 @@ fn nine_losses_of_contact_cost_steps_their_order_unless_they_are_located() {
         let errors = |of: fn(&Judge, f64) -> f64| -> Vec<f64> {
             lengths().into_iter().map(|h| of(&judge, h)).collect()
         };
-        let (plain, located, alpha) = (errors(Judge::plain), errors(Judge::located), errors(Judge::alpha));
+        let (plain, located, alpha) = (
+            errors(Judge::plain),
+            errors(Judge::located),
+            errors(Judge::alpha),
+        );
         show(&format!("{name}, Runge-Kutta 4"), &plain);
         show("located", &located);
         show("generalised-alpha", &alpha);
@@ -303,10 +369,24 @@ fn the_simulator_keeps_its_order_over_nine_losses_of_contact() {
         let judge = Judge::new(wheel);
         let short = [0.384, 0.192, 0.096, 0.048].as_slice();
         // Radau has three nodes with a damper between wheel and rail
-        let radau = if wheel.zeta > 0.0 { (5.0, short) } else { (9.0, [1.6, 0.8, 0.4].as_slice()) };
+        let radau = if wheel.zeta > 0.0 {
+            (5.0, short)
+        } else {
+            (9.0, [1.6, 0.8, 0.4].as_slice())
+        };
         for (method, (wanted, steps)) in [(Method::Sdirk4, (4.0, short)), (Method::Radau, radau)] {
             // below 1e-9 of accuracy the places of events end what shorter steps gain
-            let error = |h: &f64| judge.ours(Stepping { method, step: Some(*h) }, 1e-10).0;
+            let error = |h: &f64| {
+                judge
+                    .ours(
+                        Stepping {
+                            method,
+                            step: Some(*h),
+                        },
+                        1e-10,
+                    )
+                    .0
+            };
             let errors: Vec<f64> = steps.iter().map(error).collect();
             show(&format!("{name}, {method:?}"), &errors);
             assert_near(

@@ -1,7 +1,10 @@
 //! Structures in their natural modes: loads that cross a simply supported beam, against series and converged
 //! references.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -20,11 +23,18 @@ struct Crossing {
 }
 
 fn cross(scene: &Scene, foundation: Foundation) -> Crossing {
-    let run = sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     let weight = scene.bodies[0].mass * scene.gravity;
     let static_sag = weight * SPAN.powi(3) / (48.0 * EI);
-    let scaled = |channel, scale: f64| run.history.column(channel).iter().map(|x| x / scale).collect();
+    let scaled = |channel, scale: f64| {
+        run.history
+            .column(channel)
+            .iter()
+            .map(|x| x / scale)
+            .collect()
+    };
     Crossing {
         middle: scaled(Channel::Gauge(0), -static_sag),
         force: scaled(Channel::Vertical(0), weight),
@@ -34,7 +44,9 @@ fn cross(scene: &Scene, foundation: Foundation) -> Crossing {
 
 /// Largest value, on the parabola through the largest sample and its neighbours.
 fn largest(values: &[f64]) -> f64 {
-    let peak = (1..values.len() - 1).max_by(|&i, &j| values[i].total_cmp(&values[j])).unwrap_or(1);
+    let peak = (1..values.len() - 1)
+        .max_by(|&i, &j| values[i].total_cmp(&values[j]))
+        .unwrap_or(1);
     let (a, b, c) = (values[peak - 1], values[peak], values[peak + 1]);
     if b <= a || b <= c {
         return b.max(values[0]).max(values[values.len() - 1]);
@@ -48,8 +60,14 @@ fn smallest(values: &[f64]) -> f64 {
 }
 
 fn close(what: &str, found: f64, wanted: f64, relative: f64) {
-    println!("{what}: {found:.10} for {wanted:.10}, {:.1e}", (found / wanted - 1.0).abs());
-    assert!((found / wanted - 1.0).abs() < relative, "{what}: {found} for {wanted}");
+    println!(
+        "{what}: {found:.10} for {wanted:.10}, {:.1e}",
+        (found / wanted - 1.0).abs()
+    );
+    assert!(
+        (found / wanted - 1.0).abs() < relative,
+        "{what}: {found} for {wanted}"
+    );
 }
 
 /// Analytic: the series of a constant force (Fryba, Vibration of Solids and Structures under Moving Loads, ch. 1).
@@ -59,7 +77,12 @@ fn moving_force_meets_the_series() {
     let mut scene = oscillator(1e-9, 5e4, 0.25);
     scene.gravity *= 1e9;
     let found = cross(&scene, beam(20, true));
-    close("largest", largest(&found.middle), 1.257_609_790_901_753_8, 1e-6);
+    close(
+        "largest",
+        largest(&found.middle),
+        1.257_609_790_901_753_8,
+        1e-6,
+    );
     close("at 1/4", found.middle[500], 0.733_895_997_532_694_5, 1e-6);
     close("at 1/2", found.middle[1000], 1.065_792_021_930_880_7, 1e-6);
     close("at 3/4", found.middle[1500], 0.733_895_997_532_694_5, 1e-6);
@@ -69,12 +92,27 @@ fn moving_force_meets_the_series() {
 #[test]
 fn moving_oscillator_meets_the_converged_reference() {
     let found = cross(&oscillator(0.5, 0.5, 0.25), beam(20, true));
-    close("largest", largest(&found.middle), 1.218_222_263_802_929, 1e-6);
+    close(
+        "largest",
+        largest(&found.middle),
+        1.218_222_263_802_929,
+        1e-6,
+    );
     close("at 1/2", found.middle[1000], 0.887_956_623_906_926_9, 1e-6);
     close("at 3/4", found.middle[1500], 1.216_006_290_951_369_1, 1e-6);
     close("under", found.under[1000], 0.887_956_623_906_928_1, 1e-6);
-    close("largest force", largest(&found.force), 1.267_684_240_703_683_2, 1e-6);
-    close("smallest force", smallest(&found.force), 0.834_297_226_615_525_9, 1e-6);
+    close(
+        "largest force",
+        largest(&found.force),
+        1.267_684_240_703_683_2,
+        1e-6,
+    );
+    close(
+        "smallest force",
+        smallest(&found.force),
+        0.834_297_226_615_525_9,
+        1e-6,
+    );
 }
 
 /// External: converged reference of a mass that stays on the beam, with all convective terms.
@@ -83,11 +121,21 @@ fn moving_mass_meets_the_converged_reference() {
     let mut scene = oscillator(0.5, 3000.0, 0.25);
     scene.accuracy = 1e-7;
     let found = cross(&scene, beam(40, true));
-    close("largest", largest(&found.middle), 1.417_897_987_569_308_3, 1e-5);
+    close(
+        "largest",
+        largest(&found.middle),
+        1.417_897_987_569_308_3,
+        1e-5,
+    );
     close("at 1/4", found.middle[500], 0.618_221_494_000_048_7, 1e-5);
     close("at 1/2", found.middle[1000], 1.416_432_087_649_909_5, 1e-5);
     close("at 3/4", found.middle[1500], 0.665_269_664_277_970_4, 1e-5);
-    close("under at 3/4", found.under[1500], 0.548_799_577_982_933_2, 1e-5);
+    close(
+        "under at 3/4",
+        found.under[1500],
+        0.548_799_577_982_933_2,
+        1e-5,
+    );
 }
 
 /// Published in the reference with the same definition: errors of the wheel force and of the midspan deflection over
@@ -107,20 +155,41 @@ fn static_give_of_the_other_modes_is_worth_several_modes() {
         (5, true, 4.8e-6, 7.2e-6),
     ] {
         let [found_force, found_middle] = errors(&cross(&scene, beam(modes, rest)), &reference);
-        let of = |what: &str| format!("mass 0.5 m L, alpha 0.1, {}: error of {what}", named(modes, rest));
-        assert_near(of("the wheel's force"), "prototype", force, found_force, 0.1);
+        let of = |what: &str| {
+            format!(
+                "mass 0.5 m L, alpha 0.1, {}: error of {what}",
+                named(modes, rest)
+            )
+        };
+        assert_near(
+            of("the wheel's force"),
+            "prototype",
+            force,
+            found_force,
+            0.1,
+        );
         assert_near(of("midspan"), "prototype", middle, found_middle, 0.1);
     }
 }
 
 fn named(modes: usize, rest: bool) -> String {
-    format!("{modes} modes {} the others' static give", if rest { "with" } else { "without" })
+    format!(
+        "{modes} modes {} the others' static give",
+        if rest { "with" } else { "without" }
+    )
 }
 
 /// Largest errors over a crossing: of the force by the weight, of midspan by its largest.
 fn errors(found: &Crossing, reference: &Crossing) -> [f64; 2] {
-    let of = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
-    [of(&found.force, &reference.force), of(&found.middle, &reference.middle) / largest(&reference.middle)]
+    let of = |a: &[f64], b: &[f64]| {
+        a.iter()
+            .zip(b)
+            .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
+    };
+    [
+        of(&found.force, &reference.force),
+        of(&found.middle, &reference.middle) / largest(&reference.middle),
+    ]
 }
 
 /// A carriage of five beams on springs three times as fast as the beam; a wheel as stiff under half a beam.
@@ -141,7 +210,10 @@ fn heavy_and_stiff_wheels_need_modes_beyond_their_own_frequency() {
     for (rest, force, middle) in [(false, 3.2e-2, 1.4e-3), (true, 4.1e-4, 1.7e-5)] {
         let found = errors(&cross(&scene, beam(5, rest)), &reference);
         let of = |what: &str| {
-            format!("mass 0.5 m L on springs of 3 omega_1, alpha 0.25, {}: error of {what}", named(5, rest))
+            format!(
+                "mass 0.5 m L on springs of 3 omega_1, alpha 0.25, {}: error of {what}",
+                named(5, rest)
+            )
         };
         assert_near(of("the wheel's force"), "prototype", force, found[0], 0.05);
         assert_near(of("midspan"), "prototype", middle, found[1], 0.05);
@@ -161,14 +233,18 @@ fn two_modes_more_tell_the_error() {
                 let estimate = errors(&own, &cross(&scene, beam(modes + 2, true)));
                 let error = errors(&own, &reference);
                 for ((range, estimate), error) in range.iter_mut().zip(estimate).zip(error) {
-                    *range = [range[0].min(estimate / error), range[1].max(estimate / error)];
+                    *range = [
+                        range[0].min(estimate / error),
+                        range[1].max(estimate / error),
+                    ];
                 }
             }
         }
     }
-    for (what, known, found) in
-        [("midspan", [0.84, 1.11], range[1]), ("the wheel's force", [0.91, 1.12], range[0])]
-    {
+    for (what, known, found) in [
+        ("midspan", [0.84, 1.11], range[1]),
+        ("the wheel's force", [0.91, 1.12], range[0]),
+    ] {
         for (word, known, found) in [("least", known[0], found[0]), ("most", known[1], found[1])] {
             // other runs than the prototype's 24
             assert_near(
@@ -185,9 +261,14 @@ fn two_modes_more_tell_the_error() {
 /// Largest difference from rest under a constant force that crosses, beside alpha / (1 - alpha), which bounds it.
 #[test]
 fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
-    for (alpha, known) in
-        [(0.01, 0.009_92), (0.05, 0.0517), (0.1, 0.1090), (0.2, 0.2378), (0.25, 0.3227), (0.5, 0.8986)]
-    {
+    for (alpha, known) in [
+        (0.01, 0.009_92),
+        (0.05, 0.0517),
+        (0.1, 0.1090),
+        (0.2, 0.2378),
+        (0.25, 0.3227),
+        (0.5, 0.8986),
+    ] {
         let mut scene = oscillator(1e-9, 5e4, alpha);
         scene.gravity *= 1e9;
         scene.accuracy = 1e-6;
@@ -196,8 +277,8 @@ fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
             let x = SPAN * i as f64 / (found.middle.len() - 1) as f64;
             common::give(0.5 * SPAN, x).0 / common::give(0.5 * SPAN, 0.5 * SPAN).0
         };
-        let worst =
-            (0..found.middle.len()).fold(0.0_f64, |max, i| max.max((found.middle[i] - rest(i)).abs()));
+        let worst = (0..found.middle.len())
+            .fold(0.0_f64, |max, i| max.max((found.middle[i] - rest(i)).abs()));
         assert_near(
             format!("constant force, alpha {alpha}: largest difference from rest at midspan"),
             "prototype",
@@ -226,8 +307,9 @@ fn the_papers_girder_has_its_frequencies_and_sag() {
     let mut bogie = common::bogie(0.0, 1.0, sim::Damper::Ground);
     bogie.bodies[0].start[0] = 0.5 * SPAN;
     bogie.bodies[0].motion = None;
-    let modes =
-        sim::natural_modes(&bogie, &[common::girder()], 0.0, &[0.5 * SPAN]).expect("at rest").expect("few");
+    let modes = sim::natural_modes(&bogie, &[common::girder()], 0.0, &[0.5 * SPAN])
+        .expect("at rest")
+        .expect("few");
     assert_near(
         "(omega_b / omega_1)^2 of the bogie at midspan",
         "prototype",
@@ -238,8 +320,20 @@ fn the_papers_girder_has_its_frequencies_and_sag() {
 
     let load = common::WEIGHT;
     let slope = load * common::give(0.0, 0.5 * SPAN).1;
-    assert_near("slope of the girder's end under 4.8e6 lb at midspan", "prototype", 0.0262, slope, 2e-3);
-    assert_near("1 - cos of it", "prototype", 3.4e-4, 1.0 - slope.cos(), 0.02);
+    assert_near(
+        "slope of the girder's end under 4.8e6 lb at midspan",
+        "prototype",
+        0.0262,
+        slope,
+        2e-3,
+    );
+    assert_near(
+        "1 - cos of it",
+        "prototype",
+        3.4e-4,
+        1.0 - slope.cos(),
+        0.02,
+    );
     let steps = 6000;
     let h = SPAN / f64::from(steps);
     let along = |i: i32| common::give(h * (f64::from(i) + 0.5), 0.5 * SPAN).1 * load;
@@ -270,7 +364,12 @@ fn moving_force_meets_the_series_at_every_speed() {
         scene.gravity *= 1e9;
         scene.accuracy = 1e-6;
         let found = cross(&scene, beam(10, true));
-        close(&format!("alpha {alpha}"), largest(&found.middle), factor, 1e-4);
+        close(
+            &format!("alpha {alpha}"),
+            largest(&found.middle),
+            factor,
+            1e-4,
+        );
     }
 }
 
@@ -282,7 +381,12 @@ fn moving_mass_meets_the_reference_at_every_speed() {
         let mut scene = oscillator(0.5, 1000.0, alpha);
         scene.accuracy = 1e-6;
         let found = cross(&scene, beam(20, true));
-        close(&format!("alpha {alpha}"), largest(&found.middle), factor, 1e-4);
+        close(
+            &format!("alpha {alpha}"),
+            largest(&found.middle),
+            factor,
+            1e-4,
+        );
     }
 }
 
@@ -294,17 +398,36 @@ fn accelerations_of_high_modes_are_within_a_hundred_times_the_accuracy() {
         let scene = oscillator(0.1, frequency, alpha);
         let count = 60;
         let accelerations = |accuracy: f64| {
-            let (scene, recorded) =
-                (Scene { accuracy, ..scene.clone() }, Foundation { recorded: true, ..beam(count, false) });
-            let run = run_by(Method::Radau, &scene, &[recorded], &mut |_| ControlFlow::Continue(()))
-                .expect("a valid scene");
-            (0..count).map(|k| run.history.column(Channel::Acceleration(0, k))).collect::<Vec<_>>()
+            let (scene, recorded) = (
+                Scene {
+                    accuracy,
+                    ..scene.clone()
+                },
+                Foundation {
+                    recorded: true,
+                    ..beam(count, false)
+                },
+            );
+            let run = run_by(Method::Radau, &scene, &[recorded], &mut |_| {
+                ControlFlow::Continue(())
+            })
+            .expect("a valid scene");
+            (0..count)
+                .map(|k| run.history.column(Channel::Acceleration(0, k)))
+                .collect::<Vec<_>>()
         };
         let (found, fine) = (accelerations(1e-5), accelerations(1e-9));
         let load = (2.0 / (MASS * SPAN)).sqrt() * 0.1 * MASS * SPAN * 32.174;
-        let apart =
-            |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-        let worst = found.iter().zip(&fine).map(|(a, b)| apart(a, b) / load).fold(0.0, f64::max);
+        let apart = |a: &[f64], b: &[f64]| {
+            a.iter()
+                .zip(b)
+                .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+        };
+        let worst = found
+            .iter()
+            .zip(&fine)
+            .map(|(a, b)| apart(a, b) / load)
+            .fold(0.0, f64::max);
         println!("alpha {alpha}: {worst:.1e}");
         assert!(worst < 100.0 * 1e-5, "alpha {alpha}: {worst:e}");
     }

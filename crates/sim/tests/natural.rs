@@ -15,13 +15,24 @@ const LENGTH: f64 = 40.0;
 
 /// Bridge and trolley with the freedoms given, and a ladle at rest below the middle of the trolley.
 fn crane(bridge: &[BodyDof], trolley: &[BodyDof]) -> Scene {
-    let mut scene =
-        crane_of(body(BRIDGE, [1e6, 4e6, 4e6], bridge), body(TROLLEY, [9e4, 2e5, 2e5], trolley), 1.0);
-    scene.bodies.push(body(LADLE, [0.0; 3], &[BodyDof::X, BodyDof::Y, BodyDof::Z]));
+    let mut scene = crane_of(
+        body(BRIDGE, [1e6, 4e6, 4e6], bridge),
+        body(TROLLEY, [9e4, 2e5, 2e5], trolley),
+        1.0,
+    );
+    scene
+        .bodies
+        .push(body(LADLE, [0.0; 3], &[BodyDof::X, BodyDof::Y, BodyDof::Z]));
     scene.actuators.hanging = vec![2];
     scene.actuators.ropes = vec![Rope {
-        from: RopeEnd { body: Some(1), at: [0.0; 3] },
-        to: RopeEnd { body: Some(2), at: [0.0; 3] },
+        from: RopeEnd {
+            body: Some(1),
+            at: [0.0; 3],
+        },
+        to: RopeEnd {
+            body: Some(2),
+            at: [0.0; 3],
+        },
         stiffness: EA,
         damping: 7e4,
         length: LENGTH,
@@ -31,9 +42,18 @@ fn crane(bridge: &[BodyDof], trolley: &[BodyDof]) -> Scene {
 }
 
 fn found(scene: &Scene) -> Vec<NaturalMode> {
-    let foundations = [sim::Foundation::rigid(), carried([0.0, 0.0, 1.0], [0.0, 3.0, 0.0])];
-    let place: Vec<f64> = scene.bodies.iter().map(|body: &Body| body.start[0]).collect();
-    natural_modes(scene, &foundations, 0.0, &place).expect("a scene at rest").expect("few freedoms")
+    let foundations = [
+        sim::Foundation::rigid(),
+        carried([0.0, 0.0, 1.0], [0.0, 3.0, 0.0]),
+    ];
+    let place: Vec<f64> = scene
+        .bodies
+        .iter()
+        .map(|body: &Body| body.start[0])
+        .collect();
+    natural_modes(scene, &foundations, 0.0, &place)
+        .expect("a scene at rest")
+        .expect("few freedoms")
 }
 
 /// Analytic: sqrt(g/l) twice and sqrt(k/m) of a mass on an elastic rope.
@@ -46,13 +66,24 @@ fn a_hung_mass_swings_and_bounces() {
         hanging: vec![0],
         ..Actuators::default()
     };
-    let scene = space::scene(vec![space::body(m, [true; 3], [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6);
-    let modes = natural_modes(&scene, &[], 0.0, &[0.0]).expect("at rest").expect("three freedoms");
+    let scene = space::scene(
+        vec![space::body(m, [true; 3], [0.0; 3], [0.0; 3])],
+        actuators,
+        1.0,
+        1e-6,
+    );
+    let modes = natural_modes(&scene, &[], 0.0, &[0.0])
+        .expect("at rest")
+        .expect("three freedoms");
     let swing = (G / stretched).sqrt();
     let wanted = [swing, swing, (ea / l0 / m).sqrt()];
     assert_eq!(modes.len(), 3);
     for (mode, wanted) in modes.iter().zip(wanted) {
-        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+        assert!(
+            (mode.omega / wanted - 1.0).abs() < 1e-6,
+            "{} {wanted}",
+            mode.omega
+        );
     }
     assert!(modes[2].fraction[0][1] > 1.0 - 1e-9, "{:?}", modes[2]);
 }
@@ -68,14 +99,26 @@ fn a_ladle_on_its_ropes_bounces_at_a_few_hertz() {
             hanging: vec![0],
             ..Actuators::default()
         };
-        let mut scene =
-            space::scene(vec![space::body(mass, [true; 3], [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6);
+        let mut scene = space::scene(
+            vec![space::body(mass, [true; 3], [0.0; 3], [0.0; 3])],
+            actuators,
+            1.0,
+            1e-6,
+        );
         scene.gravity = GRAVITY;
-        let modes = natural_modes(&scene, &[], 0.0, &[0.0]).expect("at rest").expect("three freedoms");
+        let modes = natural_modes(&scene, &[], 0.0, &[0.0])
+            .expect("at rest")
+            .expect("three freedoms");
         let what = format!(
             "ladle of 1,020 kip on ropes of {stiffness:e} lb/ft: frequency, Hz (one digit, its weight not told)"
         );
-        assert_near(what, "prototype", known, modes[2].omega / (2.0 * std::f64::consts::PI), 0.06);
+        assert_near(
+            what,
+            "prototype",
+            known,
+            modes[2].omega / (2.0 * std::f64::consts::PI),
+            0.06,
+        );
     }
 }
 
@@ -98,14 +141,24 @@ fn a_crane_bounces_as_three_masses_in_a_row() {
     );
     let masses = [BRIDGE, TROLLEY, LADLE];
     let scaled = Matrix3::from_fn(|i, j| stiffness[(i, j)] / (masses[i] * masses[j]).sqrt());
-    let mut wanted: Vec<f64> = SymmetricEigen::new(scaled).eigenvalues.iter().map(|w| w.sqrt()).collect();
+    let mut wanted: Vec<f64> = SymmetricEigen::new(scaled)
+        .eigenvalues
+        .iter()
+        .map(|w| w.sqrt())
+        .collect();
     wanted.sort_by(f64::total_cmp);
     let modes = found(&scene);
-    let upright: Vec<&NaturalMode> =
-        modes.iter().filter(|mode| mode.fraction[2][0] + mode.fraction[2][2] < 0.5).collect();
+    let upright: Vec<&NaturalMode> = modes
+        .iter()
+        .filter(|mode| mode.fraction[2][0] + mode.fraction[2][2] < 0.5)
+        .collect();
     assert_eq!(upright.len(), 3, "{modes:?}");
     for (mode, wanted) in upright.iter().zip(wanted) {
-        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+        assert!(
+            (mode.omega / wanted - 1.0).abs() < 1e-6,
+            "{} {wanted}",
+            mode.omega
+        );
         let sum: f64 = mode.fraction.iter().flatten().sum();
         assert!((sum + mode.structures - 1.0).abs() < 1e-9, "{sum}");
     }
@@ -122,6 +175,10 @@ fn a_ladle_swings_faster_below_a_crane_that_rolls() {
     let along = across * (1.0 + LADLE / (BRIDGE + TROLLEY)).sqrt();
     assert_eq!(modes.len(), 3, "{modes:?}");
     for (mode, wanted) in modes.iter().zip([across, along]) {
-        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+        assert!(
+            (mode.omega / wanted - 1.0).abs() < 1e-6,
+            "{} {wanted}",
+            mode.omega
+        );
     }
 }

@@ -1,6 +1,9 @@
 //! The paper's girder as two rigid halves joined by a beam: three ways to hand a wheel over.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -9,7 +12,9 @@ use std::ops::ControlFlow;
 use common::parts::{CENTRES, STATES, arms, basis, beam, chain, massive, stiffness};
 use common::{EI, WEIGHT, bogie};
 use nalgebra::DMatrix;
-use sim::{Analysis, BlendedParts, BodyDof, Channel, Damper, Extent, Foundation, PartChain, Scene, Status};
+use sim::{
+    Analysis, BlendedParts, BodyDof, Channel, Damper, Extent, Foundation, PartChain, Scene, Status,
+};
 use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
 fn parts() -> ExactSurface {
@@ -25,13 +30,19 @@ fn parts() -> ExactSurface {
 }
 
 fn blended(window: Option<f64>) -> BlendedParts {
-    BlendedParts { surface: parts(), chains: vec![chain(window)] }
+    BlendedParts {
+        surface: parts(),
+        chains: vec![chain(window)],
+    }
 }
 
 /// One force a part and wheel.
 fn separate(window: f64) -> Foundation {
     let chain = chain(Some(window));
-    let extent = Extent { range: Some(chain.range()), breaks: chain.breaks() };
+    let extent = Extent {
+        range: Some(chain.range()),
+        breaks: chain.breaks(),
+    };
     Foundation {
         compliance: Some(Box::new(parts())),
         parts: Some(vec![chain]),
@@ -44,9 +55,14 @@ fn separate(window: f64) -> Foundation {
 fn sweep(mut scene: Scene, foundation: Foundation) -> Vec<f64> {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / 100.0;
-    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    run.history.column(Channel::Displacement(0, BodyDof::Y)).iter().map(|y| -y).collect()
+    run.history
+        .column(Channel::Displacement(0, BodyDof::Y))
+        .iter()
+        .map(|y| -y)
+        .collect()
 }
 
 fn crossing() -> Scene {
@@ -57,13 +73,20 @@ fn crossing() -> Scene {
 fn central_load_on_two_halves_meets_the_closed_form() {
     for window in [None, Some(60.0), Some(10.0)] {
         let mut give = Influence::zeros(1);
-        let at = [Probe { rail: 0, x: 30.0, axis: Axis::Vertical }];
+        let at = [Probe {
+            rail: 0,
+            x: 30.0,
+            axis: Axis::Vertical,
+        }];
         blended(window).fill(&at, &mut give).expect("on the rail");
         // Analytic: moment P/2 30 on each part, pure bending of the beam between: P 30^2 45/(4 EI) = 1.18073 ft;
         // with two wheels' springs 1.2047 ft, the 1.205 of the published comparison.
         let deflection = WEIGHT * give.value[(0, 0)];
         let wanted = WEIGHT * 30.0 * 30.0 * 45.0 / (4.0 * EI);
-        assert!((deflection - wanted).abs() < 1e-12, "{deflection} for {wanted}");
+        assert!(
+            (deflection - wanted).abs() < 1e-12,
+            "{deflection} for {wanted}"
+        );
         assert!((deflection + WEIGHT / 2e8 - 1.205).abs() < 5e-4);
     }
 }
@@ -72,26 +95,48 @@ fn central_load_on_two_halves_meets_the_closed_form() {
 /// places are prepared and others are not.
 #[test]
 fn displacements_under_loads_are_sums_of_coefficients() {
-    let probe = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
+    let probe = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
     let places = [0.0, 7.0, 22.0, 30.0, 41.5, 60.0].map(probe);
     let loads = [(probe(12.0), -3.0), (probe(29.0), -2.0), (probe(55.0), 1.5)];
     for window in [None, Some(60.0), Some(10.0)] {
         let parts = blended(window);
-        let all: Vec<Probe> = places.iter().copied().chain(loads.iter().map(|load| load.0)).collect();
+        let all: Vec<Probe> = places
+            .iter()
+            .copied()
+            .chain(loads.iter().map(|load| load.0))
+            .collect();
         let mut give = Influence::zeros(all.len());
         parts.fill(&all, &mut give).expect("on the rail");
         let of = |i: usize| -> f64 {
-            loads.iter().enumerate().map(|(j, load)| give.value[(i, places.len() + j)] * load.1).sum()
+            loads
+                .iter()
+                .enumerate()
+                .map(|(j, load)| give.value[(i, places.len() + j)] * load.1)
+                .sum()
         };
         let wanted: Vec<f64> = (0..places.len()).map(of).collect();
-        let size = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let size = wanted
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
         let (mut direct, mut prepared) = (vec![1.0; places.len()], vec![1.0; places.len()]);
-        parts.displacements(&places, &loads, &mut direct).expect("on the rail");
+        parts
+            .displacements(&places, &loads, &mut direct)
+            .expect("on the rail");
         let fixed = parts.at_places(&places[..4]).expect("on the rail");
-        fixed.under(&loads, &places[4..], &mut prepared).expect("on the rail");
+        fixed
+            .under(&loads, &places[4..], &mut prepared)
+            .expect("on the rail");
         for (k, wanted) in wanted.iter().enumerate() {
             for found in [direct[k], prepared[k]] {
-                assert!((found - wanted).abs() < 1e-13 * size, "{found} for {wanted} at {}", places[k].x);
+                assert!(
+                    (found - wanted).abs() < 1e-13 * size,
+                    "{found} for {wanted} at {}",
+                    places[k].x
+                );
             }
         }
     }
@@ -105,9 +150,19 @@ fn bogie_at_midspan_depends_on_the_hand_over_as_an_independent_script_says() {
     impact.wheels[0].normal.exponent = 1.1;
     for (name, scene, foundation, wanted) in [
         ("blended over 60 ft", crossing(), datum(Some(60.0)), 1.19775),
-        ("blended from centre to centre", crossing(), datum(None), 1.19543),
+        (
+            "blended from centre to centre",
+            crossing(),
+            datum(None),
+            1.19543,
+        ),
         ("one force a part", crossing(), separate(60.0), 1.12311),
-        ("one force a part, exponent 1.1", impact, separate(60.0), 1.13777),
+        (
+            "one force a part, exponent 1.1",
+            impact,
+            separate(60.0),
+            1.13777,
+        ),
     ] {
         let found = sweep(scene, foundation)[50];
         println!("{name}: {found:.5} for {wanted}");
@@ -117,7 +172,10 @@ fn bogie_at_midspan_depends_on_the_hand_over_as_an_independent_script_says() {
 
 #[test]
 fn parts_with_mass_stand_where_massless_parts_stand() {
-    let massless = sweep(crossing(), Foundation::massless(Box::new(blended(Some(60.0))), 1));
+    let massless = sweep(
+        crossing(),
+        Foundation::massless(Box::new(blended(Some(60.0))), 1),
+    );
     for (with, without) in sweep(crossing(), massive(1.0)).iter().zip(&massless) {
         assert!((with - without).abs() < 1e-10, "{with} for {without}");
     }
@@ -128,7 +186,10 @@ fn undamped_parts_with_mass_keep_their_energy() {
     for factor in [0.1, 1.0] {
         let mut scene = crossing();
         scene.wheels[0].normal.damping = 0.0;
-        let run = sim::run(&scene, &[massive(factor)], &mut |_| ControlFlow::Continue(())).expect("valid");
+        let run = sim::run(&scene, &[massive(factor)], &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("valid");
         assert_eq!(run.status, Status::Done);
         println!("{:?} residual {:.1e}", run.counts, run.audit.residual());
         assert!(run.audit.residual() < 1e-6, "{}", run.audit.residual());
@@ -137,8 +198,13 @@ fn undamped_parts_with_mass_keep_their_energy() {
 
 /// `count` equal parts over the girder, the datum blended from centre to centre.
 fn many(count: usize) -> BlendedParts {
-    let ends: Vec<f64> = (0..=count).map(|j| -15.0 + 90.0 * j as f64 / count as f64).collect();
-    let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let ends: Vec<f64> = (0..=count)
+        .map(|j| -15.0 + 90.0 * j as f64 / count as f64)
+        .collect();
+    let centres: Vec<f64> = ends
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1]))
+        .collect();
     let l = 90.0 / count as f64;
     let beam = beam(l);
     let mut chain = DMatrix::zeros(2 * count, 2 * count);
@@ -148,7 +214,9 @@ fn many(count: usize) -> BlendedParts {
     }
     // Bordered by the supports, which hold v + rotation (x - centre) of the part above them.
     let mut bordered = DMatrix::zeros(2 * count + 2, 2 * count + 2);
-    bordered.view_mut((0, 0), (2 * count, 2 * count)).copy_from(&(chain / EI));
+    bordered
+        .view_mut((0, 0), (2 * count, 2 * count))
+        .copy_from(&(chain / EI));
     for (s, x) in [0.0, 60.0].into_iter().enumerate() {
         let part = ends[1..count].partition_point(|&end| end < x);
         for (freedom, value) in [(2 * part, 1.0), (2 * part + 1, x - centres[part])] {
@@ -176,9 +244,15 @@ fn largest_error_over_the_crossing_falls_with_the_square_of_the_number_of_parts(
     let points: Vec<[f64; 2]> = [6, 12, 24, 48, 96, 192]
         .map(|count| {
             let found = sweep(crossing(), Foundation::massless(Box::new(many(count)), 1));
-            let error = found.iter().zip(&exact).fold(0.0_f64, |max, (f, e)| max.max((f - e).abs()));
+            let error = found
+                .iter()
+                .zip(&exact)
+                .fold(0.0_f64, |max, (f, e)| max.max((f - e).abs()));
             println!("{count} parts: {error:.3e} ft");
-            [f64::from(u32::try_from(count).expect("small")).ln(), error.ln()]
+            [
+                f64::from(u32::try_from(count).expect("small")).ln(),
+                error.ln(),
+            ]
         })
         .to_vec();
     let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64;

@@ -1,6 +1,9 @@
 //! A pendulum of 40 ft let go at 0.1 rad for 120 s: by its angle, by its place with a constraint, and on a stiff rope.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -41,8 +44,8 @@ fn constrained(b: f64, tolerance: f64) -> [f64; 2] {
         [tolerance, 0.01 * tolerance],
         |[x, y, u, v]| {
             let excess = 0.5 * (x * x + y * y - LENGTH * LENGTH);
-            let pull =
-                (u * u + v * v + GRAVITY * y + 2.0 * b * (x * u + y * v) + b * b * excess) / (x * x + y * y);
+            let pull = (u * u + v * v + GRAVITY * y + 2.0 * b * (x * u + y * v) + b * b * excess)
+                / (x * x + y * y);
             [u, v, -pull * x, GRAVITY - pull * y]
         },
         |_, [x, y, ..]| drift = drift.max((x.hypot(y) - LENGTH).abs()),
@@ -54,7 +57,13 @@ fn constrained(b: f64, tolerance: f64) -> [f64; 2] {
 fn a_pendulum_by_its_angle_costs_less_than_by_its_place_with_a_constraint() {
     let ended = dormand([ANGLE, 0.0], END, [1e-6; 2], swing, |_, _| ());
     let own = ended.rates as f64;
-    assert_near("RK45 of the angle, rtol 1e-6: rates asked for", "prototype", 1570.0, own, 0.02);
+    assert_near(
+        "RK45 of the angle, rtol 1e-6: rates asked for",
+        "prototype",
+        1570.0,
+        own,
+        0.02,
+    );
     assert_near(
         "RK45 of the angle, rtol 1e-6: error, rad",
         "prototype",
@@ -122,20 +131,39 @@ fn a_pendulum_on_its_rope_has_no_constraint_to_drift_from() {
     let start = [begin * sin, begin * cos, 0.0, 0.0];
     let wanted = rk4(start, END, 240_000, |_, y| stretched(y, 7e6 / mass, LENGTH));
     for accuracy in [1e-3, 1e-4, 1e-5, 1e-6] {
-        let body = space::body(mass, [true, true, false], [start[0], -start[1], 0.0], [0.0; 3]);
+        let body = space::body(
+            mass,
+            [true, true, false],
+            [start[0], -start[1], 0.0],
+            [0.0; 3],
+        );
         let rope = space::rope(7e6 * LENGTH, LENGTH, [None, Some(0)]);
-        let actuators = Actuators { ropes: vec![rope], ..Actuators::default() };
+        let actuators = Actuators {
+            ropes: vec![rope],
+            ..Actuators::default()
+        };
         let mut scene = space::scene(vec![body], actuators, END, accuracy);
         scene.gravity = GRAVITY;
-        let run = sim::run(&scene, &[], &mut |_| ControlFlow::Continue(())).expect("a scene that runs");
+        let run =
+            sim::run(&scene, &[], &mut |_| ControlFlow::Continue(())).expect("a scene that runs");
         assert_eq!(run.status, Status::Done);
         let [x, y] = [BodyDof::X, BodyDof::Y].map(|freedom| {
-            run.history.column(Channel::Displacement(0, freedom)).last().copied().unwrap_or(f64::NAN)
+            run.history
+                .column(Channel::Displacement(0, freedom))
+                .last()
+                .copied()
+                .unwrap_or(f64::NAN)
         });
         let error = (x.atan2(-y) - wanted[0].atan2(wanted[1])).abs();
         let length = (x.hypot(y) - wanted[0].hypot(wanted[1])).abs();
-        println!("accuracy {accuracy:e}: {error:.1e} rad, {length:.1e} ft, {:?}", run.counts);
-        assert!(error < 0.02 * accuracy.max(1e-6) && length < 0.3 * accuracy.max(1e-6), "{accuracy:e}");
+        println!(
+            "accuracy {accuracy:e}: {error:.1e} rad, {length:.1e} ft, {:?}",
+            run.counts
+        );
+        assert!(
+            error < 0.02 * accuracy.max(1e-6) && length < 0.3 * accuracy.max(1e-6),
+            "{accuracy:e}"
+        );
         if accuracy == 1e-3 {
             assert_at_most(
                 "simulator, on its rope of 7e6 lb/ft, accuracy 1e-3: error, rad (RK45 of the angle, 1e-6)",

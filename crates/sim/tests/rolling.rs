@@ -1,6 +1,9 @@
 //! The force along the rail, scenes that cannot stand, and scenes nobody would draw.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -11,10 +14,12 @@ use common::near::assert_near;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
-    Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Method, Run, Scene,
-    Status, Stop,
+    Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Method,
+    Run, Scene, Status, Stop,
 };
-use splines::{Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading};
+use splines::{
+    Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading,
+};
 
 fn run(scene: &Scene, foundation: Foundation) -> Result<Run, Error> {
     sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(()))
@@ -38,18 +43,33 @@ fn freely_rolling_bogie_keeps_its_energy_on_the_exact_surface_and_not_on_akispl(
     let values = DMatrix::from_fn(7, 7, |i, j| give(stations[i], stations[j]).0);
     let table = SplineTable::new(stations.clone(), stations, values).expect("stations increase");
     let way = (0, Axis::Vertical);
-    let reading =
-        TableReading::new(ReadingMethod::Akispl, &[InfluenceBlock { deflection: way, load: way, table }])
-            .expect("a table");
+    let reading = TableReading::new(
+        ReadingMethod::Akispl,
+        &[InfluenceBlock {
+            deflection: way,
+            load: way,
+            table,
+        }],
+    )
+    .expect("a table");
     let exact = run(&rolling(20.0), girder()).expect("valid");
     let mut coarse = rolling(20.0);
     coarse.accuracy = 1e-6;
     let akispl = run(&coarse, Foundation::massless(Box::new(reading), 1)).expect("valid");
-    println!("imbalance: exact {:.3e} of {:.3e}", exact.audit.imbalance, exact.audit.peak_stored);
-    println!("imbalance: AKISPL {:.3e}, {:?}", akispl.audit.imbalance, akispl.status);
+    println!(
+        "imbalance: exact {:.3e} of {:.3e}",
+        exact.audit.imbalance, exact.audit.peak_stored
+    );
+    println!(
+        "imbalance: AKISPL {:.3e}, {:?}",
+        akispl.audit.imbalance, akispl.status
+    );
     assert_eq!(exact.status, Status::Done);
     let x = exact.history.column(Channel::Displacement(0, BodyDof::X));
-    assert!(x.iter().any(|&x| x > 0.5 * SPAN), "it rolls through the sag");
+    assert!(
+        x.iter().any(|&x| x > 0.5 * SPAN),
+        "it rolls through the sag"
+    );
     assert!(exact.audit.residual() < 1e-6, "{}", exact.audit.residual());
     assert!(akispl.audit.imbalance > 1e3 * exact.audit.imbalance);
 }
@@ -69,12 +89,18 @@ fn freely_rolling_bogie_crosses_hinges_at_order_four_and_keeps_its_energy() {
         (end, run.counts, run.audit.residual())
     };
     let (exact, _, residual) = at(1e-11);
-    assert!(exact[0] > 40.0, "both wheels have passed three hinges: {}", exact[0]);
+    assert!(
+        exact[0] > 40.0,
+        "both wheels have passed three hinges: {}",
+        exact[0]
+    );
     assert!(residual < 1e-8, "{residual}");
     // The error against the steps taken, from the coarsest to the finest.
     let pairs = [1e-3, 1e-5, 1e-7].map(|accuracy| {
         let (end, counts, residual) = at(accuracy);
-        let error = (0..3).map(|i| (end[i] - exact[i]).abs()).fold(0.0_f64, f64::max);
+        let error = (0..3)
+            .map(|i| (end[i] - exact[i]).abs())
+            .fold(0.0_f64, f64::max);
         println!("accuracy {accuracy:.0e}: {error:.2e} ft, {counts:?}, audit {residual:.1e}");
         (error, counts.steps as f64)
     });
@@ -116,15 +142,24 @@ fn forces_on_a_table_that_is_not_symmetric_use_all_of_it() {
     body.start = [0.0, -0.1, 0.0, 0.0, 0.0, 0.03];
     // Analytic: (I/k + G) F = e, by Cramer's rule; the dampers of k/c = 1000/s have come to rest.
     let e = [-4.0 / 3.0, 4.0 / 3.0].map(|x: f64| 0.1 - 0.03 * x);
-    let [[a, b], [c, d]] = [[SKEW[0][0] + 1e-8, SKEW[0][1]], [SKEW[1][0], SKEW[1][1] + 1e-8]];
-    let wanted = [(d * e[0] - b * e[1]) / (a * d - b * c), (a * e[1] - c * e[0]) / (a * d - b * c)];
+    let [[a, b], [c, d]] = [
+        [SKEW[0][0] + 1e-8, SKEW[0][1]],
+        [SKEW[1][0], SKEW[1][1] + 1e-8],
+    ];
+    let wanted = [
+        (d * e[0] - b * e[1]) / (a * d - b * c),
+        (a * e[1] - c * e[0]) / (a * d - b * c),
+    ];
     for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
         scene.analysis = analysis;
         let run = run(&scene, Foundation::massless(Box::new(Skew), 1)).expect("valid");
         for (wheel, wanted) in wanted.into_iter().enumerate() {
             let force = run.history.column(Channel::Vertical(wheel));
             let last = force[force.len() - 1];
-            assert!((last / wanted - 1.0).abs() < 1e-12, "{analysis:?}: {last} for {wanted}");
+            assert!(
+                (last / wanted - 1.0).abs() < 1e-12,
+                "{analysis:?}: {last} for {wanted}"
+            );
         }
     }
 }
@@ -136,13 +171,21 @@ fn force_along_the_rail_is_the_slope_of_the_potential() {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 2e-3;
     let run = run(&scene, girder()).expect("valid");
-    let [x, y, drive] =
-        [Channel::Displacement(0, BodyDof::X), Channel::Displacement(0, BodyDof::Y), Channel::Drive(0)]
-            .map(|channel| run.history.column(channel));
+    let [x, y, drive] = [
+        Channel::Displacement(0, BodyDof::X),
+        Channel::Displacement(0, BodyDof::Y),
+        Channel::Drive(0),
+    ]
+    .map(|channel| run.history.column(channel));
     // Identity: V = W y / 2 at rest for linear springs, hence drive = dV/dx.
     for i in (500..5500).step_by(250) {
         let slope = 0.5 * common::WEIGHT * (y[i + 1] - y[i - 1]) / (x[i + 1] - x[i - 1]);
-        assert!((drive[i] - slope).abs() < 2.0, "at {}: {} for {slope}", x[i], drive[i]);
+        assert!(
+            (drive[i] - slope).abs() < 2.0,
+            "at {}: {} for {slope}",
+            x[i],
+            drive[i]
+        );
     }
 }
 
@@ -155,9 +198,11 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 1e-3;
     let run = run(&scene, girder()).expect("valid");
-    let [x, drive] =
-        [Channel::Displacement(0, BodyDof::X), Channel::Drive(0)].map(|channel| run.history.column(channel));
-    let downhill = (0..x.len()).min_by(|&i, &j| drive[i].total_cmp(&drive[j])).expect("samples");
+    let [x, drive] = [Channel::Displacement(0, BodyDof::X), Channel::Drive(0)]
+        .map(|channel| run.history.column(channel));
+    let downhill = (0..x.len())
+        .min_by(|&i, &j| drive[i].total_cmp(&drive[j]))
+        .expect("samples");
     println!("{:.1} lb at {:.3} ft", drive[downhill], x[downhill]);
     // Analytic: G(x, x) = x^2 (L - x)^2 / (3 EI L), H = P^2/2 dG/dx, largest at L (1/2 - 1/sqrt(12)).
     let at = SPAN * (0.5 - 1.0 / 12.0_f64.sqrt());
@@ -172,7 +217,13 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
         1e-4,
     );
     assert_near("where, ft", "closed form", 12.68, x[downhill], 1e-3);
-    assert_near("that force by the weight", "closed form", 0.0135, -drive[downhill] / common::WEIGHT, 0.005);
+    assert_near(
+        "that force by the weight",
+        "closed form",
+        0.0135,
+        -drive[downhill] / common::WEIGHT,
+        0.005,
+    );
     let sag = common::WEIGHT * common::give(30.0, 30.0).0;
     assert_near(
         "that share by sag / span",
@@ -184,7 +235,10 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
     // from the support to midspan, where the drive holds it back
     let way = x.iter().zip(&drive).filter(|(x, _)| **x <= 30.0);
     let way: Vec<(f64, f64)> = way.map(|(x, drive)| (*x, -drive)).collect();
-    let work: f64 = way.windows(2).map(|own| 0.5 * (own[0].1 + own[1].1) * (own[1].0 - own[0].0)).sum();
+    let work: f64 = way
+        .windows(2)
+        .map(|own| 0.5 * (own[0].1 + own[1].1) * (own[1].0 - own[0].0))
+        .sum();
     let (sunk, all) = (0.5 * common::WEIGHT * sag, 0.5 * common::WEIGHT * 0.54709);
     // The prototype has 1.31e6. That is 1/2 P times the bogie's 0.547 ft, which contains the 0.024 ft by which its wheels
     // deflect everywhere. The girder alone sags by 0.5248 ft under one wheel, and the force along the rail does that work in
@@ -205,7 +259,13 @@ fn body_that_overhangs_its_wheels_has_no_equilibrium() {
     scene.bodies[0].cg = [5.0, 0.0, 0.0];
     for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
         scene.analysis = analysis;
-        assert_eq!(run(&scene, girder()).err(), Some(Error::NoEquilibrium { time: 0.0, body: Some(0) }));
+        assert_eq!(
+            run(&scene, girder()).err(),
+            Some(Error::NoEquilibrium {
+                time: 0.0,
+                body: Some(0)
+            })
+        );
     }
 }
 
@@ -215,10 +275,18 @@ fn freedoms_that_move_nothing_of_their_own_are_refused_by_name() {
     let mut scene = rolling(1.0);
     scene.bodies[0].inertia = [0.0; 3];
     scene.bodies[0].cg = [0.0, 4.0, 0.0];
-    let refused = |freedom| Some(Error::NoInertia { body: 0, dof: freedom });
+    let refused = |freedom| {
+        Some(Error::NoInertia {
+            body: 0,
+            dof: freedom,
+        })
+    };
     assert_eq!(run(&scene, girder()).err(), refused(BodyDof::Pitch));
     scene.bodies[0].free[0] = false;
-    assert_eq!(run(&scene, girder()).map(|run| run.status), Ok(Status::Done));
+    assert_eq!(
+        run(&scene, girder()).map(|run| run.status),
+        Ok(Status::Done)
+    );
     scene.bodies[0].cg = [0.0; 3];
     assert_eq!(run(&scene, girder()).err(), refused(BodyDof::Pitch));
 }
@@ -234,8 +302,9 @@ fn middle_wheel_hangs_free_over_a_sag_and_the_others_carry() {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 0.06;
     let mut standing = scene.clone();
-    standing.bodies[0].motion =
-        Some(sim::Profile::new(sim::MotionKind::Position, &[[0.0, 30.0]], 0.0, 0.0).expect("a table"));
+    standing.bodies[0].motion = Some(
+        sim::Profile::new(sim::MotionKind::Position, &[[0.0, 30.0]], 0.0, 0.0).expect("a table"),
+    );
     let run = run(&standing, girder()).expect("valid");
     let [rear, middle, front] = [0, 1, 2].map(|w| run.history.column(Channel::Vertical(w))[0]);
     assert_eq!(middle, 0.0);
@@ -249,12 +318,16 @@ fn wheel_that_runs_off_the_rail_ends_the_run_and_leaves_its_history() {
     for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
         scene.analysis = analysis;
         let run = run(&scene, girder_with_ends()).expect("valid at its start");
-        let Status::Failed(time, _) = run.status else { panic!("{:?}", run.status) };
+        let Status::Failed(time, _) = run.status else {
+            panic!("{:?}", run.status)
+        };
         // The front wheel, 4/3 ft ahead, meets the end at 75 ft after 1.4733 s; the sweep stops at its next sample.
         println!("refused at {time}");
         assert!(time > 1.3 && time <= 1.4801, "{time}");
         assert!(run.history.len() > 130);
-        assert!((0..run.history.len()).all(|i| run.history.sample(i).iter().all(|v| v.is_finite())));
+        assert!(
+            (0..run.history.len()).all(|i| run.history.sample(i).iter().all(|v| v.is_finite()))
+        );
     }
 }
 
@@ -268,21 +341,37 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
     let mut random = move || numbers.f64();
     let mut ended = [0; 4];
     for _ in 0..200 {
-        let damper = if random() < 0.5 { Damper::Rail } else { Damper::Ground };
+        let damper = if random() < 0.5 {
+            Damper::Rail
+        } else {
+            Damper::Ground
+        };
         let mut scene = bogie(120.0 * random() - 20.0, 0.1 + 0.2 * random(), damper);
         scene.accuracy = 10_f64.powf(-1.0 - 4.0 * random());
         scene.output_dt = 0.01;
         let wheel = &mut scene.wheels[0];
         wheel.normal.stiffness = 10_f64.powf(5.0 + 4.0 * random());
         wheel.normal.exponent = if random() < 0.5 { 1.0 } else { 1.0 + random() };
-        wheel.normal.damping = if random() < 0.3 { 0.0 } else { 10_f64.powf(6.0 * random()) };
+        wheel.normal.damping = if random() < 0.3 {
+            0.0
+        } else {
+            10_f64.powf(6.0 * random())
+        };
         wheel.normal.depth = if random() < 0.5 { 0.0 } else { 0.05 * random() };
         wheel.normal.bilateral = random() < 0.2;
         if random() < 0.3 {
-            wheel.flange = Some(Flange { stiffness: 1e7, clearance: 0.04, release: Some([1.25, 1.385]) });
+            wheel.flange = Some(Flange {
+                stiffness: 1e7,
+                clearance: 0.04,
+                release: Some([1.25, 1.385]),
+            });
         }
         if random() < 0.3 {
-            wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
+            wheel.friction = Some(Friction {
+                law: FrictionLaw::Step,
+                coefficient: 0.2,
+                slip: 0.1,
+            });
             wheel.spin_inertia = Some(1e4);
         }
         let body = &mut scene.bodies[0];
@@ -290,7 +379,11 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
         body.free[2] = random() < 0.3;
         body.start_speed[1] = if random() < 0.3 { 4.0 * random() } else { 0.0 };
         body.start_speed[2] = random();
-        let foundation = if random() < 0.3 { Foundation::rigid() } else { girder_with_ends() };
+        let foundation = if random() < 0.3 {
+            Foundation::rigid()
+        } else {
+            girder_with_ends()
+        };
         let Ok(run) = run(&scene, foundation) else {
             ended[3] += 1;
             continue;
@@ -335,7 +428,13 @@ fn a_body_that_starts_against_a_stiff_stop_rests_on_its_wheels() {
     for scene in [swept, free] {
         let held = run(&scene, Foundation::rigid()).expect("a bogie at rest against the stop");
         let found = held.history.column(Channel::Stop(0))[0];
-        assert_near("force of the stop, lb", "analytic", stiffness * pressed / 5.0, found, 1e-9);
+        assert_near(
+            "force of the stop, lb",
+            "analytic",
+            stiffness * pressed / 5.0,
+            found,
+            1e-9,
+        );
     }
 }
 
@@ -347,29 +446,46 @@ fn rails_of_a_fast_crossing_deflect_by_the_influence_function_and_the_forces() {
     for method in [Method::Sdirk4, Method::Esdirk5] {
         let mut scene = rolling(0.25);
         scene.contacts = [-7.5, -2.5, 2.5, 7.5]
-            .map(|offset| sim::Contact { offsets: vec![offset], ..scene.contacts[0].clone() })
+            .map(|offset| sim::Contact {
+                offsets: vec![offset],
+                ..scene.contacts[0].clone()
+            })
             .to_vec();
         scene.wheels[0].normal = sim::NormalLaw::linear(4e6, 1e4, Damper::Ground);
         scene.bodies[0].start_speed[0] = 240.0;
         scene.bodies[0].start[0] = 5.0;
         scene.output_dt = 1e-3;
         scene.accuracy = 6e-3;
-        let run =
-            sim::run_by(method, &scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("valid");
+        let run = sim::run_by(method, &scene, &[girder()], &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("valid");
         assert_eq!(run.status, Status::Done);
-        let columns =
-            |channel: fn(usize) -> Channel| [0, 1, 2, 3].map(|wheel| run.history.column(channel(wheel)));
+        let columns = |channel: fn(usize) -> Channel| {
+            [0, 1, 2, 3].map(|wheel| run.history.column(channel(wheel)))
+        };
         let (x, force) = (columns(Channel::Position), columns(Channel::Vertical));
         let (mut largest, mut apart) = (0.0_f64, 0.0_f64);
         for (wheel, deflection) in columns(Channel::Deflection).iter().enumerate() {
             for (row, deflection) in deflection.iter().enumerate() {
-                let expected: f64 =
-                    (0..4).map(|other| give(x[wheel][row], x[other][row]).0 * force[other][row]).sum();
-                (largest, apart) = (largest.max(expected), apart.max((expected - deflection).abs()));
+                let expected: f64 = (0..4)
+                    .map(|other| give(x[wheel][row], x[other][row]).0 * force[other][row])
+                    .sum();
+                (largest, apart) = (
+                    largest.max(expected),
+                    apart.max((expected - deflection).abs()),
+                );
             }
         }
-        println!("{method:?}, {} steps: {:.1e} of the largest deflection", run.counts.steps, apart / largest);
+        println!(
+            "{method:?}, {} steps: {:.1e} of the largest deflection",
+            run.counts.steps,
+            apart / largest
+        );
         // A tenth of the accuracy.
-        assert!(apart < 0.1 * scene.accuracy * largest, "{apart:e} of {largest:e}");
+        assert!(
+            apart < 0.1 * scene.accuracy * largest,
+            "{apart:e} of {largest:e}"
+        );
     }
 }

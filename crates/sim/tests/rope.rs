@@ -5,7 +5,9 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::space::{self, G, floor, scene};
-use sim::{Actuators, Body, BodyDof, Channel, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run};
+use sim::{
+    Actuators, Body, BodyDof, Channel, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run,
+};
 
 /// A point mass that is free in space.
 fn body(mass: f64, start: [f64; 3], speed: [f64; 3]) -> Body {
@@ -25,7 +27,10 @@ fn go(scene: &Scene) -> Run {
 
 /// Last sample of a displacement.
 fn last(run: &Run, freedom: BodyDof) -> f64 {
-    *run.history.column(Channel::Displacement(0, freedom)).last().expect("samples")
+    *run.history
+        .column(Channel::Displacement(0, freedom))
+        .last()
+        .expect("samples")
 }
 
 /// Analytic: with the ring at angle a0, the period is 4 sqrt(l/g) K(sin(a0/2)), K by the arithmetic-geometric mean;
@@ -41,9 +46,22 @@ fn a_swing_of_sixty_degrees_takes_the_elliptic_period() {
     // stretched by the part of the weight along it: no vibration
     let stretched = l * (1.0 + 1000.0 * G * angle.cos() / ea);
     let start = [stretched * angle.sin(), -stretched * angle.cos(), 0.0];
-    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], ..Actuators::default() };
-    let run = go(&scene(vec![body(1000.0, start, [0.0; 3])], actuators, 0.5 * period, 1e-7));
-    assert!((last(&run, BodyDof::X) + start[0]).abs() < 2e-6, "{} {:?}", last(&run, BodyDof::X), run.counts);
+    let actuators = Actuators {
+        ropes: vec![rope(ea, l, 0)],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(1000.0, start, [0.0; 3])],
+        actuators,
+        0.5 * period,
+        1e-7,
+    ));
+    assert!(
+        (last(&run, BodyDof::X) + start[0]).abs() < 2e-6,
+        "{} {:?}",
+        last(&run, BodyDof::X),
+        run.counts
+    );
     // m g (3 cos - 2 cos a0), at every sample
     let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     for (y, tension) in y.iter().zip(run.history.column(Channel::Tension(0))) {
@@ -63,9 +81,21 @@ fn a_small_swing_of_an_elastic_rope_has_the_period_of_its_stretched_length() {
     let period = 2.0 * std::f64::consts::PI * (l / G).sqrt();
     let x = 1e-3 * l;
     let start = [x, -(l * l - x * x).sqrt(), 0.0];
-    let actuators = Actuators { ropes: vec![rope(ea, l0, 0)], ..Actuators::default() };
-    let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, period, 1e-6));
-    assert!((last(&run, BodyDof::X) / x - 1.0).abs() < 1e-5, "{}", last(&run, BodyDof::X) / x - 1.0);
+    let actuators = Actuators {
+        ropes: vec![rope(ea, l0, 0)],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(m, start, [0.0; 3])],
+        actuators,
+        period,
+        1e-6,
+    ));
+    assert!(
+        (last(&run, BodyDof::X) / x - 1.0).abs() < 1e-5,
+        "{}",
+        last(&run, BodyDof::X) / x - 1.0
+    );
     println!("small: {:?} {:e}", run.counts, run.audit.residual());
 }
 
@@ -73,10 +103,20 @@ fn a_small_swing_of_an_elastic_rope_has_the_period_of_its_stretched_length() {
 #[test]
 fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
     let (m, l, v) = (500.0, 5.0, 6.0);
-    let actuators = Actuators { ropes: vec![rope(1e7, l, 0)], ..Actuators::default() };
-    let run = go(&scene(vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])], actuators, 2.0, 1e-7));
-    let (t, y) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, BodyDof::Y)));
+    let actuators = Actuators {
+        ropes: vec![rope(1e7, l, 0)],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])],
+        actuators,
+        2.0,
+        1e-7,
+    ));
+    let (t, y) = (
+        run.history.column(Channel::Time),
+        run.history.column(Channel::Displacement(0, BodyDof::Y)),
+    );
     let tension = run.history.column(Channel::Tension(0));
     let catch = 2.0 * v / G;
     for ((t, y), tension) in t.iter().zip(&y).zip(&tension) {
@@ -90,7 +130,11 @@ fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
     let peak = m * G + ((m * G).powi(2) + k * m * v * v).sqrt();
     let most = tension.iter().copied().fold(0.0, f64::max);
     assert!((most / peak - 1.0).abs() < 0.05, "{most} {peak}");
-    assert!(run.counts.events >= 1 && run.audit.residual() < 1e-7, "{:e}", run.audit.residual());
+    assert!(
+        run.counts.events >= 1 && run.audit.residual() < 1e-7,
+        "{:e}",
+        run.audit.residual()
+    );
     println!("throw: {:?} {:e}", run.counts, run.audit.residual());
 }
 
@@ -102,19 +146,41 @@ fn a_slack_rope_stores_dissipates_and_supplies_nothing() {
     let mut line = rope(1e7, l, 0);
     line.damping = 3e4;
     line.speed = Schedule::new(&[[0.0, 0.4]]).expect("one row");
-    let actuators = Actuators { ropes: vec![line], ..Actuators::default() };
-    let run = go(&scene(vec![body(m, [0.3, -3.0, 0.0], [0.5, v, 0.0])], actuators, 0.6, 1e-7));
+    let actuators = Actuators {
+        ropes: vec![line],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(m, [0.3, -3.0, 0.0], [0.5, v, 0.0])],
+        actuators,
+        0.6,
+        1e-7,
+    ));
     let (start, end, exchanged) = (run.audit.start, run.audit.end, run.audit.exchanged);
     assert_eq!((start.ropes, end.ropes), (0.0, 0.0));
-    assert_eq!((exchanged.dampers, exchanged.hoists, exchanged.switches), (0.0, 0.0, 0.0));
-    assert!((end.total() / start.total() - 1.0).abs() < 1e-9, "{start:?} {end:?}");
+    assert_eq!(
+        (exchanged.dampers, exchanged.hoists, exchanged.switches),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(
+        (end.total() / start.total() - 1.0).abs() < 1e-9,
+        "{start:?} {end:?}"
+    );
     assert!((last(&run, BodyDof::X) - 0.6).abs() < 1e-12);
     // The same rope, taut: its damper takes what neither the load nor the hoist has in the end.
     let mut line = rope(1e6, l, 0);
     line.damping = 3e4;
     line.speed = Schedule::new(&[[0.0, 0.4]]).expect("one row");
-    let actuators = Actuators { ropes: vec![line], ..Actuators::default() };
-    let run = go(&scene(vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])], actuators, 2.5, 1e-8));
+    let actuators = Actuators {
+        ropes: vec![line],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])],
+        actuators,
+        2.5,
+        1e-8,
+    ));
     assert!(
         run.audit.exchanged.dampers > 1e3 && run.audit.exchanged.hoists > 1e2,
         "{:?}",
@@ -139,11 +205,27 @@ fn a_light_push_on_a_stop_far_from_the_origin_is_held() {
     };
     let mut own = body(m, [1000.0, 0.0, 0.0], [v, 0.0, 0.0]);
     own.free[1] = false;
-    let run = go(&scene(vec![own], Actuators { stops: vec![stop], ..Actuators::default() }, 1.5, 1e-8));
+    let run = go(&scene(
+        vec![own],
+        Actuators {
+            stops: vec![stop],
+            ..Actuators::default()
+        },
+        1.5,
+        1e-8,
+    ));
     let peak = v * (m * k).sqrt();
-    let most = run.history.column(Channel::Stop(0)).into_iter().fold(0.0, f64::max);
+    let most = run
+        .history
+        .column(Channel::Stop(0))
+        .into_iter()
+        .fold(0.0, f64::max);
     assert!((most / peak - 1.0).abs() < 1e-3, "{most} {peak}");
-    let speed = *run.history.column(Channel::Speed(0, BodyDof::X)).last().expect("samples");
+    let speed = *run
+        .history
+        .column(Channel::Speed(0, BodyDof::X))
+        .last()
+        .expect("samples");
     assert!((speed + v).abs() < 1e-6 * v, "{speed}");
 }
 
@@ -151,8 +233,17 @@ fn a_light_push_on_a_stop_far_from_the_origin_is_held() {
 #[test]
 fn a_hung_load_starts_at_rest_stretched_by_its_weight() {
     let (m, l, ea) = (2000.0, 6.0, 5e6);
-    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], hanging: vec![0], ..Actuators::default() };
-    let run = go(&scene(vec![body(m, [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6));
+    let actuators = Actuators {
+        ropes: vec![rope(ea, l, 0)],
+        hanging: vec![0],
+        ..Actuators::default()
+    };
+    let run = go(&scene(
+        vec![body(m, [0.0; 3], [0.0; 3])],
+        actuators,
+        1.0,
+        1e-6,
+    ));
     for tension in run.history.column(Channel::Tension(0)) {
         assert!((tension / (m * G) - 1.0).abs() < 1e-9, "{tension}");
     }
@@ -169,12 +260,25 @@ fn hoisting_off_the_floor_at_speed_peaks_at_weight_and_v_root_k_m() {
     let k_floor = 1e9;
     let floor = floor(-l, k_floor);
     let start = [0.0, -l - m * G / k_floor, 0.0];
-    let actuators = Actuators { ropes: vec![line], stops: vec![floor], ..Actuators::default() };
+    let actuators = Actuators {
+        ropes: vec![line],
+        stops: vec![floor],
+        ..Actuators::default()
+    };
     let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, 0.3, 1e-7));
     let peak = m * G + v * (ea / l * m).sqrt();
-    let most = run.history.column(Channel::Tension(0)).into_iter().fold(0.0, f64::max);
+    let most = run
+        .history
+        .column(Channel::Tension(0))
+        .into_iter()
+        .fold(0.0, f64::max);
     assert!((most / peak - 1.0).abs() < 5e-3, "{most} {peak}");
-    println!("hoist: {most} {peak} {:?} {:e} {:?}", run.counts, run.audit.residual(), run.audit);
+    println!(
+        "hoist: {most} {peak} {:?} {:e} {:?}",
+        run.counts,
+        run.audit.residual(),
+        run.audit
+    );
 }
 
 /// Analytic: v sqrt(m k), and the body comes back with its speed.
@@ -193,10 +297,21 @@ fn a_buffer_peaks_at_v_root_m_k_and_gives_the_speed_back() {
     };
     let mut free = body(m, [0.0; 3], [v, 0.0, 0.0]);
     free.free[1] = false;
-    let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
+    let actuators = Actuators {
+        stops: vec![stop],
+        ..Actuators::default()
+    };
     let run = go(&scene(vec![free], actuators, 2.5, 1e-8));
-    let most = run.history.column(Channel::Stop(0)).into_iter().fold(0.0, f64::max);
-    let back = *run.history.column(Channel::Speed(0, BodyDof::X)).last().expect("samples");
+    let most = run
+        .history
+        .column(Channel::Stop(0))
+        .into_iter()
+        .fold(0.0, f64::max);
+    let back = *run
+        .history
+        .column(Channel::Speed(0, BodyDof::X))
+        .last()
+        .expect("samples");
     assert!((most / (v * (m * k).sqrt()) - 1.0).abs() < 1e-3, "{most}");
     assert!((back / v + 1.0).abs() < 1e-7, "{back}");
     println!("buffer: {:?} {:e}", run.counts, run.audit.residual());
@@ -211,26 +326,49 @@ fn a_conical_pendulum_goes_round_on_a_stiff_rope() {
     let omega = (G / (stretched * angle.cos())).sqrt();
     let radius = stretched * angle.sin();
     let start = [radius, -stretched * angle.cos(), 0.0];
-    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], ..Actuators::default() };
+    let actuators = Actuators {
+        ropes: vec![rope(ea, l, 0)],
+        ..Actuators::default()
+    };
     let speed = [0.0, 0.0, omega * radius];
     let end = 2.0 * std::f64::consts::PI / omega;
     let run = go(&scene(vec![body(m, start, speed)], actuators, end, 1e-7));
     for (freedom, place) in [BodyDof::X, BodyDof::Y, BodyDof::Z].into_iter().zip(start) {
-        assert!((last(&run, freedom) - place).abs() < 1e-5, "{freedom:?} {}", last(&run, freedom) - place);
+        assert!(
+            (last(&run, freedom) - place).abs() < 1e-5,
+            "{freedom:?} {}",
+            last(&run, freedom) - place
+        );
     }
     for tension in run.history.column(Channel::Tension(0)) {
-        assert!((tension / (m * G / angle.cos()) - 1.0).abs() < 1e-5, "{tension}");
+        assert!(
+            (tension / (m * G / angle.cos()) - 1.0).abs() < 1e-5,
+            "{tension}"
+        );
     }
     println!("cone: {:?} {:e}", run.counts, run.audit.residual());
-    assert!(run.counts.steps < 300 && run.audit.residual() < 1e-8, "{:?}", run.counts);
+    assert!(
+        run.counts.steps < 300 && run.audit.residual() < 1e-8,
+        "{:?}",
+        run.counts
+    );
 }
 
 /// Analytic: two equal loads on equal ropes swing together, as 1 to root 2, with w^2 = (2 - root 2) g/l.
 #[test]
 fn a_load_below_a_load_swings_in_the_slow_mode_of_the_double_pendulum() {
     let (m, l, ea, a) = (500.0, 4.0, 1e11, 1e-3);
-    let lower = Rope { from: RopeEnd { body: Some(0), at: [0.0; 3] }, ..rope(ea, l, 1) };
-    let actuators = Actuators { ropes: vec![lower, rope(ea, l, 0)], ..Actuators::default() };
+    let lower = Rope {
+        from: RopeEnd {
+            body: Some(0),
+            at: [0.0; 3],
+        },
+        ..rope(ea, l, 1)
+    };
+    let actuators = Actuators {
+        ropes: vec![lower, rope(ea, l, 0)],
+        ..Actuators::default()
+    };
     let reach = |sine: f64, load: f64| {
         let stretched = l * (1.0 + load * G / ea);
         [stretched * sine, -stretched * (1.0 - sine * sine).sqrt()]
@@ -243,9 +381,17 @@ fn a_load_below_a_load_swings_in_the_slow_mode_of_the_double_pendulum() {
     let period = 2.0 * std::f64::consts::PI / ((2.0 - 2.0_f64.sqrt()) * G / l).sqrt();
     let run = go(&scene(bodies, actuators, period, 1e-7));
     let x = run.history.column(Channel::Displacement(0, BodyDof::X));
-    assert!((last(&run, BodyDof::X) / upper[0] - 1.0).abs() < 1e-4, "{}", last(&run, BodyDof::X) / upper[0]);
+    assert!(
+        (last(&run, BodyDof::X) / upper[0] - 1.0).abs() < 1e-4,
+        "{}",
+        last(&run, BodyDof::X) / upper[0]
+    );
     // halfway, at the other side
-    assert!((x[x.len() / 2] / upper[0] + 1.0).abs() < 1e-4, "{}", x[x.len() / 2]);
+    assert!(
+        (x[x.len() / 2] / upper[0] + 1.0).abs() < 1e-4,
+        "{}",
+        x[x.len() / 2]
+    );
     println!("double: {:?} {:e}", run.counts, run.audit.residual());
 }
 
@@ -257,18 +403,42 @@ fn a_hoisted_swing_below_a_moving_point_closes_its_energy_at_the_pace_of_the_swi
         let mut crab = body(3000.0, [0.0; 3], [0.0; 3]);
         crab.free = [true, false, false, false, false, false];
         let table = [[0.0, 0.0], [2.0, 1.5], [4.0, 1.5], [5.0, 0.0]];
-        crab.motion =
-            Some(sim::Profile::new(sim::MotionKind::Speed, &table, 0.0, 0.0).expect("a valid table"));
-        let mut line = Rope { from: RopeEnd { body: Some(0), at: [0.0; 3] }, ..rope(1e10, 12.0, 1) };
-        line.speed = Schedule::new(&[[1.0, 0.0], [2.0, 0.5], [6.0, 0.5], [7.0, 0.0]]).expect("rows");
+        crab.motion = Some(
+            sim::Profile::new(sim::MotionKind::Speed, &table, 0.0, 0.0).expect("a valid table"),
+        );
+        let mut line = Rope {
+            from: RopeEnd {
+                body: Some(0),
+                at: [0.0; 3],
+            },
+            ..rope(1e10, 12.0, 1)
+        };
+        line.speed =
+            Schedule::new(&[[1.0, 0.0], [2.0, 0.5], [6.0, 0.5], [7.0, 0.0]]).expect("rows");
         line.damping = 2e5;
-        let actuators = Actuators { ropes: vec![line], hanging: vec![1], ..Actuators::default() };
-        go(&scene(vec![crab, body(1000.0, [0.0; 3], [0.0; 3])], actuators, 8.0, accuracy))
+        let actuators = Actuators {
+            ropes: vec![line],
+            hanging: vec![1],
+            ..Actuators::default()
+        };
+        go(&scene(
+            vec![crab, body(1000.0, [0.0; 3], [0.0; 3])],
+            actuators,
+            8.0,
+            accuracy,
+        ))
     };
     let (run, fine) = (solved(1e-7), solved(1e-9));
     let column = |run: &Run| run.history.column(Channel::Displacement(1, BodyDof::X));
-    let apart = column(&run).iter().zip(column(&fine)).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
-    println!("moving: {:?} {:e} {apart:e}", run.counts, run.audit.residual());
+    let apart = column(&run)
+        .iter()
+        .zip(column(&fine))
+        .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+    println!(
+        "moving: {:?} {:e} {apart:e}",
+        run.counts,
+        run.audit.residual()
+    );
     println!("moving: {:?} {:e}", fine.counts, fine.audit.residual());
     assert!(apart < 1e-5, "{apart}");
     assert!(run.audit.residual() < 1e-7, "{:e}", run.audit.residual());
@@ -288,19 +458,44 @@ fn a_buffer_between_two_bodies_peaks_with_their_reduced_mass() {
         stiffness: k,
         damping: 0.0,
     };
-    let mut bodies = vec![body(m1, [0.0; 3], [v, 0.0, 0.0]), body(m2, [3.0, 0.0, 0.0], [0.0; 3])];
+    let mut bodies = vec![
+        body(m1, [0.0; 3], [v, 0.0, 0.0]),
+        body(m2, [3.0, 0.0, 0.0], [0.0; 3]),
+    ];
     bodies.iter_mut().for_each(|body| body.free[1] = false);
-    let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
+    let actuators = Actuators {
+        stops: vec![stop],
+        ..Actuators::default()
+    };
     let run = go(&scene(bodies, actuators, 2.5, 1e-8));
     let force = run.history.column(Channel::Stop(0));
     let peak = v * (k * m1 * m2 / (m1 + m2)).sqrt();
     let most = force.iter().copied().fold(0.0, f64::max);
     assert!((most / peak - 1.0).abs() < 1e-3, "{most} {peak}");
     // the gap is 3 - 1 - 0.5
-    let first = force.iter().position(|force| *force > 0.0).expect("a meeting");
-    assert!((run.history.column(Channel::Time)[first] - 1.0).abs() < 3e-3, "{first}");
-    let after = |b: usize| *run.history.column(Channel::Speed(b, BodyDof::X)).last().expect("samples");
-    assert!((after(0) - v * (m1 - m2) / (m1 + m2)).abs() < 1e-7, "{}", after(0));
-    assert!((after(1) - 2.0 * v * m1 / (m1 + m2)).abs() < 1e-7, "{}", after(1));
+    let first = force
+        .iter()
+        .position(|force| *force > 0.0)
+        .expect("a meeting");
+    assert!(
+        (run.history.column(Channel::Time)[first] - 1.0).abs() < 3e-3,
+        "{first}"
+    );
+    let after = |b: usize| {
+        *run.history
+            .column(Channel::Speed(b, BodyDof::X))
+            .last()
+            .expect("samples")
+    };
+    assert!(
+        (after(0) - v * (m1 - m2) / (m1 + m2)).abs() < 1e-7,
+        "{}",
+        after(0)
+    );
+    assert!(
+        (after(1) - 2.0 * v * m1 / (m1 + m2)).abs() < 1e-7,
+        "{}",
+        after(1)
+    );
     assert!(run.audit.residual() < 1e-8);
 }

@@ -7,12 +7,16 @@ use std::ops::ControlFlow;
 
 use common::modes::{MASS, beam, omega};
 use common::{SPAN, WEIGHT, bogie, girder, surface};
-use sim::{Channel, Damper, Foundation, Gauge, Method, MotionKind, Profile, Run, Scene, Status, run_by};
+use sim::{
+    Channel, Damper, Foundation, Gauge, Method, MotionKind, Profile, Run, Scene, Status, run_by,
+};
 use splines::{Axis, Probe};
 
 fn go(method: Method, scene: &Scene, foundation: Foundation) -> Run {
-    let run =
-        run_by(method, scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run = run_by(method, scene, &[foundation], &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -22,7 +26,14 @@ fn moving(x0: f64, speed: f64, end: f64) -> Scene {
     let mut scene = bogie(speed, end, Damper::Rail);
     scene.bodies[0].motion =
         Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], x0, 0.0).expect("a valid table"));
-    scene.gauges = vec![Gauge { structure: 0, probe: Probe { rail: 0, x: 31.0, axis: Axis::Vertical } }];
+    scene.gauges = vec![Gauge {
+        structure: 0,
+        probe: Probe {
+            rail: 0,
+            x: 31.0,
+            axis: Axis::Vertical,
+        },
+    }];
     scene.accuracy = 1e-8;
     scene
 }
@@ -36,7 +47,10 @@ fn the_first_force_of_a_damper_contains_the_slope_of_a_rail_with_mass() {
     let wave = |r: usize| r as f64 * PI / SPAN;
     let slope = |x: f64| -> f64 {
         let of = |r: usize| {
-            let load: f64 = places.iter().map(|place| 0.5 * WEIGHT * (wave(r) * place).sin()).sum();
+            let load: f64 = places
+                .iter()
+                .map(|place| 0.5 * WEIGHT * (wave(r) * place).sin())
+                .sum();
             2.0 / (MASS * SPAN) * load / omega(r).powi(2) * wave(r) * (wave(r) * x).cos()
         };
         (1..=count).map(of).sum()
@@ -47,9 +61,18 @@ fn the_first_force_of_a_damper_contains_the_slope_of_a_rail_with_mass() {
             let force = run.history.column(Channel::Vertical(w))[0];
             let depth = run.history.column(Channel::Penetration(w))[0];
             let wanted = 0.5 * WEIGHT - 1e5 * speed * slope(x);
-            assert!((wanted - 0.5 * WEIGHT).abs() > 1e4, "the damper matters: {wanted}");
-            assert!((force / wanted - 1.0).abs() < 1e-11, "{method:?}, wheel {w}: {force} for {wanted}");
-            assert!((depth / (0.5 * WEIGHT / 1e8) - 1.0).abs() < 1e-11, "{depth}");
+            assert!(
+                (wanted - 0.5 * WEIGHT).abs() > 1e4,
+                "the damper matters: {wanted}"
+            );
+            assert!(
+                (force / wanted - 1.0).abs() < 1e-11,
+                "{method:?}, wheel {w}: {force} for {wanted}"
+            );
+            assert!(
+                (depth / (0.5 * WEIGHT / 1e8) - 1.0).abs() < 1e-11,
+                "{depth}"
+            );
         }
     }
 }
@@ -75,7 +98,10 @@ fn every_first_sample_is_the_limit_of_those_after_it() {
                 let whole = go(method, &scene, foundation());
                 for &channel in early.history.channels() {
                     let column = early.history.column(channel);
-                    let size = whole.history.values(channel).fold(0.0_f64, |max, value| max.max(value.abs()));
+                    let size = whole
+                        .history
+                        .values(channel)
+                        .fold(0.0_f64, |max, value| max.max(value.abs()));
                     let limit = 3.0 * column[1] - 3.0 * column[2] + column[3];
                     assert!(
                         (column[0] - limit).abs() <= 1e-4 * size,
@@ -151,7 +177,11 @@ fn a_rail_without_mass_keeps_its_deflection_for_an_instant_and_its_force_begins_
     let constant = c * compliance / (1.0 + k * compliance);
     scene.end = constant;
     scene.output_dt = 0.05 * constant;
-    let run = go(Method::Radau, &scene, Foundation::massless(Box::new(surface()), 1));
+    let run = go(
+        Method::Radau,
+        &scene,
+        Foundation::massless(Box::new(surface()), 1),
+    );
     let force = run.history.column(Channel::Vertical(0));
     let rate = rate_at_first(&force, scene.output_dt);
     assert!((force[0] / load - 1.0).abs() < 1e-11, "{}", force[0]);
@@ -182,18 +212,36 @@ fn wheels_much_stiffer_than_their_rail_are_at_rest() {
             (law.stiffness, law.exponent, law.damping) =
                 (0.5 * WEIGHT / 5e-6_f64.powf(exponent), exponent, 0.0);
             let mut second = scene.bodies[0].clone();
-            second.motion =
-                Some(Profile::new(MotionKind::Speed, &[[0.0, 0.0]], x0 + 17.3, 0.0).expect("a valid table"));
+            second.motion = Some(
+                Profile::new(MotionKind::Speed, &[[0.0, 0.0]], x0 + 17.3, 0.0)
+                    .expect("a valid table"),
+            );
             scene.bodies.push(second);
-            let others: Vec<_> =
-                scene.contacts.iter().map(|own| sim::Contact { body: 1, ..own.clone() }).collect();
+            let others: Vec<_> = scene
+                .contacts
+                .iter()
+                .map(|own| sim::Contact {
+                    body: 1,
+                    ..own.clone()
+                })
+                .collect();
             scene.contacts.extend(others);
-            let run = go(Method::Sdirk4, &scene, Foundation::massless(Box::new(surface()), 1));
+            let run = go(
+                Method::Sdirk4,
+                &scene,
+                Foundation::massless(Box::new(surface()), 1),
+            );
             for w in 0..4 {
                 let force = run.history.column(Channel::Vertical(w))[0];
                 let depth = run.history.column(Channel::Penetration(w))[0];
-                assert!((force / (0.5 * WEIGHT) - 1.0).abs() < 1e-9, "{x0}, {exponent}: {force}");
-                assert!((depth / 5e-6 - 1.0).abs() < 1e-9, "{x0}, {exponent}: {depth}");
+                assert!(
+                    (force / (0.5 * WEIGHT) - 1.0).abs() < 1e-9,
+                    "{x0}, {exponent}: {force}"
+                );
+                assert!(
+                    (depth / 5e-6 - 1.0).abs() < 1e-9,
+                    "{x0}, {exponent}: {depth}"
+                );
             }
         }
     }

@@ -49,13 +49,20 @@ fn all() -> Vec<(&'static str, usize, StepMethod)> {
 
 /// Longest step times frequency up to which z'' + 2 zeta z' + z = 0 does not grow; none below 50.
 fn limit(stepper: (usize, StepMethod), zeta: f64) -> Option<f64> {
-    let of = Oscillator { damping: &|_| 2.0 * zeta, stiffness: &|_| 1.0 };
+    let of = Oscillator {
+        damping: &|_| 2.0 * zeta,
+        stiffness: &|_| 1.0,
+    };
     let grows = |h: f64| monodromy(&of, stepper.1, stepper.0, h, 1) > 1.0 + GROWTH;
     let first = (1..5000).map(|i| 0.01 * f64::from(i)).find(|h| grows(*h))?;
     let (mut low, mut high) = (first - 0.01, first);
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
-        if grows(middle) { high = middle } else { low = middle }
+        if grows(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
     }
     Some(low)
 }
@@ -98,7 +105,11 @@ struct Crossing {
 impl Crossing {
     fn at(speed: f64) -> Crossing {
         let mass = 2.4e6 / GRAVITY;
-        Crossing { speed, omega: (1e8 / mass).sqrt(), damping: 1e5 / mass }
+        Crossing {
+            speed,
+            omega: (1e8 / mass).sqrt(),
+            damping: 1e5 / mass,
+        }
     }
 
     /// Time of a span by the wheel's on its spring, times 2 pi.
@@ -111,12 +122,18 @@ impl Crossing {
             let x = self.speed * t;
             self.omega * self.omega / (1.0 + 1e8 * give(x, x).0)
         };
-        let of = Oscillator { damping: &|_| self.damping, stiffness: &stiffness };
+        let of = Oscillator {
+            damping: &|_| self.damping,
+            stiffness: &stiffness,
+        };
         monodromy(&of, stepper.1, stepper.0, SPAN / self.speed, count)
     }
 
     fn physical(&self) -> f64 {
-        self.radius((2, STEPPERS[2].2), (40.0 * self.turns()).max(400.0) as usize)
+        self.radius(
+            (2, STEPPERS[2].2),
+            (40.0 * self.turns()).max(400.0) as usize,
+        )
     }
 }
 
@@ -124,7 +141,8 @@ impl Crossing {
 fn first(stepper: (usize, StepMethod), speed: f64) -> Option<f64> {
     let crossing = Crossing::at(speed);
     let physical = crossing.physical();
-    let [least, most] = [12.0, 0.2].map(|step: f64| (crossing.turns() / step).ceil().max(1.0) as usize);
+    let [least, most] =
+        [12.0, 0.2].map(|step: f64| (crossing.turns() / step).ceil().max(1.0) as usize);
     let mut counts = (least..=most).rev();
     let found = counts.find(|count| crossing.radius(stepper, *count) > physical.max(1.0) + GROWTH);
     found.map(|count| crossing.turns() / count as f64)
@@ -146,7 +164,15 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
     let cases: [(&str, &[Case]); 7] = [
         ("semi-implicit Euler", &[(300.0, 0.49, Some(0.4308))]),
         ("Dormand-Prince 5", &[(300.0, 0.31, Some(0.2362))]),
-        ("midpoint", &[(30.0, 8.14, None), (50.0, 10.98, None), (80.0, 4.58, None), (100.0, 7.32, None)]),
+        (
+            "midpoint",
+            &[
+                (30.0, 8.14, None),
+                (50.0, 10.98, None),
+                (80.0, 4.58, None),
+                (100.0, 7.32, None),
+            ],
+        ),
         (
             "trapezoid (Newmark 1/4)",
             &[
@@ -157,12 +183,21 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
                 (300.0, 0.73, Some(0.6657)),
             ],
         ),
-        ("generalised-alpha 0.8", &[(30.0, 10.5, None), (80.0, 9.2, Some(4.577)), (200.0, 5.5, None)]),
+        (
+            "generalised-alpha 0.8",
+            &[
+                (30.0, 10.5, None),
+                (80.0, 9.2, Some(4.577)),
+                (200.0, 5.5, None),
+            ],
+        ),
         ("generalised-alpha 0.5", &[(200.0, 5.5, Some(3.661))]),
         ("BDF2", &[(200.0, 3.66, None)]),
     ];
     for (name, size, step) in all() {
-        let Some((_, own)) = cases.iter().find(|(known, _)| *known == name) else { continue };
+        let Some((_, own)) = cases.iter().find(|(known, _)| *known == name) else {
+            continue;
+        };
         for (speed, known, ours) in *own {
             let found = first((size, step), *speed).expect("it grows somewhere");
             let what = format!("{name}, {speed} ft/s: first growing step x frequency");
@@ -176,9 +211,18 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
         }
     }
     let range = |name: &str, speeds: &[f64]| {
-        let (_, size, step) = all().into_iter().find(|(own, ..)| *own == name).expect("known");
-        let found: Vec<f64> = speeds.iter().filter_map(|speed| first((size, step), *speed)).collect();
-        [found.iter().copied().fold(f64::INFINITY, f64::min), found.iter().copied().fold(0.0, f64::max)]
+        let (_, size, step) = all()
+            .into_iter()
+            .find(|(own, ..)| *own == name)
+            .expect("known");
+        let found: Vec<f64> = speeds
+            .iter()
+            .filter_map(|speed| first((size, step), *speed))
+            .collect();
+        [
+            found.iter().copied().fold(f64::INFINITY, f64::min),
+            found.iter().copied().fold(0.0, f64::max),
+        ]
     };
     let speeds = [5.0, 10.0, 20.0, 30.0, 50.0, 80.0, 100.0];
     for (name, until, known) in [
@@ -188,14 +232,20 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
     ] {
         let found = range(name, &speeds[..until]);
         for (word, (known, found)) in ["least", "most"].iter().zip(known.iter().zip(found)) {
-            let what =
-                format!("{name}, 5 to {} ft/s: first growing step x frequency, {word}", speeds[until - 1]);
+            let what = format!(
+                "{name}, 5 to {} ft/s: first growing step x frequency, {word}",
+                speeds[until - 1]
+            );
             assert_near(what, "prototype", *known, found, 0.02);
         }
     }
     let (_, size, step) = all()[STEPPERS.len()];
     for speed in [10.0, 30.0, 50.0, 80.0, 100.0, 200.0, 300.0] {
-        assert_eq!(first((size, step), speed), None, "Radau IIA 3 grows nowhere");
+        assert_eq!(
+            first((size, step), speed),
+            None,
+            "Radau IIA 3 grows nowhere"
+        );
     }
     assert_near(
         "growth of the motion itself over a span at 300 ft/s",

@@ -1,6 +1,9 @@
 //! Carriages on equalisers with mass: trees of pinned bodies against derivations of their own.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -42,16 +45,26 @@ fn carriage(end: f64) -> Scene {
             start: [0.0; 6],
             start_speed: [0.0; 6],
             motion: None,
-            pinned: Some(Pin { body: to, at: [at, 0.0, 0.0] }),
+            pinned: Some(Pin {
+                body: to,
+                at: [at, 0.0, 0.0],
+            }),
         });
     }
-    let contact = |body, offset| Contact { body, offsets: vec![offset], ..scene.contacts[0].clone() };
-    scene.contacts = (3..7).flat_map(|body| [contact(body, -WHEEL), contact(body, WHEEL)]).collect();
+    let contact = |body, offset| Contact {
+        body,
+        offsets: vec![offset],
+        ..scene.contacts[0].clone()
+    };
+    scene.contacts = (3..7)
+        .flat_map(|body| [contact(body, -WHEEL), contact(body, WHEEL)])
+        .collect();
     scene
 }
 
 fn run(scene: &Scene) -> Run {
-    let run = sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -77,7 +90,10 @@ impl Reference {
         for (i, (to, at, mass, inertia)) in TREE.into_iter().enumerate() {
             let body = i + 1;
             place[body] = place[to] + at;
-            (saddle[(2 * body, 2 * body)], saddle[(2 * body + 1, 2 * body + 1)]) = (mass, inertia);
+            (
+                saddle[(2 * body, 2 * body)],
+                saddle[(2 * body + 1, 2 * body + 1)],
+            ) = (mass, inertia);
             weight[2 * body] = -mass * GRAVITY;
             for (column, value) in [(2 * body, 1.0), (2 * to, -1.0), (2 * to + 1, -at)] {
                 (saddle[(14 + i, column)], saddle[(column, 14 + i)]) = (value, value);
@@ -91,7 +107,12 @@ impl Reference {
             offsets[wheel] = place[body] + offset;
         }
         let inverse = saddle.try_inverse().expect("pins do not repeat each other");
-        Reference { inverse, wheels, offsets, weight }
+        Reference {
+            inverse,
+            wheels,
+            offsets,
+            weight,
+        }
     }
 
     fn compliance(&self, t: f64) -> SMatrix<f64, 8, 8> {
@@ -128,9 +149,16 @@ impl Reference {
         let mut load = self.weight.clone();
         let forces = self.forces(t, state);
         let lifted = self.wheels.transpose() * DVector::from_column_slice(forces.as_slice());
-        load.rows_mut(0, 14).zip_apply(&lifted, |load, up| *load += up);
+        load.rows_mut(0, 14)
+            .zip_apply(&lifted, |load, up| *load += up);
         let accelerations = &self.inverse * load;
-        DVector::from_fn(28, |i, _| if i < 14 { state[14 + i] } else { accelerations[i - 14] })
+        DVector::from_fn(28, |i, _| {
+            if i < 14 {
+                state[14 + i]
+            } else {
+                accelerations[i - 14]
+            }
+        })
     }
 
     fn step(&self, t: f64, h: f64, state: &DVector<f64>) -> DVector<f64> {
@@ -145,9 +173,13 @@ impl Reference {
 /// Largest errors of the carriage's deflection and of the wheel forces, relative to their peaks.
 fn errors(run: &Run, h: f64) -> [f64; 2] {
     let reference = Reference::new();
-    let (time, y) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, BodyDof::Y)));
-    let wheels: Vec<Vec<f64>> = (0..8).map(|w| run.history.column(Channel::Vertical(w))).collect();
+    let (time, y) = (
+        run.history.column(Channel::Time),
+        run.history.column(Channel::Displacement(0, BodyDof::Y)),
+    );
+    let wheels: Vec<Vec<f64>> = (0..8)
+        .map(|w| run.history.column(Channel::Vertical(w)))
+        .collect();
     let (mut state, mut peak, mut worst) = (reference.start(), [0.0_f64; 2], [0.0_f64; 2]);
     let (mut t, mut done) = (0.0, 0);
     for (i, &sample) in time.iter().enumerate() {
@@ -184,7 +216,11 @@ fn eight_wheels_under_massive_equalisers_follow_lagrange_multipliers() {
         );
         assert!(z < bound, "z errs by {z}");
         assert!(force < 10.0 * bound, "a wheel force errs by {force}");
-        assert!(run.audit.residual() < 0.03 * bound, "energy residual {}", run.audit.residual());
+        assert!(
+            run.audit.residual() < 0.03 * bound,
+            "energy residual {}",
+            run.audit.residual()
+        );
     }
 }
 
@@ -195,38 +231,67 @@ fn a_tree_at_rest_is_the_carriage_on_massless_equalisers() {
     let mut nested = bogie(SPEED, 6.0, Damper::Ground);
     (nested.analysis, nested.output_dt) = (Analysis::QuasiStatic, 0.5);
     let offsets = |side: f64| {
-        [-3.0 - WHEEL, -3.0 + WHEEL, 3.0 - WHEEL, 3.0 + WHEEL].map(|offset| offset + side).to_vec()
+        [-3.0 - WHEEL, -3.0 + WHEEL, 3.0 - WHEEL, 3.0 + WHEEL]
+            .map(|offset| offset + side)
+            .to_vec()
     };
-    nested.contacts =
-        [-6.0, 6.0].map(|side| Contact { offsets: offsets(side), ..nested.contacts[0].clone() }).to_vec();
+    nested.contacts = [-6.0, 6.0]
+        .map(|side| Contact {
+            offsets: offsets(side),
+            ..nested.contacts[0].clone()
+        })
+        .to_vec();
     let (tree, nested) = (run(&tree), run(&nested));
     for freedom in [BodyDof::X, BodyDof::Y, BodyDof::Pitch] {
-        let [a, b] = [&tree, &nested].map(|run| run.history.column(Channel::Displacement(0, freedom)));
+        let [a, b] =
+            [&tree, &nested].map(|run| run.history.column(Channel::Displacement(0, freedom)));
         for (a, b) in a.iter().zip(&b) {
-            assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{freedom:?}: {a} and {b}");
+            assert!(
+                (a - b).abs() < 1e-10 * (1.0 + b.abs()),
+                "{freedom:?}: {a} and {b}"
+            );
         }
     }
     for w in 0..8 {
         let [places, others] = [&tree, &nested].map(|run| run.history.column(Channel::Position(w)));
         for (x, other) in places.iter().zip(&others) {
-            assert!((x - other).abs() < 1e-12 * 100.0, "wheel {w} at {x} and {other}");
+            assert!(
+                (x - other).abs() < 1e-12 * 100.0,
+                "wheel {w} at {x} and {other}"
+            );
         }
         for force in tree.history.column(Channel::Vertical(w)) {
-            assert!((force - WEIGHT / 8.0).abs() < 1e-8 * WEIGHT, "wheel {w} carries {force}");
+            assert!(
+                (force - WEIGHT / 8.0).abs() < 1e-8 * WEIGHT,
+                "wheel {w} carries {force}"
+            );
         }
     }
 }
 
 #[test]
 fn pins_in_a_circle_and_translations_of_pinned_bodies_are_refused() {
-    let refused = |scene: &Scene| sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).err();
+    let refused =
+        |scene: &Scene| sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).err();
     let mut circle = carriage(0.5);
-    circle.bodies[1].pinned = Some(Pin { body: 3, at: [0.0; 3] });
+    circle.bodies[1].pinned = Some(Pin {
+        body: 3,
+        at: [0.0; 3],
+    });
     assert!(matches!(refused(&circle), Some(Error::Pinned { .. })));
     let mut sliding = carriage(0.5);
     sliding.bodies[2].free[0] = true;
     assert_eq!(refused(&sliding), Some(Error::Pinned { body: 2 }));
     let mut nowhere = carriage(0.5);
-    nowhere.bodies[2].pinned = Some(Pin { body: 9, at: [0.0; 3] });
-    assert_eq!(refused(&nowhere), Some(Error::NoSuch { what: "body", index: 9 }));
+    nowhere.bodies[2].pinned = Some(Pin {
+        body: 9,
+        at: [0.0; 3],
+    });
+    assert_eq!(
+        refused(&nowhere),
+        Some(Error::NoSuch {
+            what: "body",
+            index: 9
+        })
+    );
 }

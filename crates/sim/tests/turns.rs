@@ -1,6 +1,9 @@
 //! Wheels whose spin is prescribed against closed forms and an independent integration.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -9,8 +12,8 @@ use std::ops::ControlFlow;
 use common::kutta::rk4;
 use common::{GRAVITY, bogie};
 use sim::{
-    BodyDof, Channel, Damper, Error, Foundation, Friction, FrictionLaw, Load, MotionKind, PrescribedSpin,
-    Profile, Run, Scene, Schedule, Status,
+    BodyDof, Channel, Damper, Error, Foundation, Friction, FrictionLaw, Load, MotionKind,
+    PrescribedSpin, Profile, Run, Scene, Schedule, Status,
 };
 
 const MASS: f64 = 5.0;
@@ -29,23 +32,41 @@ fn turned(given: MotionKind, table: &[[f64; 2]], slip: f64, others: usize, end: 
     body.free = [true, true, false, false, false, false];
     scene.contacts.truncate(1 + others);
     let wheel = &mut scene.wheels[0];
-    (wheel.normal.stiffness, wheel.normal.damping, wheel.spin_inertia) = (K, 0.0, Some(INERTIA));
-    wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: MU, slip });
+    (
+        wheel.normal.stiffness,
+        wheel.normal.damping,
+        wheel.spin_inertia,
+    ) = (K, 0.0, Some(INERTIA));
+    wheel.friction = Some(Friction {
+        law: FrictionLaw::Step,
+        coefficient: MU,
+        slip,
+    });
     let motion = Profile::new(given, table, 0.0, 0.0).expect("rows");
-    scene.actuators.spins = vec![PrescribedSpin { contact: 0, wheel: 0, motion }];
+    scene.actuators.spins = vec![PrescribedSpin {
+        contact: 0,
+        wheel: 0,
+        motion,
+    }];
     scene.accuracy = 1e-8;
     scene
 }
 
 fn run(scene: &Scene) -> Run {
-    let run = sim::run(scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()));
+    let run = sim::run(scene, &[Foundation::rigid()], &mut |_| {
+        ControlFlow::Continue(())
+    });
     let run = run.expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
 
 fn last(run: &Run, channel: Channel) -> f64 {
-    run.history.column(channel).last().copied().expect("a run has rows")
+    run.history
+        .column(channel)
+        .last()
+        .copied()
+        .expect("a run has rows")
 }
 
 /// Height of the hub over the rail.
@@ -59,8 +80,14 @@ fn slide(slip: f64, share: f64) -> f64 {
 }
 
 fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    println!("{what}: {found} of {expected}, {:.1e}", (found - expected).abs());
-    assert!((found - expected).abs() < tolerance, "{what}: {found} is not {expected}");
+    println!(
+        "{what}: {found} of {expected}, {:.1e}",
+        (found - expected).abs()
+    );
+    assert!(
+        (found - expected).abs() < tolerance,
+        "{what}: {found} is not {expected}"
+    );
 }
 
 #[test]
@@ -70,13 +97,41 @@ fn wheel_slides_steadily_where_friction_balances_a_load() {
     let mut scene = turned(MotionKind::Speed, &[[0.0, spin]], slip, 0, 3.0);
     let pushed = share * MU * WEIGHT;
     let value = Schedule::new(&[[0.0, pushed]]).expect("a row");
-    scene.actuators.loads = vec![Load { body: 0, dof: BodyDof::X, value }];
+    scene.actuators.loads = vec![Load {
+        body: 0,
+        dof: BodyDof::X,
+        value,
+    }];
     let found = run(&scene);
-    close("speed", last(&found, V), -spin * arm() + slide(slip, share), 1e-8);
-    close("friction", last(&found, Channel::Traction(0)), pushed, 1e-6 * pushed);
-    close("moment", last(&found, Channel::SpinMoment(0)), arm() * pushed, 1e-6 * pushed);
-    close("angle", last(&found, Channel::SpinAngle(0)), 3.0 * spin, 1e-12);
-    assert!(found.audit.imbalance < 1e-7 * 0.5 * MASS * 25.0, "{:e}", found.audit.imbalance);
+    close(
+        "speed",
+        last(&found, V),
+        -spin * arm() + slide(slip, share),
+        1e-8,
+    );
+    close(
+        "friction",
+        last(&found, Channel::Traction(0)),
+        pushed,
+        1e-6 * pushed,
+    );
+    close(
+        "moment",
+        last(&found, Channel::SpinMoment(0)),
+        arm() * pushed,
+        1e-6 * pushed,
+    );
+    close(
+        "angle",
+        last(&found, Channel::SpinAngle(0)),
+        3.0 * spin,
+        1e-12,
+    );
+    assert!(
+        found.audit.imbalance < 1e-7 * 0.5 * MASS * 25.0,
+        "{:e}",
+        found.audit.imbalance
+    );
 }
 
 #[test]
@@ -85,7 +140,13 @@ fn body_follows_the_rim_of_its_wheel_where_hardly_any_slip_is_needed() {
     let (alpha, end) = (-3.0, 2.0);
     let share = MASS * 3.0 * arm() / (MU * WEIGHT);
     for slip in [1e-2, 1e-4] {
-        let found = run(&turned(MotionKind::Acceleration, &[[0.0, alpha]], slip, 0, end));
+        let found = run(&turned(
+            MotionKind::Acceleration,
+            &[[0.0, alpha]],
+            slip,
+            0,
+            end,
+        ));
         let rim = -alpha * end * arm();
         close("speed", last(&found, V), rim - slide(slip, share), 1e-7);
         close(
@@ -99,9 +160,18 @@ fn body_follows_the_rim_of_its_wheel_where_hardly_any_slip_is_needed() {
         // What the moment puts in is what moves, and a little friction.
         let exchanged = &found.audit.exchanged;
         let moving = 0.5 * MASS * last(&found, V).powi(2) + 0.5 * INERTIA * (alpha * end).powi(2);
-        close("work", exchanged.drives - exchanged.friction, moving, 1e-6 * moving);
+        close(
+            "work",
+            exchanged.drives - exchanged.friction,
+            moving,
+            1e-6 * moving,
+        );
         assert!(exchanged.friction < 2.0 * slip * MU * WEIGHT * end);
-        assert!(found.audit.imbalance < 1e-7 * moving, "{:e}", found.audit.imbalance);
+        assert!(
+            found.audit.imbalance < 1e-7 * moving,
+            "{:e}",
+            found.audit.imbalance
+        );
     }
 }
 
@@ -109,20 +179,41 @@ fn body_follows_the_rim_of_its_wheel_where_hardly_any_slip_is_needed() {
 fn spinning_wheel_pulls_with_all_its_friction_until_it_rolls() {
     // Analytic: v = mu g t while it slides; the moment is -h mu N, its power splits evenly into speed and heat.
     let (slip, spin, end) = (0.05, -40.0, 1.0);
-    let found = run(&turned(MotionKind::Position, &[[0.0, 0.0], [1.0, spin]], slip, 0, end));
+    let found = run(&turned(
+        MotionKind::Position,
+        &[[0.0, 0.0], [1.0, spin]],
+        slip,
+        0,
+        end,
+    ));
     close("speed", last(&found, V), MU * GRAVITY * end, 1e-7);
     let history = found.history.column(Channel::SpinMoment(0));
     close("moment", history[50], -arm() * MU * WEIGHT, 1e-7);
     // The table ends with the run: there the wheel is stopped, and gives its own energy back.
     let put_in = arm() * MU * WEIGHT * -spin * end - 0.5 * INERTIA * spin * spin;
-    close("work", found.audit.exchanged.drives, put_in, 1e-6 * put_in.abs());
-    assert!(found.audit.imbalance < 1e-7 * put_in.abs(), "{:e}", found.audit.imbalance);
+    close(
+        "work",
+        found.audit.exchanged.drives,
+        put_in,
+        1e-6 * put_in.abs(),
+    );
+    assert!(
+        found.audit.imbalance < 1e-7 * put_in.abs(),
+        "{:e}",
+        found.audit.imbalance
+    );
 }
 
 #[test]
 fn driven_wheel_takes_its_body_and_the_other_wheel_along() {
     let (slip, end) = (0.3, 1.5);
-    let found = run(&turned(MotionKind::Speed, &[[0.0, 0.0], [1.0, -6.0]], slip, 1, end));
+    let found = run(&turned(
+        MotionKind::Speed,
+        &[[0.0, 0.0], [1.0, -6.0]],
+        slip,
+        1,
+        end,
+    ));
     // External: v and the other spin by Runge-Kutta; both wheels carry half of the weight.
     let arm = 1.25 - 0.5 * WEIGHT / K;
     let friction = |s: f64| {
@@ -130,19 +221,30 @@ fn driven_wheel_takes_its_body_and_the_other_wheel_along() {
         0.5 * MU * WEIGHT * (1.5 * s - 0.5 * s * s * s)
     };
     let [v, other] = rk4([0.0, 0.0], end, 150_000, |t, [v, other]| {
-        let (driven, rolling) = (friction(v - arm * 6.0 * t.min(1.0)), friction(v + arm * other));
+        let (driven, rolling) = (
+            friction(v - arm * 6.0 * t.min(1.0)),
+            friction(v + arm * other),
+        );
         [-(driven + rolling) / MASS, -rolling * arm / INERTIA]
     });
     close("speed", last(&found, V), v, 1e-6);
     close("spin", last(&found, Channel::SpinSpeed(1)), other, 1e-6);
-    assert!(found.audit.imbalance < 1e-6 * 0.5 * MASS * v * v, "{:e}", found.audit.imbalance);
+    assert!(
+        found.audit.imbalance < 1e-6 * 0.5 * MASS * v * v,
+        "{:e}",
+        found.audit.imbalance
+    );
 }
 
 #[test]
 fn spins_that_cannot_be_prescribed_are_refused() {
     let table = [[0.0, 1.0]];
-    let refused =
-        |scene: &Scene| sim::run(scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(())).err();
+    let refused = |scene: &Scene| {
+        sim::run(scene, &[Foundation::rigid()], &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .err()
+    };
     let mut scene = turned(MotionKind::Speed, &table, 0.1, 0, 1.0);
     scene.actuators.spins[0].wheel = 1;
     assert!(matches!(refused(&scene), Some(Error::NoSuch { .. })));

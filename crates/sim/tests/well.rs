@@ -1,6 +1,9 @@
 //! Energy of a bogie that rolls freely in the sag it makes: kept by a symmetric give, not by tables as they are read.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 #[path = "../../splines/tests/beam/printed.rs"]
@@ -12,7 +15,8 @@ use common::near::{assert_at_most, assert_near};
 use common::{GRAVITY, WEIGHT, bogie, surface};
 use sim::{BodyDof, Channel, Damper, Foundation, Run, Status};
 use splines::{
-    Axis, Compliance, Differentiable, Error, Influence, InfluenceBlock, Probe, ReadingMethod, TableReading,
+    Axis, Compliance, Differentiable, Error, Influence, InfluenceBlock, Probe, ReadingMethod,
+    TableReading,
 };
 
 /// Where the bogie is let go, ft; two turns end one cycle.
@@ -28,14 +32,19 @@ fn rolling(foundation: Foundation, end: f64, accuracy: f64) -> Run {
     body.start[0] = START;
     scene.accuracy = accuracy;
     scene.output_dt = 1e-3 * end;
-    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("the bogie stands");
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()))
+        .expect("the bogie stands");
     assert_eq!(run.status, Status::Done);
     run
 }
 
 fn reading(kind: ReadingMethod) -> TableReading {
     let way = (0, Axis::Vertical);
-    let sheet = InfluenceBlock { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
+    let sheet = InfluenceBlock {
+        deflection: way,
+        load: way,
+        table: printed::table(&printed::VERTICAL),
+    };
     TableReading::new(kind, &[sheet]).expect("a table")
 }
 
@@ -72,15 +81,20 @@ impl Compliance for Turned {
 
 /// Time of the `count`-th turn.
 fn turn(run: &Run, count: usize) -> f64 {
-    let [t, v] = [Channel::Time, Channel::Speed(0, BodyDof::X)].map(|channel| run.history.column(channel));
+    let [t, v] =
+        [Channel::Time, Channel::Speed(0, BodyDof::X)].map(|channel| run.history.column(channel));
     // Released at rest, it heads for midspan: the first turn is that at the far side.
     let turns = (1..v.len()).filter(|&i| t[i] > 1.0 && v[i - 1] * v[i] <= 0.0);
-    turns.map(|i| t[i]).nth(count - 1).expect("it turns that often")
+    turns
+        .map(|i| t[i])
+        .nth(count - 1)
+        .expect("it turns that often")
 }
 
 fn largest_kinetic(run: &Run) -> f64 {
     let v = run.history.column(Channel::Speed(0, BodyDof::X));
-    v.iter().fold(0.0_f64, |max, v| max.max(0.5 * WEIGHT / GRAVITY * v * v))
+    v.iter()
+        .fold(0.0_f64, |max, v| max.max(0.5 * WEIGHT / GRAVITY * v * v))
 }
 
 #[test]
@@ -89,7 +103,11 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
     let end = turn(&rolling(exact(), 160.0, 1e-4), 7);
     let run = rolling(exact(), end, 1e-8);
     let drift = run.audit.end.total() - run.audit.start.total();
-    println!("exact: {end:.1} s, {drift:.2e} of {:.3e} ft lb, {:?}", largest_kinetic(&run), run.counts);
+    println!(
+        "exact: {end:.1} s, {drift:.2e} of {:.3e} ft lb, {:?}",
+        largest_kinetic(&run),
+        run.counts
+    );
     let kinetic = largest_kinetic(&run);
     assert_near(
         "undamped bogie let go at 12 ft: largest kinetic energy in its well, ft lb",
@@ -106,7 +124,10 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
     );
 
     let natural = rolling(printed_table(ReadingMethod::Natural), end, 1e-6);
-    println!("printed table, natural: {:.2e} ft lb", natural.audit.end.total() - natural.audit.start.total());
+    println!(
+        "printed table, natural: {:.2e} ft lb",
+        natural.audit.end.total() - natural.audit.start.total()
+    );
     assert!(natural.audit.imbalance < 1e-7 * largest_kinetic(&natural));
 }
 
@@ -117,9 +138,14 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
 #[test]
 fn akispl_errs_by_a_tenth_of_the_well_on_the_way_either_way_round() {
     let turned = Foundation::massless(Box::new(Turned(reading(ReadingMethod::Akispl))), 1);
-    for (what, foundation, wanted) in
-        [("as in decks", printed_table(ReadingMethod::Akispl), 83_589.0), ("turned", turned, 76_304.0)]
-    {
+    for (what, foundation, wanted) in [
+        (
+            "as in decks",
+            printed_table(ReadingMethod::Akispl),
+            83_589.0,
+        ),
+        ("turned", turned, 76_304.0),
+    ] {
         let run = rolling(foundation, 133.6, 1e-6);
         let change = run.audit.end.total() - run.audit.start.total();
         let (kinetic, largest) = (largest_kinetic(&run), run.audit.imbalance);

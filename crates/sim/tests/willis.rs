@@ -1,6 +1,9 @@
 //! A rigid mass over a beam without mass (Willis, Stokes 1849).
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -24,7 +27,8 @@ fn scene(beta: f64) -> Scene {
 }
 
 fn run(scene: &Scene) -> Run {
-    let run = sim::run(scene, &[beam(0, true)], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run = sim::run(scene, &[beam(0, true)], &mut |_| ControlFlow::Continue(()))
+        .expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     run
 }
@@ -46,10 +50,18 @@ fn mass_on_a_beam_without_mass_meets_the_reference() {
         let force = run.history.column(Channel::Vertical(0));
         let place = run.history.column(Channel::Position(0));
         // In the last 0.2 % of the span the spring gives as much as the beam.
-        let first = force.iter().position(|f| *f < 0.0).map(|i| place[i] / SPAN).filter(|x| *x < 0.998);
+        let first = force
+            .iter()
+            .position(|f| *f < 0.0)
+            .map(|i| place[i] / SPAN)
+            .filter(|x| *x < 0.998);
         // Beyond, towards the support, the wheel is pulled down and thrown up in turns.
         let until = first.map_or(f64::INFINITY, |x| x * SPAN);
-        let samples = run.history.column(Channel::Gauge(0)).into_iter().zip(&place);
+        let samples = run
+            .history
+            .column(Channel::Gauge(0))
+            .into_iter()
+            .zip(&place);
         let pressed = samples.filter(|(_, x)| **x <= until);
         let middle = pressed.fold(0.0_f64, |max, (y, _)| max.max(-y / sag));
         println!("beta {beta}: factor {middle:.5} for {factor}, pulls at {first:?} for {pulls:?}");
@@ -68,11 +80,21 @@ fn one_sided_wheel_leaves_where_the_other_would_pull() {
         let mut scene = scene(beta);
         scene.wheels[0].normal.bilateral = false;
         let run = run(&scene);
-        let (force, place) =
-            (run.history.column(Channel::Vertical(0)), run.history.column(Channel::Position(0)));
+        let (force, place) = (
+            run.history.column(Channel::Vertical(0)),
+            run.history.column(Channel::Position(0)),
+        );
         let gap = run.history.column(Channel::Penetration(0));
-        let off = force.iter().zip(&place).position(|(f, x)| *f == 0.0 && *x > 0.0).expect("it leaves");
-        println!("beta {beta}: leaves at {:.4}, {} events", place[off] / SPAN, run.counts.events);
+        let off = force
+            .iter()
+            .zip(&place)
+            .position(|(f, x)| *f == 0.0 && *x > 0.0)
+            .expect("it leaves");
+        println!(
+            "beta {beta}: leaves at {:.4}, {} events",
+            place[off] / SPAN,
+            run.counts.events
+        );
         assert!((place[off] / SPAN - pulls).abs() < 1e-3);
         assert!(force.iter().all(|f| *f >= 0.0) && gap[off + 1] < 0.0);
     }

@@ -1,7 +1,10 @@
 //! A load that moves along a beam on a bed of springs. Units: beta = (u / 4 EI)^(1/4) = 1, u = 1, mass per length 1,
 //! so that the critical speed (4 u EI)^(1/4) and the frequency of the bed are 1 too.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod common;
 
@@ -10,8 +13,8 @@ use std::ops::ControlFlow;
 
 use common::single;
 use sim::{
-    Actuators, Analysis, Body, Channel, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind, NormalLaw,
-    Profile, Scene, Shapes, Status, Structure, Wheel, run,
+    Actuators, Analysis, Body, Channel, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind,
+    NormalLaw, Profile, Scene, Shapes, Status, Structure, Wheel, run,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -43,9 +46,16 @@ impl Bed {
     fn give(&self, x: f64, z: f64) -> (f64, f64) {
         let endless = |r: f64| {
             let (s, fall) = (r.abs(), 0.5 * (-r.abs()).exp());
-            (fall * (s.cos() + s.sin()), -2.0 * fall * r.signum() * s.sin())
+            (
+                fall * (s.cos() + s.sin()),
+                -2.0 * fall * r.signum() * s.sin(),
+            )
         };
-        let (direct, left, right) = (endless(x - z), endless(x + z), endless(x + z - 2.0 * self.length));
+        let (direct, left, right) = (
+            endless(x - z),
+            endless(x + z),
+            endless(x + z - 2.0 * self.length),
+        );
         (direct.0 - left.0 - right.0, direct.1 - left.1 - right.1)
     }
 }
@@ -111,9 +121,14 @@ const WAVES: f64 = 8.0;
 fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
     let (start, held) = (16.0, 10.0);
     let length = 2.0 * start + theta * (0.5 * rise + held);
-    let bed = Bed { length, modes: (WAVES * length / PI) as usize };
-    let table: Vec<[f64; 2]> =
-        (0..=400).map(|i| f64::from(i) / 400.0).map(|s| [rise * s, theta * ramp(s)]).collect();
+    let bed = Bed {
+        length,
+        modes: (WAVES * length / PI) as usize,
+    };
+    let table: Vec<[f64; 2]> = (0..=400)
+        .map(|i| f64::from(i) / 400.0)
+        .map(|s| [rise * s, theta * ramp(s)])
+        .collect();
     let mass = 0.1;
     let scene = Scene {
         gravity: 1.0 / mass,
@@ -124,18 +139,30 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
             free: [false, true, false, false, false, false],
             start: [start, 0.0, 0.0, 0.0, 0.0, 0.0],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(MotionKind::Speed, &table, start, 0.0).expect("a valid table")),
+            motion: Some(
+                Profile::new(MotionKind::Speed, &table, start, 0.0).expect("a valid table"),
+            ),
             pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.0,
-            normal: NormalLaw { bilateral: true, ..NormalLaw::linear(10.0, 1.0, Damper::Rail) },
+            normal: NormalLaw {
+                bilateral: true,
+                ..NormalLaw::linear(10.0, 1.0, Damper::Rail)
+            },
             flange: None,
             friction: None,
             spin_inertia: None,
         }],
         contacts: vec![single()],
-        gauges: vec![Gauge { structure: 0, probe: Probe { rail: 0, x: start + 1.0, axis: Axis::Vertical } }],
+        gauges: vec![Gauge {
+            structure: 0,
+            probe: Probe {
+                rail: 0,
+                x: start + 1.0,
+                axis: Axis::Vertical,
+            },
+        }],
         actuators: Actuators::default(),
         analysis: Analysis::Dynamic,
         end: rise + held,
@@ -153,7 +180,10 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
             },
             shapes: Box::new(bed),
         }),
-        rails: vec![Extent { range: Some([0.0, length]), breaks: Vec::new() }],
+        rails: vec![Extent {
+            range: Some([0.0, length]),
+            breaks: Vec::new(),
+        }],
         ..Foundation::default()
     };
     (scene, foundation)
@@ -162,17 +192,32 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
 /// Largest and least deflection under the load once its speed is steady, by the static one of an endless beam.
 fn amplification(theta: f64, rise: f64) -> [f64; 2] {
     let (scene, foundation) = crossing(theta, rise);
-    let run = run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let run =
+        run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    let [time, give, gauge] =
-        [Channel::Time, Channel::Deflection(0), Channel::Gauge(0)].map(|channel| run.history.column(channel));
+    let [time, give, gauge] = [Channel::Time, Channel::Deflection(0), Channel::Gauge(0)]
+        .map(|channel| run.history.column(channel));
     // At rest: u w'' ... = 1/2 under the load, and the endless beam's curve beside it.
     let beside = 0.5 * (-1.0_f64).exp() * (1.0_f64.cos() + 1.0_f64.sin());
-    println!("static: {:.1e} {:.1e}", give[0] / 0.5 - 1.0, -gauge[0] / beside - 1.0);
+    println!(
+        "static: {:.1e} {:.1e}",
+        give[0] / 0.5 - 1.0,
+        -gauge[0] / beside - 1.0
+    );
     assert!((give[0] / 0.5 - 1.0).abs() < 1e-9 && (-gauge[0] / beside - 1.0).abs() < 1e-9);
-    println!("theta {theta}: {:?}, energy to {:.1e}", run.counts, run.audit.residual());
-    let held = time.iter().zip(give).filter(|(t, _)| **t >= rise).map(|(_, give)| give / 0.5);
-    held.fold([0.0, f64::INFINITY], |[most, least], value| [f64::max(most, value), f64::min(least, value)])
+    println!(
+        "theta {theta}: {:?}, energy to {:.1e}",
+        run.counts,
+        run.audit.residual()
+    );
+    let held = time
+        .iter()
+        .zip(give)
+        .filter(|(t, _)| **t >= rise)
+        .map(|(_, give)| give / 0.5);
+    held.fold([0.0, f64::INFINITY], |[most, least], value| {
+        [f64::max(most, value), f64::min(least, value)]
+    })
 }
 
 fn steady(theta: f64, rise: f64) {
@@ -183,7 +228,12 @@ fn steady(theta: f64, rise: f64) {
         found[0] / wanted - 1.0,
         found[1] / wanted - 1.0
     );
-    assert!(found.iter().all(|factor| (factor / wanted - 1.0).abs() < 1e-4), "{found:?} for {wanted}");
+    assert!(
+        found
+            .iter()
+            .all(|factor| (factor / wanted - 1.0).abs() < 1e-4),
+        "{found:?} for {wanted}"
+    );
 }
 
 /// Analytic: 1/sqrt(1 - theta^2) under a load that moves steadily along an endless beam (Timoshenko 1926; Fryba,

@@ -7,7 +7,9 @@ mod beam;
 use beam::printed::STATIONS;
 use beam::{Beam, probe, read, tabulate};
 use divan::{Bencher, black_box};
-use splines::{Axis, Differentiable, FactoredTable, Influence, InfluenceBlock, Probe, Rank, ReadingMethod};
+use splines::{
+    Axis, Differentiable, FactoredTable, Influence, InfluenceBlock, Probe, Rank, ReadingMethod,
+};
 
 fn main() {
     divan::main();
@@ -27,8 +29,15 @@ enum Of {
     Cubspl,
 }
 
-const ALL: [Of; 7] =
-    [Of::Exact, Of::Coupled, Of::Natural, Of::Factored, Of::Akispl, Of::Symmetrised, Of::Cubspl];
+const ALL: [Of; 7] = [
+    Of::Exact,
+    Of::Coupled,
+    Of::Natural,
+    Of::Factored,
+    Of::Akispl,
+    Of::Symmetrised,
+    Of::Cubspl,
+];
 
 impl Of {
     fn ready(self) -> Box<dyn Differentiable> {
@@ -39,7 +48,11 @@ impl Of {
             Of::Coupled => Box::new(beam::coupled()),
             Of::Natural => Box::new(read(ReadingMethod::Natural, table)),
             Of::Factored => {
-                let sheet = InfluenceBlock { deflection: way, load: way, table };
+                let sheet = InfluenceBlock {
+                    deflection: way,
+                    load: way,
+                    table,
+                };
                 Box::new(FactoredTable::new(&[sheet], Rank::Full).expect("one table"))
             }
             Of::Akispl => Box::new(read(ReadingMethod::Akispl, table)),
@@ -62,7 +75,9 @@ fn jet(bencher: Bencher<'_, '_>, of: Of) {
 fn fill<const N: usize>(bencher: Bencher<'_, '_>, of: Of) {
     let ready = of.ready();
     let pitch = f64::min(8.0 / 3.0, 60.0 / N as f64);
-    let at: Vec<Probe> = (0..N).map(|k| probe(Axis::Vertical, 11.0 + pitch * k as f64)).collect();
+    let at: Vec<Probe> = (0..N)
+        .map(|k| probe(Axis::Vertical, 11.0 + pitch * k as f64))
+        .collect();
     let mut out = Influence::zeros(N);
     bencher.bench_local(|| {
         let done = ready.fill(black_box(&at), &mut out);

@@ -28,7 +28,10 @@ impl Influence {
     /// Matrices of zeros for n probes.
     #[must_use]
     pub fn zeros(n: usize) -> Self {
-        Influence { value: DMatrix::zeros(n, n), slope: DMatrix::zeros(n, n) }
+        Influence {
+            value: DMatrix::zeros(n, n),
+            slope: DMatrix::zeros(n, n),
+        }
     }
 
     /// Checks that both matrices are n x n.
@@ -36,7 +39,11 @@ impl Influence {
         for matrix in [&self.value, &self.slope] {
             let (rows, columns) = matrix.shape();
             if (rows, columns) != (n, n) {
-                return Err(Error::OutputShape { rows, columns, expected: n });
+                return Err(Error::OutputShape {
+                    rows,
+                    columns,
+                    expected: n,
+                });
             }
         }
         Ok(())
@@ -195,13 +202,23 @@ pub trait Compliance: Send + Sync {
     ///
     /// # Errors
     /// Those of [`Compliance::fill`].
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         for (at, out) in at.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
-            let all: Vec<Probe> = at.iter().copied().chain(loads.iter().map(|load| load.0)).collect();
+            let all: Vec<Probe> = at
+                .iter()
+                .copied()
+                .chain(loads.iter().map(|load| load.0))
+                .collect();
             let mut influence = Influence::zeros(all.len());
             self.fill(&all, &mut influence)?;
             for (i, out) in out.iter_mut().enumerate() {
-                let of = |(j, load): (usize, &(Probe, f64))| influence.value[(i, at.len() + j)] * load.1;
+                let of =
+                    |(j, load): (usize, &(Probe, f64))| influence.value[(i, at.len() + j)] * load.1;
                 *out = loads.iter().enumerate().map(of).sum();
             }
         }
@@ -232,7 +249,10 @@ pub trait Compliance: Send + Sync {
     /// # Errors
     /// Those of [`Compliance::fill`] for the probes.
     fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
-        Ok(Box::new(Repeated { compliance: self, at: at.to_vec() }))
+        Ok(Box::new(Repeated {
+            compliance: self,
+            at: at.to_vec(),
+        }))
     }
 
     /// Coordinates along `rail` where derivatives of the surface may jump (supports, hinges, stations),
@@ -297,7 +317,14 @@ impl Partials {
     /// The derivatives of G(q, p) from those of G(p, q).
     #[inline]
     pub(crate) fn swapped(self) -> Partials {
-        Partials { value: self.value, p: self.q, q: self.p, pp: self.qq, pq: self.pq, qq: self.pp }
+        Partials {
+            value: self.value,
+            p: self.q,
+            q: self.p,
+            pp: self.qq,
+            pq: self.pq,
+            qq: self.pp,
+        }
     }
 
     #[inline]

@@ -74,7 +74,7 @@ pub use surface::{
     InternalForce, RailShapes, ResidualFlexibility, Uncoupled,
 };
 pub use table::{
-    BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable, TableFactor,
-    TableReading, fit_beam,
+    BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable,
+    TableFactor, TableReading, fit_beam,
 };
 pub use vector::RealNumber;

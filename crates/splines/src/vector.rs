@@ -55,7 +55,11 @@ pub(crate) fn dot4(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 
 /// Vector product a x b.
 pub(crate) fn cross<T: RealNumber>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// Unit vector along `axis`, 0, 1 or 2.

@@ -8,8 +8,8 @@ use beam::near::{assert_at_most, assert_near};
 use beam::{Beam, EI, chain, probe, read, tabulate};
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, ExactSurface, FactoredTable, Flexibility, Influence, InfluenceBlock, Probe, Rails,
-    Rank, ReadingMethod, SplineTable, akima, fit_beam,
+    Axis, Compliance, ExactSurface, FactoredTable, Flexibility, Influence, InfluenceBlock, Probe,
+    Rails, Rank, ReadingMethod, SplineTable, akima, fit_beam,
 };
 
 const UP: (usize, Axis) = (0, Axis::Vertical);
@@ -18,11 +18,15 @@ const UP: (usize, Axis) = (0, Axis::Vertical);
 /// 300.
 fn places(n: usize) -> Vec<f64> {
     let parts = (n - 1) * 2 * (300 / (n - 1)).div_ceil(2).max(4);
-    (0..=parts).map(|k| -15.0 + 90.0 * k as f64 / parts as f64).collect()
+    (0..=parts)
+        .map(|k| -15.0 + 90.0 * k as f64 / parts as f64)
+        .collect()
 }
 
 fn stations(n: usize) -> Vec<f64> {
-    (0..n).map(|k| -15.0 + 90.0 * k as f64 / (n - 1) as f64).collect()
+    (0..n)
+        .map(|k| -15.0 + 90.0 * k as f64 / (n - 1) as f64)
+        .collect()
 }
 
 fn grid(of: &dyn Compliance, places: &[f64]) -> DMatrix<f64> {
@@ -37,7 +41,11 @@ fn both_akima(table: &SplineTable, places: &[f64]) -> DMatrix<f64> {
     let n = table.z().len();
     let along: Vec<_> = (0..n)
         .map(|i| {
-            akima(table.x(), &table.values().row(i).iter().copied().collect::<Vec<_>>()).expect("increase")
+            akima(
+                table.x(),
+                &table.values().row(i).iter().copied().collect::<Vec<_>>(),
+            )
+            .expect("increase")
         })
         .collect();
     let mut out = DMatrix::zeros(places.len(), places.len());
@@ -86,10 +94,16 @@ fn order(errors: &[f64; 5]) -> f64 {
 /// External: measured on an independent prototype, two digits.
 #[test]
 fn akispl_and_its_mean_err_by_the_square_of_the_distance() {
-    let plain = errors(|table, places, _| grid(&read(ReadingMethod::Akispl, table.clone()), places));
+    let plain =
+        errors(|table, places, _| grid(&read(ReadingMethod::Akispl, table.clone()), places));
     agree("AKISPL", &plain, &[6.6e-2, 1.8e-2, 8.0e-3, 2.0e-3, 5.2e-4]);
-    let mean = errors(|table, places, _| grid(&read(ReadingMethod::Symmetrised, table.clone()), places));
-    agree("AKISPL symmetrised", &mean, &[5.3e-2, 1.6e-2, 7.7e-3, 2.0e-3, 5.1e-4]);
+    let mean =
+        errors(|table, places, _| grid(&read(ReadingMethod::Symmetrised, table.clone()), places));
+    agree(
+        "AKISPL symmetrised",
+        &mean,
+        &[5.3e-2, 1.6e-2, 7.7e-3, 2.0e-3, 5.1e-4],
+    );
     assert!((order(&plain) - 2.0).abs() < 0.05 && (order(&mean) - 2.0).abs() < 0.05);
 }
 
@@ -97,7 +111,11 @@ fn akispl_and_its_mean_err_by_the_square_of_the_distance() {
 #[test]
 fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
     let found = errors(|table, places, _| both_akima(table, places));
-    agree("Akima both ways", &found[..4], &[3.6e-2, 6.4e-3, 1.8e-3, 2.3e-4]);
+    agree(
+        "Akima both ways",
+        &found[..4],
+        &[3.6e-2, 6.4e-3, 1.8e-3, 2.3e-4],
+    );
     // The prototype has 2.3e-5: the error peaks between the places that it examined. Ours divide each cell into eight, and
     // finer ones change nothing.
     assert_near(
@@ -109,10 +127,17 @@ fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
     );
     // Twice as many places give no larger error.
     let beam = Beam::paper();
-    let finer: Vec<f64> = (0..=72 * 16).map(|k| -15.0 + 90.0 * f64::from(k) / (72.0 * 16.0)).collect();
+    let finer: Vec<f64> = (0..=72 * 16)
+        .map(|k| -15.0 + 90.0 * f64::from(k) / (72.0 * 16.0))
+        .collect();
     let exact = grid(&beam.surface(&[-15.0, 0.0, 60.0, 75.0]), &finer);
-    let again = (both_akima(&tabulate(&beam, &stations(73)), &finer) - &exact).amax() / exact.amax();
-    assert!((again / found[4] - 1.0).abs() < 0.02, "{again:e} {:e}", found[4]);
+    let again =
+        (both_akima(&tabulate(&beam, &stations(73)), &finer) - &exact).amax() / exact.amax();
+    assert!(
+        (again / found[4] - 1.0).abs() < 0.02,
+        "{again:e} {:e}",
+        found[4]
+    );
     let table = tabulate(&Beam::paper(), &stations(7));
     let values = both_akima(&table, &places(7));
     assert!((&values - values.transpose()).amax() > 1e-4 * values.amax());
@@ -127,22 +152,38 @@ fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
 /// External, as above; the factored reading is the natural one (identity).
 #[test]
 fn natural_and_factored_readings_err_by_the_cube_of_the_distance() {
-    let found = errors(|table, places, _| grid(&read(ReadingMethod::Natural, table.clone()), places));
-    agree("natural splines both ways", &found, &[8.8e-3, 1.1e-3, 3.2e-4, 4.0e-5, 5.1e-6]);
+    let found =
+        errors(|table, places, _| grid(&read(ReadingMethod::Natural, table.clone()), places));
+    agree(
+        "natural splines both ways",
+        &found,
+        &[8.8e-3, 1.1e-3, 3.2e-4, 4.0e-5, 5.1e-6],
+    );
     assert!((order(&found) - 3.0).abs() < 0.05);
     let factored = errors(|table, places, _| {
-        let sheet = InfluenceBlock { deflection: UP, load: UP, table: table.clone() };
-        grid(&FactoredTable::new(&[sheet], Rank::Full).expect("one table"), places)
+        let sheet = InfluenceBlock {
+            deflection: UP,
+            load: UP,
+            table: table.clone(),
+        };
+        grid(
+            &FactoredTable::new(&[sheet], Rank::Full).expect("one table"),
+            places,
+        )
     });
     for (natural, factored) in found.iter().zip(factored) {
-        assert!((natural - factored).abs() < 1e-13, "{natural:e} {factored:e}");
+        assert!(
+            (natural - factored).abs() < 1e-13,
+            "{natural:e} {factored:e}"
+        );
     }
 }
 
 /// Regression: along x the order of the natural spline, along z that of AKISPL.
 #[test]
 fn cubspl_errs_as_much_as_akispl() {
-    let found = errors(|table, places, _| grid(&read(ReadingMethod::Cubspl, table.clone()), places));
+    let found =
+        errors(|table, places, _| grid(&read(ReadingMethod::Cubspl, table.clone()), places));
     for (found, own) in found.iter().zip([6.6e-2, 1.8e-2, 8.0e-3, 2.1e-3, 5.2e-4]) {
         assert!((found / own - 1.0).abs() < 0.05, "{found:e} {own:e}");
     }
@@ -157,16 +198,24 @@ fn cubic_shapes_without_kernel_are_too_stiff_by_it() {
     let largest = beam.deflection(-15.0, -15.0);
     for n in NUMBERS {
         let places = places(n);
-        let missing =
-            grid(&beam.surface(&stations(n)), &places) - grid(&hermite(&beam, &stations(n)), &places);
+        let missing = grid(&beam.surface(&stations(n)), &places)
+            - grid(&hermite(&beam, &stations(n)), &places);
         let h = 90.0 / (n - 1) as f64;
         let kernel = h.powi(3) / (192.0 * EI);
-        assert!((missing.amax() / kernel - 1.0).abs() < 1e-9, "{n}: {:e} {kernel:e}", missing.amax());
+        assert!(
+            (missing.amax() / kernel - 1.0).abs() < 1e-9,
+            "{n}: {:e} {kernel:e}",
+            missing.amax()
+        );
         assert!((missing.diagonal().max() / kernel - 1.0).abs() < 1e-9);
         assert!(missing.diagonal().min() > -1e-14 * largest);
     }
     let found = errors(|_, places, n| grid(&hermite(&beam, &stations(n)), places));
-    agree("cubic shapes without kernel", &found, &[3.1e-3, 3.9e-4, 1.2e-4, 1.5e-5, 1.8e-6]);
+    agree(
+        "cubic shapes without kernel",
+        &found,
+        &[3.1e-3, 3.9e-4, 1.2e-4, 1.5e-5, 1.8e-6],
+    );
 }
 
 /// Analytic: the force method; from values with slopes, and from values alone.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix4, Vector4};
 use splines::{
-    Axis, BeamColumn, Compliance, Differentiable, ElementFunctions, ExactSurface, Flexibility, Influence,
-    Probe, RailElement, Rails,
+    Axis, BeamColumn, Compliance, Differentiable, ElementFunctions, ExactSurface, Flexibility,
+    Influence, Probe, RailElement, Rails,
 };
 
 const L: f64 = 3.0;
@@ -26,7 +26,12 @@ fn element(flexibility: Flexibility) -> RailElement {
 
 /// The vertical plane with 1/EI = c, 1/kGA = g and the axial force n.
 fn vertical(c: f64, g: f64, tension: f64) -> Flexibility {
-    Flexibility { bending_z: c, shear_y: g, tension, ..Flexibility::default() }
+    Flexibility {
+        bending_z: c,
+        shear_y: g,
+        tension,
+        ..Flexibility::default()
+    }
 }
 
 /// Stiffness of the plane over (v, theta) at both ends.
@@ -35,7 +40,9 @@ fn stiffness(f: &Flexibility) -> Matrix4<f64> {
     let [opposite, equal] = column.rotational_stiffness();
     let (near, far) = (0.5 * (equal + opposite), 0.5 * (equal - opposite));
     let (a, b) = (2.0 * equal / (L * L) + column.chord_stiffness(), equal / L);
-    Matrix4::new(a, b, -a, b, b, near, -b, far, -a, -b, a, -b, b, far, -b, near)
+    Matrix4::new(
+        a, b, -a, b, b, near, -b, far, -a, -b, a, -b, b, far, -b, near,
+    )
 }
 
 /// The surface of one element with the degrees of freedom `free` of (v, theta) at both ends.
@@ -51,16 +58,26 @@ fn surface(f: Flexibility, free: &[usize]) -> ExactSurface {
             nodal[(dofs[a], dofs[b])] = inverse[(i, j)];
         }
     }
-    ExactSurface::new(Arc::new(Rails::new(vec![element(f)]).expect("sound")), nodal).expect("sound")
+    ExactSurface::new(
+        Arc::new(Rails::new(vec![element(f)]).expect("sound")),
+        nodal,
+    )
+    .expect("sound")
 }
 
 fn at(x: f64) -> Probe {
-    Probe { rail: 0, x, axis: Axis::Vertical }
+    Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    }
 }
 
 fn value(surface: &ExactSurface, x: f64, z: f64) -> f64 {
     let mut out = Influence::zeros(2);
-    surface.fill(&[at(x), at(z)], &mut out).expect("on the rail");
+    surface
+        .fill(&[at(x), at(z)], &mut out)
+        .expect("on the rail");
     out.value[(0, 1)]
 }
 
@@ -71,19 +88,39 @@ const PINNED: [usize; 2] = [1, 3];
 #[test]
 fn midspan_deflection_of_the_pinned_beam_has_the_closed_ratio() {
     let euler = PI * PI / (L * L);
-    for (p, known) in [(0.1, 1.10965), (0.5, 1.98629), (0.9, 9.87123), (-1.0, 0.505945), (-10.0, 0.0971106)] {
+    for (p, known) in [
+        (0.1, 1.10965),
+        (0.5, 1.98629),
+        (0.9, 9.87123),
+        (-1.0, 0.505945),
+        (-10.0, 0.0971106),
+    ] {
         let u = 0.5 * PI * f64::sqrt(f64::abs(p));
         let exact = if p > 0.0 { u.tan() - u } else { u - u.tanh() } * 3.0 / u.powi(3);
-        let found = value(&surface(vertical(1.0, 0.0, -p * euler), &PINNED), 0.5 * L, 0.5 * L);
+        let found = value(
+            &surface(vertical(1.0, 0.0, -p * euler), &PINNED),
+            0.5 * L,
+            0.5 * L,
+        );
         let ratio = found * 48.0 / L.powi(3);
-        assert!((ratio / exact - 1.0).abs() < 1e-13, "{p}: {ratio}, not {exact}");
-        assert!((ratio / known - 1.0).abs() < 5e-6, "{p}: {ratio}, not {known}");
+        assert!(
+            (ratio / exact - 1.0).abs() < 1e-13,
+            "{p}: {ratio}, not {exact}"
+        );
+        assert!(
+            (ratio / known - 1.0).abs() < 5e-6,
+            "{p}: {ratio}, not {known}"
+        );
     }
     let g = 0.1 / euler;
     let first = value(&surface(vertical(1.0, g, 0.0), &PINNED), 0.5 * L, 0.5 * L);
     assert!((first / (L.powi(3) / 48.0 + 0.25 * L * g) - 1.0).abs() < 1e-14);
     for (p, known) in [(0.1, 1.120065), (0.5, 2.184620)] {
-        let ratio = value(&surface(vertical(1.0, g, -p * euler), &PINNED), 0.5 * L, 0.5 * L) / first;
+        let ratio = value(
+            &surface(vertical(1.0, g, -p * euler), &PINNED),
+            0.5 * L,
+            0.5 * L,
+        ) / first;
         assert!((ratio - known).abs() < 6e-7, "{p}: {ratio}, not {known}");
     }
 }
@@ -94,8 +131,14 @@ fn tip_of_a_cantilever_in_tension_has_the_closed_stiffness() {
     for (u, known) in [(1.0_f64, 4.194528), (3.0, 13.466702), (10.0, 111.111111)] {
         let found = value(&surface(vertical(1.0, 0.0, u * u / (L * L)), &[2, 3]), L, L);
         let stiffness = L.powi(3) / found;
-        assert!((stiffness * (u - u.tanh()) / u.powi(3) - 1.0).abs() < 1e-13, "{u}: {stiffness}");
-        assert!((stiffness / known - 1.0).abs() < 1e-6, "{u}: {stiffness}, not {known}");
+        assert!(
+            (stiffness * (u - u.tanh()) / u.powi(3) - 1.0).abs() < 1e-13,
+            "{u}: {stiffness}"
+        );
+        assert!(
+            (stiffness / known - 1.0).abs() < 1e-6,
+            "{u}: {stiffness}, not {known}"
+        );
     }
 }
 
@@ -131,9 +174,16 @@ fn surface_is_symmetric_and_its_derivatives_are_those_of_its_values() {
         for (surface, end) in [(&planar, L), (&spatial, 0.8 * L)] {
             let mut out = Influence::zeros(2);
             for (x, z) in [(0.31, 0.82), (0.74, 0.12), (0.02, 0.97), (0.55, 0.48)] {
-                let axes = if end == L { [Axis::Vertical; 2] } else { [Axis::Vertical, Axis::Lateral] };
-                let probes =
-                    [(x, axes[0]), (z, axes[1])].map(|(x, axis)| Probe { rail: 0, x: x * end, axis });
+                let axes = if end == L {
+                    [Axis::Vertical; 2]
+                } else {
+                    [Axis::Vertical, Axis::Lateral]
+                };
+                let probes = [(x, axes[0]), (z, axes[1])].map(|(x, axis)| Probe {
+                    rail: 0,
+                    x: x * end,
+                    axis,
+                });
                 surface.fill(&probes, &mut out).expect("on the rail");
                 assert_eq!(out.value[(0, 1)], out.value[(1, 0)]);
                 let [p, q] = probes;
@@ -188,7 +238,10 @@ fn all_forms_of_the_functions_agree() {
                         for other in [Axis::Vertical, Axis::Lateral] {
                             let own = functions.clamped_green(axis, x, &functions, other, z);
                             let same = line.clamped_green(0, x, z)[axis as usize][other as usize];
-                            assert!((own - same).abs() < 1e-14, "{axis:?} {other:?}: {own}, not {same}");
+                            assert!(
+                                (own - same).abs() < 1e-14,
+                                "{axis:?} {other:?}: {own}, not {same}"
+                            );
                         }
                     }
                 }
@@ -211,7 +264,12 @@ fn load_inside_an_element_equals_load_on_a_node() {
                 let column = BeamColumn::new(c, g, tension, length);
                 let [opposite, equal] = column.rotational_stiffness();
                 let (near, far) = (0.5 * (equal + opposite), 0.5 * (equal - opposite));
-                (2.0 * equal / (length * length) + column.chord_stiffness(), equal / length, near, far)
+                (
+                    2.0 * equal / (length * length) + column.chord_stiffness(),
+                    equal / length,
+                    near,
+                    far,
+                )
             };
             let ((a1, b1, n1, f1), (a2, b2, n2, f2)) = (part(z), part(L - z));
             // Unknowns: outer rotations, then deflection and rotation of the node.
@@ -224,7 +282,11 @@ fn load_inside_an_element_equals_load_on_a_node() {
             );
             let u = k.try_inverse().expect("stable") * Vector4::new(0.0, 0.0, 1.0, 0.0);
             let found = value(&whole, z, z);
-            assert!((found / u[2] - 1.0).abs() < 1e-12, "{tension} {z}: {found}, not {}", u[2]);
+            assert!(
+                (found / u[2] - 1.0).abs() < 1e-12,
+                "{tension} {z}: {found}, not {}",
+                u[2]
+            );
         }
     }
 }
@@ -240,7 +302,9 @@ fn vanishing_force_gives_the_cubic_element() {
             random = (random * 997.0 + 0.1) % 1.0;
             let (x, z) = (random * L, (random * 31.0 % 1.0) * L);
             let [plus, minus, none] = surfaces.each_ref().map(|surface| value(surface, x, z));
-            assert!((plus - none).abs() < 3e-15 * L.powi(3) && (minus - none).abs() < 3e-15 * L.powi(3));
+            assert!(
+                (plus - none).abs() < 3e-15 * L.powi(3) && (minus - none).abs() < 3e-15 * L.powi(3)
+            );
         }
     }
 }
@@ -249,10 +313,14 @@ fn vanishing_force_gives_the_cubic_element() {
 #[test]
 fn clamped_member_is_positive_until_it_buckles() {
     let critical = 4.0 * PI * PI / (L * L);
-    let line = |share: f64| Rails::new(vec![element(vertical(1.0, 0.0, -share * critical))]).expect("sound");
+    let line = |share: f64| {
+        Rails::new(vec![element(vertical(1.0, 0.0, -share * critical))]).expect("sound")
+    };
     for share in [0.5, 0.999] {
         let n = 15;
-        let places: Vec<f64> = (1..=n).map(|k| L * f64::from(k) / f64::from(n + 1)).collect();
+        let places: Vec<f64> = (1..=n)
+            .map(|k| L * f64::from(k) / f64::from(n + 1))
+            .collect();
         let line = line(share);
         let g = DMatrix::from_fn(places.len(), places.len(), |i, j| {
             line.clamped_green(0, places[i], places[j])[1][1]

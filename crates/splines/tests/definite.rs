@@ -14,7 +14,9 @@ fn indefinite(kind: ReadingMethod, n: usize, sets: usize) -> (f64, f64) {
     let mut out = Influence::zeros(n);
     let (mut found, mut worst) = (0, 0.0_f64);
     for _ in 0..sets {
-        let at: Vec<Probe> = (0..n).map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0))).collect();
+        let at: Vec<Probe> = (0..n)
+            .map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0)))
+            .collect();
         reading.fill(&at, &mut out).expect("within the table");
         let mean = 0.5 * (&out.value + out.value.transpose());
         let eigenvalues = mean.symmetric_eigenvalues();
@@ -56,7 +58,9 @@ fn a_bogie_meets_indefinite_matrices_on_much_of_the_span() {
         let x = (60.0 - pitch) * (f64::from(k) + 0.5) / 4000.0;
         let at = [x, x + pitch].map(|x| probe(Axis::Vertical, x));
         reading.fill(&at, &mut out).expect("on the span");
-        let least = (0.5 * (&out.value + out.value.transpose())).symmetric_eigenvalues().min();
+        let least = (0.5 * (&out.value + out.value.transpose()))
+            .symmetric_eigenvalues()
+            .min();
         worst = worst.min(least);
         found += usize::from(least < 0.0);
     }

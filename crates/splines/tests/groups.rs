@@ -7,8 +7,8 @@ use std::sync::Arc;
 use beam::Random;
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, ElementMember, Error, ExactSurface, Flexibility, GroupMember, Influence, KeptProducts,
-    Probe, ProbeGroups, RailElement, Rails,
+    Axis, Compliance, ElementMember, Error, ExactSurface, Flexibility, GroupMember, Influence,
+    KeptProducts, Probe, ProbeGroups, RailElement, Rails,
 };
 
 const AXES: [Axis; 3] = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral];
@@ -30,7 +30,11 @@ fn surface(random: &mut Random, special: Special) -> ExactSurface {
     let element = |rail: usize, k: usize| RailElement {
         rail,
         x: [X[k], X[k + 1]],
-        ends: if k == 2 { [3 * rail + 2; 2] } else { [3 * rail + k, 3 * rail + k + 1] },
+        ends: if k == 2 {
+            [3 * rail + 2; 2]
+        } else {
+            [3 * rail + k, 3 * rail + k + 1]
+        },
         length: X[k + 1] - X[k] + 0.1,
         frame: [[1.0, 0.0, 0.0], [0.0, 0.8, 0.6], [0.0, -0.6, 0.8]],
         offset: [[0.0, 0.7, -0.3], [0.0, 0.2, 0.5]][rail],
@@ -41,17 +45,31 @@ fn surface(random: &mut Random, special: Special) -> ExactSurface {
             bending_z: 0.4,
             shear_y: 1.9,
             shear_z: 1.1,
-            tension: if special == Special::Tension && (rail, k) == (0, 1) { 0.2 } else { 0.0 },
+            tension: if special == Special::Tension && (rail, k) == (0, 1) {
+                0.2
+            } else {
+                0.0
+            },
         },
         member: Some(ElementMember {
-            id: if special == Special::SharedMember && k == 0 { 9 } else { 3 * rail + k },
+            id: if special == Special::SharedMember && k == 0 {
+                9
+            } else {
+                3 * rail + k
+            },
             reversed: rail == 1,
         }),
     };
-    let elements = [0, 1].into_iter().flat_map(|rail| [0, 1, 2].map(|k| element(rail, k))).collect();
+    let elements = [0, 1]
+        .into_iter()
+        .flat_map(|rail| [0, 1, 2].map(|k| element(rail, k)))
+        .collect();
     let half = DMatrix::from_fn(36, 36, |_, _| random.between(-1.0, 1.0));
-    ExactSurface::new(Arc::new(Rails::new(elements).expect("sound")), &half * half.transpose())
-        .expect("numbers")
+    ExactSurface::new(
+        Arc::new(Rails::new(elements).expect("sound")),
+        &half * half.transpose(),
+    )
+    .expect("numbers")
 }
 
 /// Groups of one to four probes in any directions on both rails; some probes are in two groups, and some stand at one place.
@@ -60,14 +78,30 @@ fn groups(random: &mut Random) -> ProbeGroups {
     for group in 0..9 {
         for k in 0..=group % 4 {
             let x = X[0] + 0.6 * (group + k) as f64;
-            probes.push(Probe { rail: group % 2, x, axis: AXES[(group + k / 2) % 3] });
-            members.push(GroupMember { group, probe: probes.len() - 1, weight: random.between(-1.0, 1.0) });
+            probes.push(Probe {
+                rail: group % 2,
+                x,
+                axis: AXES[(group + k / 2) % 3],
+            });
+            members.push(GroupMember {
+                group,
+                probe: probes.len() - 1,
+                weight: random.between(-1.0, 1.0),
+            });
         }
     }
     for (group, probe) in [(8, 0), (3, 2)] {
-        members.push(GroupMember { group, probe, weight: random.between(-1.0, 1.0) });
+        members.push(GroupMember {
+            group,
+            probe,
+            weight: random.between(-1.0, 1.0),
+        });
     }
-    ProbeGroups { count: 9, probes, members }
+    ProbeGroups {
+        count: 9,
+        probes,
+        members,
+    }
 }
 
 /// Identity: value = A G A^T and slope = A dG A^T with the weights A of the probes in the groups, on the way over both ends of
@@ -92,14 +126,22 @@ fn coefficients_of_groups_are_sums_of_those_of_their_probes() {
                 // The last of them stop at an end.
                 probe.x = if step > 50 { x.min(X[2]) } else { x.min(X[3]) };
             }
-            surface.fill_groups(&groups, &mut kept, &mut found).expect("on the rails");
-            surface.fill(&groups.probes, &mut all).expect("on the rails");
-            for (found, all, what) in
-                [(&found.value, &all.value, "value"), (&found.slope, &all.slope, "slope")]
-            {
+            surface
+                .fill_groups(&groups, &mut kept, &mut found)
+                .expect("on the rails");
+            surface
+                .fill(&groups.probes, &mut all)
+                .expect("on the rails");
+            for (found, all, what) in [
+                (&found.value, &all.value, "value"),
+                (&found.slope, &all.slope, "slope"),
+            ] {
                 let expected = &weights * all * weights.transpose();
                 let error = (found - expected).amax() / all.amax();
-                assert!(error < 1e-13, "{special:?}, step {step}: {what} differs by {error:e}");
+                assert!(
+                    error < 1e-13,
+                    "{special:?}, step {step}: {what} differs by {error:e}"
+                );
             }
         }
     }
@@ -115,20 +157,45 @@ fn groups_without_rail_or_stiffness_are_refused() {
     (0..36).for_each(|k| (nodal[(3, k)], nodal[(k, 3)]) = (0.0, 0.0));
     nodal[(3, 3)] = f64::INFINITY;
     let surface = ExactSurface::new(Arc::clone(whole.rails()), nodal).expect("numbers");
-    let probe = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
-    let member = |probe: usize| GroupMember { group: 0, probe, weight: 0.5 };
-    let mut groups =
-        ProbeGroups { count: 1, probes: vec![probe(9.0), probe(10.0)], members: vec![member(0), member(1)] };
+    let probe = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
+    let member = |probe: usize| GroupMember {
+        group: 0,
+        probe,
+        weight: 0.5,
+    };
+    let mut groups = ProbeGroups {
+        count: 1,
+        probes: vec![probe(9.0), probe(10.0)],
+        members: vec![member(0), member(1)],
+    };
     let (mut kept, mut out) = (KeptProducts::default(), Influence::zeros(1));
     assert_eq!(surface.fill_groups(&groups, &mut kept, &mut out), Ok(()));
     let known = out.value[(0, 0)];
     groups.probes[1].x = 6.0;
     let refused = surface.fill_groups(&groups, &mut kept, &mut out);
-    assert_eq!(refused, Err(Error::NoStiffness { rail: 0, x: 6.0, axis: Axis::Vertical }));
+    assert_eq!(
+        refused,
+        Err(Error::NoStiffness {
+            rail: 0,
+            x: 6.0,
+            axis: Axis::Vertical
+        })
+    );
     groups.probes[1].x = 22.0;
-    assert_eq!(surface.fill_groups(&groups, &mut kept, &mut out), Err(Error::OffRail { rail: 0, x: 22.0 }));
+    assert_eq!(
+        surface.fill_groups(&groups, &mut kept, &mut out),
+        Err(Error::OffRail { rail: 0, x: 22.0 })
+    );
     groups.probes[1].x = 10.0;
     assert_eq!(surface.fill_groups(&groups, &mut kept, &mut out), Ok(()));
     assert_eq!(out.value[(0, 0)], known);
-    assert!(surface.fill_groups(&groups, &mut kept, &mut Influence::zeros(2)).is_err());
+    assert!(
+        surface
+            .fill_groups(&groups, &mut kept, &mut Influence::zeros(2))
+            .is_err()
+    );
 }

@@ -28,15 +28,27 @@ fn error(surface: &dyn Compliance, exact: &dyn Fn(f64, f64) -> f64, stations: &[
 #[test]
 fn table_with_all_digits_is_fitted_without_loss() {
     let paper = Beam::paper();
-    let spans = Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 20.0, 65.0, 100.0] };
+    let spans = Beam {
+        c: 1.0 / EI,
+        g: 0.0,
+        supports: vec![0.0, 20.0, 65.0, 100.0],
+    };
     let stations = [0.0, 10.0, 20.0, 40.0, 65.0, 80.0, 100.0, 108.0];
     for (beam, stations) in [(&paper, &STATIONS[..]), (&spans, &stations[..])] {
         let lift = fit_beam(0, &tabulate(beam, stations)).expect("a beam on knife edges");
-        assert!((lift.bending * EI - 1.0).abs() < 1e-13, "{:e}", lift.bending * EI - 1.0);
+        assert!(
+            (lift.bending * EI - 1.0).abs() < 1e-13,
+            "{:e}",
+            lift.bending * EI - 1.0
+        );
         assert!(lift.error < 1e-13, "{:e}", lift.error);
         assert_eq!(lift.clamped, [false; 2]);
         for (x, bending) in &lift.local {
-            assert!((bending * EI - 1.0).abs() < 1e-11, "{x}: {:e}", bending * EI - 1.0);
+            assert!(
+                (bending * EI - 1.0).abs() < 1e-11,
+                "{x}: {:e}",
+                bending * EI - 1.0
+            );
         }
         let error = error(&lift.surface, &|x, z| beam.deflection(x, z), stations);
         assert!(error < 1e-13, "{error:e}");
@@ -48,7 +60,13 @@ fn table_with_all_digits_is_fitted_without_loss() {
 #[test]
 fn each_column_of_the_printed_table_determines_the_bending() {
     let lift = fit_beam(0, &table(&VERTICAL)).expect("a beam on knife edges");
-    let expected = [(-15.0, 1.012), (15.0, 0.992), (30.0, 1.044), (45.0, 0.992), (75.0, 1.012)];
+    let expected = [
+        (-15.0, 1.012),
+        (15.0, 0.992),
+        (30.0, 1.044),
+        (45.0, 0.992),
+        (75.0, 1.012),
+    ];
     for ((x, bending), (station, stiffness)) in lift.local.iter().zip(expected) {
         assert!(
             *x == station && (1.0 / (bending * EI) - stiffness).abs() < 6e-4,
@@ -86,13 +104,20 @@ fn clamped_ends_are_found_and_fitted_without_loss() {
     let cases: [(&[f64], &[f64]); 3] = [
         (&[], &[0.0, 7.0, 15.0, 30.0]),
         (&[40.0], &[0.0, 10.0, 20.0, 30.0, 40.0]),
-        (&[20.0, 45.0, 60.0], &[0.0, 8.0, 20.0, 30.0, 45.0, 52.0, 60.0, 66.0]),
+        (
+            &[20.0, 45.0, 60.0],
+            &[0.0, 8.0, 20.0, 30.0, 45.0, 52.0, 60.0, 66.0],
+        ),
     ];
     for (supports, stations) in cases {
         let exact = clamped_left(supports);
         let lift = fit_beam(0, &table_of(&exact, stations)).expect("a clamped beam");
         assert_eq!(lift.clamped, [true, false], "{supports:?}");
-        assert!((lift.bending * EI - 1.0).abs() < 1e-12, "{:e}", lift.bending * EI - 1.0);
+        assert!(
+            (lift.bending * EI - 1.0).abs() < 1e-12,
+            "{:e}",
+            lift.bending * EI - 1.0
+        );
         // The reference loses digits by its differences, too.
         let error = error(&lift.surface, &exact, stations);
         assert!(error < 1e-11, "{supports:?} {error:e}");
@@ -116,7 +141,11 @@ fn clamped_ends_are_found_and_fitted_without_loss() {
 fn printed_table_keeps_only_the_error_of_its_digits() {
     let beam = Beam::paper();
     let lift = fit_beam(0, &table(&VERTICAL)).expect("a beam on knife edges");
-    assert!((1.0 / (lift.bending * EI) - 1.0020).abs() < 5e-5, "{}", 1.0 / (lift.bending * EI));
+    assert!(
+        (1.0 / (lift.bending * EI) - 1.0020).abs() < 5e-5,
+        "{}",
+        1.0 / (lift.bending * EI)
+    );
     assert!(lift.error < 5e-3, "{}", lift.error);
     let error = error(&lift.surface, &|x, z| beam.deflection(x, z), &STATIONS);
     assert!(error < 5e-3, "{error:e}");
@@ -131,6 +160,10 @@ fn tables_of_no_such_beam_are_refused() {
     };
     assert_eq!(refuse(DMatrix::identity(4, 4)), Error::NoBeamFit);
     assert_eq!(refuse(DMatrix::zeros(4, 4)), Error::NoBeamFit);
-    let other = SplineTable::new(x(), vec![0.0, 1.0], DMatrix::zeros(2, 4)).expect("stations increase");
-    assert_eq!(fit_beam(0, &other).map(|_| ()), Err(Error::BlockStations { sheet: 0 }));
+    let other =
+        SplineTable::new(x(), vec![0.0, 1.0], DMatrix::zeros(2, 4)).expect("stations increase");
+    assert_eq!(
+        fit_beam(0, &other).map(|_| ()),
+        Err(Error::BlockStations { sheet: 0 })
+    );
 }

@@ -20,7 +20,9 @@ impl Sums {
 impl Compliance for Sums {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let product = |i: usize, j: usize, part: usize| -> f64 {
-            (0..TERMS).map(|k| Sums::shape(&at[i], k)[part] * Sums::shape(&at[j], k)[0]).sum()
+            (0..TERMS)
+                .map(|k| Sums::shape(&at[i], k)[part] * Sums::shape(&at[j], k)[0])
+                .sum()
         };
         out.value = DMatrix::from_fn(at.len(), at.len(), |i, j| product(i, j, 0));
         out.slope = DMatrix::from_fn(at.len(), at.len(), |i, j| product(i, j, 1));
@@ -42,9 +44,12 @@ impl Compliance for Sums {
 
 /// Two rails, three directions, two places each, in no order.
 fn probes() -> Vec<Probe> {
-    let all = [0, 1].into_iter().flat_map(|rail| Axis::ALL.map(|axis| (rail, axis)));
-    let mut probes: Vec<Probe> =
-        all.flat_map(|(rail, axis)| [1.5, 7.25].map(|x| Probe { rail, x, axis })).collect();
+    let all = [0, 1]
+        .into_iter()
+        .flat_map(|rail| Axis::ALL.map(|axis| (rail, axis)));
+    let mut probes: Vec<Probe> = all
+        .flat_map(|(rail, axis)| [1.5, 7.25].map(|x| Probe { rail, x, axis }))
+        .collect();
     for k in 0..probes.len() {
         probes.swap(k, (5 * k + 3) % 12);
     }
@@ -63,7 +68,11 @@ fn filled(of: &dyn Compliance) -> Influence {
 #[test]
 fn coefficients_kept_equal_those_of_the_whole_to_the_last_bit() {
     let (whole, at) = (filled(&Sums), probes());
-    for (couplings, kept) in [(Couplings::All, 144), (Couplings::WithinRails, 72), (Couplings::None, 24)] {
+    for (couplings, kept) in [
+        (Couplings::All, 144),
+        (Couplings::WithinRails, 72),
+        (Couplings::None, 24),
+    ] {
         let left = filled(&Uncoupled::new(Sums, couplings));
         let mut count = 0;
         for (j, q) in at.iter().enumerate() {
@@ -94,6 +103,9 @@ fn coefficients_kept_are_symmetric_and_positive() {
         let least = left.symmetric_eigenvalues().min();
         assert!(least > -1e-14 * size, "{couplings:?}: {least:e}");
         assert!(parted.is_symmetric());
-        assert_eq!((parted.breaks(1), parted.range(0)), (vec![1.0], Some([0.0, 9.0])));
+        assert_eq!(
+            (parted.breaks(1), parted.range(0)),
+            (vec![1.0], Some([0.0, 9.0]))
+        );
     }
 }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use beam::Random;
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, Couplings, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence,
-    MemberMotion, Probe, RailElement, RailShapes, Rails, ResidualFlexibility, Uncoupled,
+    Axis, Compliance, Couplings, ElementMember, ElementResidual, Error, ExactSurface, Flexibility,
+    Influence, MemberMotion, Probe, RailElement, RailShapes, Rails, ResidualFlexibility, Uncoupled,
 };
 
 const AXES: [Axis; 3] = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral];
@@ -33,9 +33,20 @@ fn rails() -> Arc<Rails> {
             shear_z: 1.1,
             tension: 0.0,
         },
-        member: Some(ElementMember { id: if k == 0 { 7 } else { rail }, reversed: true }),
+        member: Some(ElementMember {
+            id: if k == 0 { 7 } else { rail },
+            reversed: true,
+        }),
     };
-    Arc::new(Rails::new(vec![element(0, 0), element(0, 1), element(1, 0), element(1, 1)]).expect("sound"))
+    Arc::new(
+        Rails::new(vec![
+            element(0, 0),
+            element(0, 1),
+            element(1, 0),
+            element(1, 1),
+        ])
+        .expect("sound"),
+    )
 }
 
 fn surface(random: &mut Random) -> ExactSurface {
@@ -54,7 +65,9 @@ fn compliances(random: &mut Random) -> Vec<Box<dyn Compliance>> {
     };
     let amplitudes = DMatrix::from_fn(4, 3, |_, _| random.between(-0.1, 0.1));
     let shapes = RailShapes::new(rails(), states).expect("six a state");
-    let shapes = shapes.with_member_motions(vec![vec![motion]; 4], &amplitudes).expect("one an element");
+    let shapes = shapes
+        .with_member_motions(vec![vec![motion]; 4], &amplitudes)
+        .expect("one an element");
     vec![
         Box::new(whole.clone()),
         Box::new(Uncoupled::new(whole.clone(), Couplings::WithinRails)),
@@ -89,7 +102,11 @@ impl Compliance for Springs {
 
 fn random_probe(random: &mut Random) -> Probe {
     let axis = AXES[(3.0 * random.unit()) as usize % 3];
-    Probe { rail: usize::from(random.unit() < 0.5), x: random.between(X[0], X[2]), axis }
+    Probe {
+        rail: usize::from(random.unit() < 0.5),
+        x: random.between(X[0], X[2]),
+        axis,
+    }
 }
 
 /// Identity: u = G F with the coefficients G of all pairs, for fixed places, ends of members and places of loads among
@@ -99,26 +116,50 @@ fn displacements_of_fixed_places_are_coefficients_times_forces() {
     let random = &mut Random::new(11);
     for (kind, compliance) in compliances(random).iter().enumerate() {
         let mut places: Vec<Probe> = (0..30).map(|_| random_probe(random)).collect();
-        places.extend(X.iter().flat_map(|&x| AXES.map(|axis| Probe { rail: 1, x, axis })));
+        places.extend(
+            X.iter()
+                .flat_map(|&x| AXES.map(|axis| Probe { rail: 1, x, axis })),
+        );
         let prepared = compliance.at_places(&places).expect("on the rails");
         for _ in 0..20 {
-            let mut loads: Vec<(Probe, f64)> =
-                (0..9).map(|_| (random_probe(random), random.between(-1.0, 1.0))).collect();
+            let mut loads: Vec<(Probe, f64)> = (0..9)
+                .map(|_| (random_probe(random), random.between(-1.0, 1.0)))
+                .collect();
             loads.push((places[3], 0.4));
-            loads.push((Probe { rail: 0, ..places[places.len() - 4] }, -0.7));
-            let also: Vec<Probe> = (0..5).map(|_| random_probe(random)).chain([loads[0].0]).collect();
-            let all: Vec<Probe> =
-                places.iter().chain(&also).copied().chain(loads.iter().map(|load| load.0)).collect();
+            loads.push((
+                Probe {
+                    rail: 0,
+                    ..places[places.len() - 4]
+                },
+                -0.7,
+            ));
+            let also: Vec<Probe> = (0..5)
+                .map(|_| random_probe(random))
+                .chain([loads[0].0])
+                .collect();
+            let all: Vec<Probe> = places
+                .iter()
+                .chain(&also)
+                .copied()
+                .chain(loads.iter().map(|load| load.0))
+                .collect();
             let mut influence = Influence::zeros(all.len());
             compliance.fill(&all, &mut influence).expect("on the rails");
             let count = places.len() + also.len();
             let mut found = vec![f64::NAN; count];
-            prepared.under(&loads, &also, &mut found).expect("on the rails");
+            prepared
+                .under(&loads, &also, &mut found)
+                .expect("on the rails");
             for (i, found) in found.iter().enumerate() {
-                let of = |(j, load): (usize, &(Probe, f64))| influence.value[(i, count + j)] * load.1;
+                let of =
+                    |(j, load): (usize, &(Probe, f64))| influence.value[(i, count + j)] * load.1;
                 let expected: f64 = loads.iter().enumerate().map(of).sum();
                 let error = (found - expected).abs() / influence.value.amax();
-                assert!(error < 1e-13, "{kind}: place {i} {:?}: {found}, not {expected}", all[i]);
+                assert!(
+                    error < 1e-13,
+                    "{kind}: place {i} {:?}: {found}, not {expected}",
+                    all[i]
+                );
             }
         }
     }
@@ -128,13 +169,35 @@ fn displacements_of_fixed_places_are_coefficients_times_forces() {
 #[test]
 fn places_and_loads_beyond_the_rails_are_refused() {
     let surface = surface(&mut Random::new(5));
-    let at = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
-    assert_eq!(surface.at_places(&[at(14.0)]).err(), Some(Error::OffRail { rail: 0, x: 14.0 }));
+    let at = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    };
+    assert_eq!(
+        surface.at_places(&[at(14.0)]).err(),
+        Some(Error::OffRail { rail: 0, x: 14.0 })
+    );
     let prepared = surface.at_places(&[at(3.0)]).expect("on the rail");
     let refused = |loads: &[(Probe, f64)], also: &[Probe], size: usize| {
-        prepared.under(loads, also, &mut vec![0.0; size]).expect_err("something is wrong")
+        prepared
+            .under(loads, also, &mut vec![0.0; size])
+            .expect_err("something is wrong")
     };
-    assert_eq!(refused(&[(at(1.0), 1.0)], &[], 1), Error::OffRail { rail: 0, x: 1.0 });
-    assert_eq!(refused(&[], &[at(1.0)], 2), Error::OffRail { rail: 0, x: 1.0 });
-    assert_eq!(refused(&[], &[], 2), Error::EffectShape { rows: 2, columns: 1, expected: [1, 1] });
+    assert_eq!(
+        refused(&[(at(1.0), 1.0)], &[], 1),
+        Error::OffRail { rail: 0, x: 1.0 }
+    );
+    assert_eq!(
+        refused(&[], &[at(1.0)], 2),
+        Error::OffRail { rail: 0, x: 1.0 }
+    );
+    assert_eq!(
+        refused(&[], &[], 2),
+        Error::EffectShape {
+            rows: 2,
+            columns: 1,
+            expected: [1, 1]
+        }
+    );
 }

@@ -6,8 +6,8 @@ use beam::printed::{LATERAL, STATIONS, VERTICAL, table};
 use beam::{Beam, Random, probe, read, tabulate};
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, Error, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading,
-    akima, natural_spline,
+    Axis, Compliance, Error, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable,
+    TableReading, akima, natural_spline,
 };
 
 fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
@@ -18,7 +18,11 @@ fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
 
 /// Deflection at z under a load at x.
 fn value(reading: &dyn Compliance, x: f64, z: f64) -> f64 {
-    fill(reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).value[(0, 1)]
+    fill(
+        reading,
+        &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)],
+    )
+    .value[(0, 1)]
 }
 
 /// External: values published for AKIMA_SPLINE and CSPLINE of Adams View, three decimals.
@@ -26,8 +30,14 @@ fn value(reading: &dyn Compliance, x: f64, z: f64) -> f64 {
 fn curves_give_the_values_published_for_adams() {
     let (x, y) = ([1.0, 2.0, 3.0, 4.0], [0.0, 2.0, 1.0, 3.0]);
     let published = [
-        (akima(&x, &y), [0.0, 1.0, 1.667, 2.0, 1.778, 1.222, 1.0, 1.333, 2.0, 3.0]),
-        (natural_spline(&x, &y), [0.0, 0.963, 1.704, 2.0, 1.741, 1.259, 1.0, 1.296, 2.037, 3.0]),
+        (
+            akima(&x, &y),
+            [0.0, 1.0, 1.667, 2.0, 1.778, 1.222, 1.0, 1.333, 2.0, 3.0],
+        ),
+        (
+            natural_spline(&x, &y),
+            [0.0, 0.963, 1.704, 2.0, 1.741, 1.259, 1.0, 1.296, 2.037, 3.0],
+        ),
     ];
     for (curve, expected) in published {
         let curve = curve.expect("points increase");
@@ -102,7 +112,10 @@ fn akispl_reads_the_printed_table_as_computed_independently() {
     ];
     for (x, z, expected) in expected {
         let got = value(&reading, x, z);
-        assert!((got / expected - 1.0).abs() < 1e-14, "AKISPL({x}, {z}) = {got:e}, expected {expected:e}");
+        assert!(
+            (got / expected - 1.0).abs() < 1e-14,
+            "AKISPL({x}, {z}) = {got:e}, expected {expected:e}"
+        );
     }
 }
 
@@ -111,7 +124,11 @@ fn akispl_reads_the_printed_table_as_computed_independently() {
 #[test]
 fn printed_tables_follow_from_the_girder() {
     let vertical = Beam::paper();
-    let lateral = Beam { c: 2.6456e-10, g: 0.0, supports: vec![0.0, 60.0] };
+    let lateral = Beam {
+        c: 2.6456e-10,
+        g: 0.0,
+        supports: vec![0.0, 60.0],
+    };
     let twist = |x: f64, z: f64| {
         let (a, c) = (x.min(z), x.max(z));
         1.2315e-8
@@ -125,11 +142,20 @@ fn printed_tables_follow_from_the_girder() {
     };
     for (i, &x) in STATIONS.iter().enumerate() {
         for (j, &z) in STATIONS.iter().enumerate() {
-            let exact = [vertical.deflection(x, z), lateral.deflection(x, z) + twist(x, z)];
+            let exact = [
+                vertical.deflection(x, z),
+                lateral.deflection(x, z) + twist(x, z),
+            ];
             for (exact, printed) in exact.into_iter().zip([VERTICAL[i][j], LATERAL[i][j]]) {
-                let unit =
-                    if printed == 0.0 { 1e-18 } else { 10_f64.powf(printed.abs().log10().floor() - 2.0) };
-                assert!((exact - printed).abs() <= unit * (1.0 + 1e-9), "({x}, {z}): {exact:e} {printed:e}");
+                let unit = if printed == 0.0 {
+                    1e-18
+                } else {
+                    10_f64.powf(printed.abs().log10().floor() - 2.0)
+                };
+                assert!(
+                    (exact - printed).abs() <= unit * (1.0 + 1e-9),
+                    "({x}, {z}): {exact:e} {printed:e}"
+                );
             }
         }
     }
@@ -160,7 +186,9 @@ fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
     let mut random = Random::new(17);
     for n in [2, 5, 12, 20] {
         for _ in 0..100 {
-            let at: Vec<Probe> = (0..n).map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0))).collect();
+            let at: Vec<Probe> = (0..n)
+                .map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0)))
+                .collect();
             let value = fill(&reading, &at).value;
             assert_eq!(value, value.transpose());
             let eigenvalues = value.symmetric_eigenvalues();
@@ -172,35 +200,83 @@ fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
 /// Analytic: central differences; at a station the mean of both one-sided slopes.
 #[test]
 fn slope_is_the_derivative_of_the_reading() {
-    for kind in
-        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
-    {
+    for kind in [
+        ReadingMethod::Akispl,
+        ReadingMethod::Symmetrised,
+        ReadingMethod::Cubspl,
+        ReadingMethod::Natural,
+    ] {
         let reading = read(kind, table(&VERTICAL));
-        for (z, x) in [(7.0, 22.0), (31.0, 31.0), (30.0, 40.0), (-8.0, 70.0), (15.0, 15.0)] {
-            let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
+        for (z, x) in [
+            (7.0, 22.0),
+            (31.0, 31.0),
+            (30.0, 40.0),
+            (-8.0, 70.0),
+            (15.0, 15.0),
+        ] {
+            let slope = fill(
+                &reading,
+                &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)],
+            )
+            .slope[(0, 1)];
             let step = 1e-4;
-            let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
+            let exact =
+                (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
             // Akima's curvature jumps at a station: a central difference there has an error of a quarter of
             // jump times step.
-            let allowed = if kind == ReadingMethod::Symmetrised { 1e-14 } else { 1e-16 };
-            assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
+            let allowed = if kind == ReadingMethod::Symmetrised {
+                1e-14
+            } else {
+                1e-16
+            };
+            assert!(
+                (slope - exact).abs() < allowed,
+                "{kind:?} {z} {x}: {slope:e} {exact:e}"
+            );
         }
     }
 }
 
 #[test]
 fn reading_refuses_places_and_directions_it_has_no_table_for() {
-    for kind in
-        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
-    {
+    for kind in [
+        ReadingMethod::Akispl,
+        ReadingMethod::Symmetrised,
+        ReadingMethod::Cubspl,
+        ReadingMethod::Natural,
+    ] {
         let reading = read(kind, table(&VERTICAL));
-        let refuse = |p: Probe| reading.fill(&[p], &mut Influence::zeros(1)).expect_err("refused");
-        assert_eq!(refuse(probe(Axis::Vertical, 75.1)), Error::OffRail { rail: 0, x: 75.1 });
-        assert!(matches!(refuse(probe(Axis::Vertical, f64::NAN)), Error::OffRail { rail: 0, .. }));
-        let lateral = Error::NoStiffness { rail: 0, x: 3.0, axis: Axis::Lateral };
+        let refuse = |p: Probe| {
+            reading
+                .fill(&[p], &mut Influence::zeros(1))
+                .expect_err("refused")
+        };
+        assert_eq!(
+            refuse(probe(Axis::Vertical, 75.1)),
+            Error::OffRail { rail: 0, x: 75.1 }
+        );
+        assert!(matches!(
+            refuse(probe(Axis::Vertical, f64::NAN)),
+            Error::OffRail { rail: 0, .. }
+        ));
+        let lateral = Error::NoStiffness {
+            rail: 0,
+            x: 3.0,
+            axis: Axis::Lateral,
+        };
         assert_eq!(refuse(probe(Axis::Lateral, 3.0)), lateral);
-        assert_eq!(refuse(Probe { rail: 2, x: 3.0, axis: Axis::Vertical }), Error::NoRail { rail: 2 });
-        assert_eq!((reading.range(0), reading.range(1)), (Some([-15.0, 75.0]), None));
+        assert_eq!(
+            refuse(Probe {
+                rail: 2,
+                x: 3.0,
+                axis: Axis::Vertical
+            }),
+            Error::NoRail { rail: 2 }
+        );
+        assert_eq!(
+            (reading.range(0), reading.range(1)),
+            (Some([-15.0, 75.0]), None)
+        );
         assert_eq!(reading.breaks(0), STATIONS);
         assert_eq!(reading.method(), kind);
     }
@@ -217,19 +293,42 @@ fn couplings_are_read_both_ways() {
         }
     }
     let sheets = [
-        InfluenceBlock { deflection: up, load: up, table: table(&VERTICAL) },
-        InfluenceBlock { deflection: up, load: side, table: table(&couple) },
-        InfluenceBlock { deflection: side, load: side, table: table(&LATERAL) },
-        InfluenceBlock { deflection: other, load: other, table: table(&VERTICAL) },
+        InfluenceBlock {
+            deflection: up,
+            load: up,
+            table: table(&VERTICAL),
+        },
+        InfluenceBlock {
+            deflection: up,
+            load: side,
+            table: table(&couple),
+        },
+        InfluenceBlock {
+            deflection: side,
+            load: side,
+            table: table(&LATERAL),
+        },
+        InfluenceBlock {
+            deflection: other,
+            load: other,
+            table: table(&VERTICAL),
+        },
     ];
-    for kind in
-        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
-    {
+    for kind in [
+        ReadingMethod::Akispl,
+        ReadingMethod::Symmetrised,
+        ReadingMethod::Cubspl,
+        ReadingMethod::Natural,
+    ] {
         let reading = TableReading::new(kind, &sheets).expect("consistent");
         let at = [
             probe(Axis::Vertical, 15.0),
             probe(Axis::Lateral, 45.0),
-            Probe { rail: 1, x: 30.0, axis: Axis::Vertical },
+            Probe {
+                rail: 1,
+                x: 30.0,
+                axis: Axis::Vertical,
+            },
         ];
         let value = fill(&reading, &at).value;
         assert!((value[(0, 1)] - couple[2][4]).abs() < 1e-22);
@@ -244,7 +343,10 @@ fn couplings_are_read_both_ways() {
     );
     let alone = TableReading::new(ReadingMethod::Natural, &sheets[..2]).map(|_| ());
     assert_eq!(alone, Err(Error::BlockAlone { sheet: 1 }));
-    assert_eq!(TableReading::new(ReadingMethod::Natural, &[]).map(|_| ()), Err(Error::NoBlocks));
+    assert_eq!(
+        TableReading::new(ReadingMethod::Natural, &[]).map(|_| ()),
+        Err(Error::NoBlocks)
+    );
 }
 
 #[test]
@@ -256,12 +358,34 @@ fn unusable_tables_are_refused() {
         refuse(vec![0.0, 1.0, 2.0], vec![0.0, 1.0], DMatrix::zeros(2, 3)),
         Error::TooFewPoints { found: 3, least: 4 }
     );
-    assert_eq!(refuse(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0], values()), Error::PointOrder { index: 2 });
-    assert_eq!(refuse(x(), vec![1.0, 0.0], values()), Error::PointOrder { index: 1 });
-    assert_eq!(refuse(x(), vec![f64::NAN, 0.0], values()), Error::PointNumber { index: 0 });
-    assert_eq!(refuse(x(), vec![0.0], values()), Error::TableShape { rows: 2, columns: 4, expected: [1, 4] });
+    assert_eq!(
+        refuse(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0], values()),
+        Error::PointOrder { index: 2 }
+    );
+    assert_eq!(
+        refuse(x(), vec![1.0, 0.0], values()),
+        Error::PointOrder { index: 1 }
+    );
+    assert_eq!(
+        refuse(x(), vec![f64::NAN, 0.0], values()),
+        Error::PointNumber { index: 0 }
+    );
+    assert_eq!(
+        refuse(x(), vec![0.0], values()),
+        Error::TableShape {
+            rows: 2,
+            columns: 4,
+            expected: [1, 4]
+        }
+    );
     let mut bad = values();
     bad[(1, 2)] = f64::INFINITY;
-    assert_eq!(refuse(x(), vec![0.0, 1.0], bad), Error::TableNumber { row: 1, column: 2 });
-    assert_eq!(akima(&x(), &[0.0; 3]).map(|_| ()), Err(Error::PointCount { x: 4, y: 3 }));
+    assert_eq!(
+        refuse(x(), vec![0.0, 1.0], bad),
+        Error::TableNumber { row: 1, column: 2 }
+    );
+    assert_eq!(
+        akima(&x(), &[0.0; 3]).map(|_| ()),
+        Err(Error::PointCount { x: 4, y: 3 })
+    );
 }

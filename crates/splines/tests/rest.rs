@@ -15,7 +15,9 @@ const STATIONS: [f64; 4] = [-15.0, 0.0, 60.0, 75.0];
 fn shapes(stations: &[f64], count: usize) -> RailShapes {
     let line = Arc::clone(Beam::paper().surface(stations).rails());
     let mut random = Random::new(3);
-    let states = DMatrix::from_fn(6 * line.state_count(), count, |_, _| random.between(-1e-5, 1e-5));
+    let states = DMatrix::from_fn(6 * line.state_count(), count, |_, _| {
+        random.between(-1e-5, 1e-5)
+    });
     RailShapes::new(line, states).expect("six freedoms a state")
 }
 
@@ -36,7 +38,9 @@ fn shapes_lower_the_surface_by_their_products() {
             [value, slope]
         });
         let mut left = Influence::zeros(at.len());
-        ResidualFlexibility::new(surface.clone(), taken).fill(&at, &mut left).expect("on the rail");
+        ResidualFlexibility::new(surface.clone(), taken)
+            .fill(&at, &mut left)
+            .expect("on the rail");
         for (i, [value, slope]) in rows.iter().enumerate() {
             for (j, [other, _]) in rows.iter().enumerate() {
                 let sum = |a: &[f64]| a.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
@@ -64,13 +68,22 @@ fn shapes_are_shape_rows_times_their_motions() {
         let Ok(row) = line.row(p) else { continue };
         shapes.row(p, &mut value, &mut slope).expect("on the rail");
         let sum = |shares: &[f64], shape: usize| -> [f64; 2] {
-            let terms = row.indices().iter().zip(shares).map(|(&k, share)| share * states[(k, shape)]);
-            terms.fold([0.0; 2], |[sum, size], term| [sum + term, size + term.abs()])
+            let terms = row
+                .indices()
+                .iter()
+                .zip(shares)
+                .map(|(&k, share)| share * states[(k, shape)]);
+            terms.fold([0.0; 2], |[sum, size], term| {
+                [sum + term, size + term.abs()]
+            })
         };
         for shape in 0..5 {
             for (seen, shares) in [(value[shape], row.values()), (slope[shape], row.slopes())] {
                 let [sum, size] = sum(shares, shape);
-                assert!((seen - sum).abs() <= 1e-14 * size, "shape {shape} at {x}: {seen} for {sum}");
+                assert!(
+                    (seen - sum).abs() <= 1e-14 * size,
+                    "shape {shape} at {x}: {seen} for {sum}"
+                );
             }
         }
     }
@@ -81,5 +94,12 @@ fn shapes_of_other_rails_are_refused() {
     let line = Arc::clone(Beam::paper().surface(&STATIONS).rails());
     let rows = 6 * line.state_count();
     let wrong = RailShapes::new(line, DMatrix::zeros(rows + 1, 2));
-    assert_eq!(wrong.err(), Some(Error::NodalShape { rows: rows + 1, columns: 2, expected: rows }));
+    assert_eq!(
+        wrong.err(),
+        Some(Error::NodalShape {
+            rows: rows + 1,
+            columns: 2,
+            expected: rows
+        })
+    );
 }

@@ -9,8 +9,8 @@ use beam::{Beam, chain, coupled, probe};
 use nalgebra::DMatrix;
 use splines::{
     Axis, Compliance, Couplings, Differentiable, ElementResidual, Error, ExactSurface, Flexibility,
-    Influence, InfluenceLines, Probe, RailElement, RailShapes, Rails, ResidualFlexibility, RoundingSizes,
-    Uncoupled,
+    Influence, InfluenceLines, Probe, RailElement, RailShapes, Rails, ResidualFlexibility,
+    RoundingSizes, Uncoupled,
 };
 
 /// One element from 0 to `length`, its rail at `offset` from the axis.
@@ -28,8 +28,15 @@ fn sizes(rails: &Rails, axis: Axis, s: f64) -> RoundingSizes {
 #[test]
 fn sizes_of_bending_are_the_sums_of_the_terms_of_its_closed_form() {
     let (l, c) = (8.0, 0.3);
-    let rails =
-        rails(l, [0.0; 3], Flexibility { bending_z: c, bending_y: 2.0 * c, ..Flexibility::default() });
+    let rails = rails(
+        l,
+        [0.0; 3],
+        Flexibility {
+            bending_z: c,
+            bending_y: 2.0 * c,
+            ..Flexibility::default()
+        },
+    );
     for s in [0.0, 0.1, 0.3, 0.5, 0.55, 0.8, 0.97] {
         let near = l * f64::min(s, 1.0 - s);
         let far = l - near;
@@ -37,9 +44,15 @@ fn sizes_of_bending_are_the_sums_of_the_terms_of_its_closed_form() {
         let value = c * (near * far).powi(3) / (3.0 * l.powi(3));
         for (axis, factor) in [(Axis::Vertical, 1.0), (Axis::Lateral, 2.0)] {
             let found = sizes(&rails, axis, s).green;
-            assert!((found - factor * size).abs() <= 1e-14 * size, "{axis:?} {s}: {found}, not {size}");
+            assert!(
+                (found - factor * size).abs() <= 1e-14 * size,
+                "{axis:?} {s}: {found}, not {size}"
+            );
             let own = rails.clamped_green(0, s * l, s * l)[axis.component()][axis.component()];
-            assert!((own - factor * value).abs() <= 1e-13 * value, "{axis:?} {s}: {own}, not {value}");
+            assert!(
+                (own - factor * value).abs() <= 1e-13 * value,
+                "{axis:?} {s}: {own}, not {value}"
+            );
         }
     }
 }
@@ -65,12 +78,18 @@ fn sizes_at_midspan_have_their_closed_forms_with_shear_twist_and_arms() {
     let along = h * h * f.bending_z * l * (4.0 + 5.0 * stiff) / 16.0 + f.axial * l / 4.0;
     let expected = [
         (Axis::Vertical, force(f.bending_z, f.shear_y)),
-        (Axis::Lateral, force(f.bending_y, f.shear_z) + h * h * f.torsion * l / 4.0),
+        (
+            Axis::Lateral,
+            force(f.bending_y, f.shear_z) + h * h * f.torsion * l / 4.0,
+        ),
         (Axis::Longitudinal, along),
     ];
     for (axis, size) in expected {
         let found = sizes(&rails, axis, 0.5).green;
-        assert!((found / size - 1.0).abs() < 1e-14, "{axis:?}: {found}, not {size}");
+        assert!(
+            (found / size - 1.0).abs() < 1e-14,
+            "{axis:?}: {found}, not {size}"
+        );
     }
 }
 
@@ -90,7 +109,11 @@ fn no_value_exceeds_the_size_of_its_terms() {
             let sizes = rails.rounding_sizes(row.element, axis, fractions, [0.0; 2], true);
             let a = axis.component();
             let own = rails.clamped_green(row.element, x, x)[a][a];
-            assert!(own <= sizes.green * (1.0 + 1e-13), "{axis:?} at {x}: {own:e} and {:e}", sizes.green);
+            assert!(
+                own <= sizes.green * (1.0 + 1e-13),
+                "{axis:?} at {x}: {own:e} and {:e}",
+                sizes.green
+            );
             if own > 0.0 {
                 closest = closest.min(sizes.green / own);
                 places += 1;
@@ -98,7 +121,10 @@ fn no_value_exceeds_the_size_of_its_terms() {
             for (&index, &value) in row.indices().iter().zip(row.values()) {
                 let state = usize::from(index / 6 != rails.elements()[row.element].ends[0]);
                 let size = sizes.row[6 * state + index % 6];
-                assert!(value.abs() <= size * (1.0 + 1e-13), "{axis:?} at {x}: {value:e} and {size:e}");
+                assert!(
+                    value.abs() <= size * (1.0 + 1e-13),
+                    "{axis:?} at {x}: {value:e} and {size:e}"
+                );
             }
         }
     }
@@ -147,7 +173,10 @@ fn sizes_and_values_change_with_the_unit_of_length_as_displacements_do() {
             }
             for z in [0.0, 0.25, 0.5, 0.875] {
                 let [x, z] = [s, z].map(|s| 2.0 + 8.0 * s);
-                let (a, b) = (one.clamped_green(0, x, z), other.clamped_green(0, 2.0 * x, 2.0 * z));
+                let (a, b) = (
+                    one.clamped_green(0, x, z),
+                    other.clamped_green(0, 2.0 * x, 2.0 * z),
+                );
                 assert_eq!(a.map(|row| row.map(|value| 2.0 * value)), b);
             }
         }
@@ -167,10 +196,14 @@ fn green_functions_with_and_without_derivatives_agree() {
             for p in Axis::ALL {
                 for q in Axis::ALL {
                     let (a, b) = (p.component(), q.component());
-                    let rows = [probe(p, x), probe(q, z)].map(|at| rails.row(at).expect("on the rail"));
+                    let rows =
+                        [probe(p, x), probe(q, z)].map(|at| rails.row(at).expect("on the rail"));
                     let found = rails.clamped_between(&rows[0], &rows[1]);
                     let size = (own(x, a) * own(z, b)).sqrt();
-                    assert!((found - green[a][b]).abs() <= 1e-13 * size, "{p:?} {x} {q:?} {z}: {found:e}");
+                    assert!(
+                        (found - green[a][b]).abs() <= 1e-13 * size,
+                        "{p:?} {x} {q:?} {z}: {found:e}"
+                    );
                 }
             }
         }
@@ -181,8 +214,14 @@ fn green_functions_with_and_without_derivatives_agree() {
 /// not a number.
 #[test]
 fn nodal_compliance_acts_by_its_symmetric_part() {
-    let line =
-        Arc::new(rails(10.0, [0.2, 1.0, -0.3], Flexibility { bending_z: 0.1, ..Flexibility::default() }));
+    let line = Arc::new(rails(
+        10.0,
+        [0.2, 1.0, -0.3],
+        Flexibility {
+            bending_z: 0.1,
+            ..Flexibility::default()
+        },
+    ));
     let given = DMatrix::from_fn(12, 12, |i, j| (1 + 3 * i + 5 * j + i * j) as f64);
     let half = (&given + given.transpose()) * 0.5;
     let surface = ExactSurface::new(Arc::clone(&line), given.clone()).expect("numbers");
@@ -207,7 +246,12 @@ fn reported(of: &dyn Compliance) -> (bool, Vec<f64>, Option<[f64; 2]>, Vec<f64>)
 #[test]
 fn remainders_of_a_surface_report_its_symmetry_elements_and_extent() {
     let surface = Beam::paper().surface(&[-15.0, 0.0, 60.0, 75.0]);
-    let expected = (true, vec![-15.0, 0.0, 60.0, 75.0], Some([-15.0, 75.0]), Vec::new());
+    let expected = (
+        true,
+        vec![-15.0, 0.0, 60.0, 75.0],
+        Some([-15.0, 75.0]),
+        Vec::new(),
+    );
     let line = Arc::clone(surface.rails());
     let shapes = RailShapes::new(line, DMatrix::from_element(24, 1, 1e-5)).expect("six a state");
     let parted: Vec<Box<dyn Compliance>> = vec![
@@ -230,9 +274,16 @@ fn remainders_of_a_surface_report_its_symmetry_elements_and_extent() {
 #[test]
 fn clamped_member_without_its_deflection_under_uniform_load_has_its_closed_form() {
     let (l, c) = (12.0_f64, 0.3);
-    let flexibility = Flexibility { bending_z: c, bending_y: 3.0 * c, ..Flexibility::default() };
-    let whole = ExactSurface::new(Arc::new(rails(l, [0.0; 3], flexibility)), DMatrix::zeros(12, 12))
-        .expect("an element with both ends held");
+    let flexibility = Flexibility {
+        bending_z: c,
+        bending_y: 3.0 * c,
+        ..Flexibility::default()
+    };
+    let whole = ExactSurface::new(
+        Arc::new(rails(l, [0.0; 3], flexibility)),
+        DMatrix::zeros(12, 12),
+    )
+    .expect("an element with both ends held");
     let square = |c: f64| 720.0 / (c * l.powi(5));
     let left = ElementResidual::new(whole.clone(), vec![[square(c), square(3.0 * c)]]);
     let at: Vec<Probe> = [Axis::Vertical, Axis::Lateral]
@@ -247,15 +298,29 @@ fn clamped_member_without_its_deflection_under_uniform_load_has_its_closed_form(
     for (i, p) in at.iter().enumerate() {
         for (j, q) in at.iter().enumerate() {
             let c = if i < 2 { c } else { 3.0 * c };
-            let part = if p.axis == q.axis { c * c * square(c) * shape(q.x) } else { 0.0 };
+            let part = if p.axis == q.axis {
+                c * c * square(c) * shape(q.x)
+            } else {
+                0.0
+            };
             let value = all.value[(i, j)] - part * shape(p.x);
-            assert!((out.value[(i, j)] - value).abs() < 1e-13 * c * l.powi(3), "{p:?} {q:?}");
+            assert!(
+                (out.value[(i, j)] - value).abs() < 1e-13 * c * l.powi(3),
+                "{p:?} {q:?}"
+            );
             let value = all.slope[(i, j)] - part * slope(p.x);
-            assert!((out.slope[(i, j)] - value).abs() < 1e-13 * c * l * l, "{p:?} {q:?}");
+            assert!(
+                (out.slope[(i, j)] - value).abs() < 1e-13 * c * l * l,
+                "{p:?} {q:?}"
+            );
         }
     }
     let middle = c * l.powi(3) * (1.0 / 192.0 - 720.0 / 384_f64.powi(2));
-    assert!((out.value[(1, 1)] / middle - 1.0).abs() < 1e-12, "{:e}", out.value[(1, 1)]);
+    assert!(
+        (out.value[(1, 1)] / middle - 1.0).abs() < 1e-12,
+        "{:e}",
+        out.value[(1, 1)]
+    );
 }
 
 /// Analytic: a bar between held ends, f a (l - b)/l for a <= b, along its rail; with its derivatives, whose jump under
@@ -263,14 +328,32 @@ fn clamped_member_without_its_deflection_under_uniform_load_has_its_closed_form(
 #[test]
 fn bar_between_held_ends_has_its_closed_form_along_the_rail() {
     let (l, f) = (7.0, 0.3);
-    let rails = Arc::new(rails(l, [0.0; 3], Flexibility { axial: f, ..Flexibility::default() }));
+    let rails = Arc::new(rails(
+        l,
+        [0.0; 3],
+        Flexibility {
+            axial: f,
+            ..Flexibility::default()
+        },
+    ));
     let bar = ExactSurface::new(rails, DMatrix::zeros(12, 12)).expect("both ends held");
     let along = |x: f64| probe(Axis::Longitudinal, x);
-    for (x, z) in [(1.0, 2.5), (2.5, 1.0), (6.0, 0.5), (3.0, 3.0), (0.0, 4.0), (6.9, 6.95)] {
+    for (x, z) in [
+        (1.0, 2.5),
+        (2.5, 1.0),
+        (6.0, 0.5),
+        (3.0, 3.0),
+        (0.0, 4.0),
+        (6.9, 6.95),
+    ] {
         let mut out = Influence::zeros(2);
-        bar.fill(&[along(x), along(z)], &mut out).expect("on the rail");
+        bar.fill(&[along(x), along(z)], &mut out)
+            .expect("on the rail");
         let (a, b) = (f64::min(x, z), f64::max(x, z));
-        assert!((out.value[(0, 1)] - f * a * (l - b) / l).abs() < 1e-15, "{x} {z}");
+        assert!(
+            (out.value[(0, 1)] - f * a * (l - b) / l).abs() < 1e-15,
+            "{x} {z}"
+        );
         let slope = |own: f64, other: f64| match own.total_cmp(&other) {
             std::cmp::Ordering::Less => f * (l - other) / l,
             std::cmp::Ordering::Greater => -f * other / l,
@@ -285,7 +368,10 @@ fn bar_between_held_ends_has_its_closed_form_along_the_rail() {
             (found.pp, 0.0),
             (found.qq, 0.0),
         ] {
-            assert!((found - expected).abs() < 1e-15, "{x} {z}: {found}, not {expected}");
+            assert!(
+                (found - expected).abs() < 1e-15,
+                "{x} {z}: {found}, not {expected}"
+            );
         }
     }
 }
@@ -294,33 +380,70 @@ fn bar_between_held_ends_has_its_closed_form_along_the_rail() {
 /// and above it.
 #[test]
 fn states_without_stiffness_are_refused_by_values_and_derivatives() {
-    let flexibility =
-        Flexibility { bending_z: 0.1, bending_y: 0.2, torsion: 0.3, axial: 0.4, ..Flexibility::default() };
+    let flexibility = Flexibility {
+        bending_z: 0.1,
+        bending_y: 0.2,
+        torsion: 0.3,
+        axial: 0.4,
+        ..Flexibility::default()
+    };
     for offset in [[0.0; 3], [0.3, 1.0, -0.5]] {
         let mut nodal = DMatrix::identity(12, 12);
         nodal[(7, 7)] = f64::INFINITY;
         let line = Arc::new(rails(10.0, offset, flexibility));
-        let surface = ExactSurface::new(line, nodal).expect("an infinite diagonal entry is allowed");
+        let surface =
+            ExactSurface::new(line, nodal).expect("an infinite diagonal entry is allowed");
         let at = probe(Axis::Vertical, 4.0);
-        let refused = Error::NoStiffness { rail: 0, x: 4.0, axis: Axis::Vertical };
-        assert_eq!(surface.fill(&[at], &mut Influence::zeros(1)), Err(refused.clone()));
+        let refused = Error::NoStiffness {
+            rail: 0,
+            x: 4.0,
+            axis: Axis::Vertical,
+        };
+        assert_eq!(
+            surface.fill(&[at], &mut Influence::zeros(1)),
+            Err(refused.clone())
+        );
         assert_eq!(surface.partials(at, at).err(), Some(refused));
         let side = probe(Axis::Lateral, 4.0);
-        assert_eq!(surface.fill(&[side], &mut Influence::zeros(1)), Ok(()), "sideways it is held");
+        assert_eq!(
+            surface.fill(&[side], &mut Influence::zeros(1)),
+            Ok(()),
+            "sideways it is held"
+        );
     }
 }
 
 #[test]
 fn influence_lines_count_their_effects() {
-    let line = Arc::new(rails(8.0, [0.0; 3], Flexibility { bending_z: 1.0, ..Flexibility::default() }));
+    let line = Arc::new(rails(
+        8.0,
+        [0.0; 3],
+        Flexibility {
+            bending_z: 1.0,
+            ..Flexibility::default()
+        },
+    ));
     for count in [0, 1, 3] {
-        let lines = InfluenceLines::new(Arc::clone(&line), DMatrix::zeros(count, 12), vec![None; count]);
+        let lines = InfluenceLines::new(
+            Arc::clone(&line),
+            DMatrix::zeros(count, 12),
+            vec![None; count],
+        );
         let lines = lines.expect("zeros");
         assert_eq!((lines.len(), lines.is_empty()), (count, count == 0));
         let mut out = vec![1.0; count];
-        lines.fill(probe(Axis::Vertical, 3.0), &mut out).expect("on the rail");
+        lines
+            .fill(probe(Axis::Vertical, 3.0), &mut out)
+            .expect("on the rail");
         assert!(out.iter().all(|effect| *effect == 0.0));
-        let wrong = Error::EffectShape { rows: count + 1, columns: 1, expected: [count, 1] };
-        assert_eq!(lines.fill(probe(Axis::Vertical, 3.0), &mut vec![0.0; count + 1]), Err(wrong));
+        let wrong = Error::EffectShape {
+            rows: count + 1,
+            columns: 1,
+            expected: [count, 1],
+        };
+        assert_eq!(
+            lines.fill(probe(Axis::Vertical, 3.0), &mut vec![0.0; count + 1]),
+            Err(wrong)
+        );
     }
 }

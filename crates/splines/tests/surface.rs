@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use beam::{Beam, EI, Effect, Random, STRAIGHT, chain, probe};
 use nalgebra::DMatrix;
-use splines::{Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
+use splines::{
+    Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails,
+};
 
 fn fill(surface: &dyn Compliance, at: &[Probe]) -> Influence {
     let mut out = Influence::zeros(at.len());
@@ -15,7 +17,11 @@ fn fill(surface: &dyn Compliance, at: &[Probe]) -> Influence {
 }
 
 fn vertical(surface: &dyn Compliance, x: f64, z: f64) -> f64 {
-    fill(surface, &[probe(Axis::Vertical, x), probe(Axis::Vertical, z)]).value[(0, 1)]
+    fill(
+        surface,
+        &[probe(Axis::Vertical, x), probe(Axis::Vertical, z)],
+    )
+    .value[(0, 1)]
 }
 
 fn largest_error(beam: &Beam, stations: &[f64], pairs: usize) -> f64 {
@@ -37,20 +43,36 @@ fn largest_error(beam: &Beam, stations: &[f64], pairs: usize) -> f64 {
 fn surface_is_exact_at_ten_thousand_pairs_overhangs_included() {
     let error = largest_error(&Beam::paper(), &[-15.0, 0.0, 60.0, 75.0], 10_000);
     assert!(error < 1e-13, "{error:e}");
-    let error = largest_error(&Beam::paper(), &[-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0], 10_000);
+    let error = largest_error(
+        &Beam::paper(),
+        &[-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0],
+        10_000,
+    );
     assert!(error < 1e-13, "{error:e}");
 }
 
 /// Analytic: the force method.
 #[test]
 fn surface_is_exact_for_shear_and_many_spans() {
-    let timoshenko = Beam { c: 1.0 / EI, g: 2.5e-9, supports: vec![0.0, 60.0] };
+    let timoshenko = Beam {
+        c: 1.0 / EI,
+        g: 2.5e-9,
+        supports: vec![0.0, 60.0],
+    };
     let error = largest_error(&timoshenko, &[-15.0, 0.0, 60.0, 75.0], 2000);
     assert!(error < 1e-13, "{error:e}");
-    let spans = Beam { c: 1.0 / EI, g: 2.5e-9, supports: vec![0.0, 20.0, 65.0, 100.0] };
+    let spans = Beam {
+        c: 1.0 / EI,
+        g: 2.5e-9,
+        supports: vec![0.0, 20.0, 65.0, 100.0],
+    };
     let error = largest_error(&spans, &[-5.0, 0.0, 20.0, 65.0, 100.0, 110.0], 2000);
     assert!(error < 1e-12, "{error:e}");
-    let shear = Beam { c: 0.0, g: 2.5e-9, supports: vec![0.0, 20.0, 65.0] };
+    let shear = Beam {
+        c: 0.0,
+        g: 2.5e-9,
+        supports: vec![0.0, 20.0, 65.0],
+    };
     let error = largest_error(&shear, &[0.0, 20.0, 65.0], 500);
     assert!(error < 1e-13, "{error:e}");
 }
@@ -58,7 +80,11 @@ fn surface_is_exact_for_shear_and_many_spans() {
 /// Closed forms of the simply supported beam: L^3/48 EI + L/4 kGA at midspan.
 #[test]
 fn midspan_gives_the_textbook_value() {
-    let beam = Beam { c: 1.0 / EI, g: 3e-9, supports: vec![0.0, 60.0] };
+    let beam = Beam {
+        c: 1.0 / EI,
+        g: 3e-9,
+        supports: vec![0.0, 60.0],
+    };
     let expected = 60.0_f64.powi(3) / (48.0 * EI) + 60.0 * 3e-9 / 4.0;
     let got = vertical(&beam.surface(&[0.0, 60.0]), 30.0, 30.0);
     assert!((got / expected - 1.0).abs() < 1e-14, "{got:e} {expected:e}");
@@ -68,7 +94,11 @@ fn midspan_gives_the_textbook_value() {
 #[test]
 fn surface_reproduces_independent_values() {
     let one = Beam::paper().surface(&[-15.0, 0.0, 60.0, 75.0]);
-    let two = Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 60.0, 120.0] };
+    let two = Beam {
+        c: 1.0 / EI,
+        g: 0.0,
+        supports: vec![0.0, 60.0, 120.0],
+    };
     let two = two.surface(&[0.0, 60.0, 120.0]);
     let cases = [
         (&one, 7.5, 22.5, 4.0570527873985434e-8),
@@ -85,23 +115,34 @@ fn surface_reproduces_independent_values() {
     ];
     for (surface, x, z, expected) in cases {
         let got = vertical(surface, x, z);
-        assert!((got - expected).abs() < 1e-13 * 1.1e-7, "G({x}, {z}) = {got:e}, expected {expected:e}");
+        assert!(
+            (got - expected).abs() < 1e-13 * 1.1e-7,
+            "G({x}, {z}) = {got:e}, expected {expected:e}"
+        );
     }
 }
 
 /// Analytic: central differences of the force method.
 #[test]
 fn slope_is_the_derivative_of_the_surface() {
-    let beam = Beam { c: 1.0 / EI, g: 2e-9, supports: vec![0.0, 60.0] };
+    let beam = Beam {
+        c: 1.0 / EI,
+        g: 2e-9,
+        supports: vec![0.0, 60.0],
+    };
     let surface = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
     let mut random = Random::new(3);
     for _ in 0..500 {
         let (x, z) = (random.between(-14.0, 74.0), random.between(-14.0, 74.0));
-        let out = fill(&surface, &[probe(Axis::Vertical, x), probe(Axis::Vertical, z)]);
+        let out = fill(
+            &surface,
+            &[probe(Axis::Vertical, x), probe(Axis::Vertical, z)],
+        );
         for (i, j, a, b) in [(0, 1, x, z), (1, 0, z, x), (0, 0, x, x), (1, 1, z, z)] {
             let step = 1e-3;
             // Right and left differences are averaged: on the diagonal the slope in shear jumps.
-            let exact = (beam.deflection(a + step, b) - beam.deflection(a - step, b)) / (2.0 * step);
+            let exact =
+                (beam.deflection(a + step, b) - beam.deflection(a - step, b)) / (2.0 * step);
             if (a - b).abs() > step || a == b {
                 assert!(
                     (out.slope[(i, j)] - exact).abs() < 1e-15,
@@ -136,7 +177,11 @@ fn clamped_element_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     let mut random = Random::new(11);
     for k in 0..2000 {
         let x = random.between(5.0, 25.0);
-        let z = if k % 5 == 0 { x } else { random.between(5.0, 25.0) };
+        let z = if k % 5 == 0 {
+            x
+        } else {
+            random.between(5.0, 25.0)
+        };
         let (there, back) = (line.clamped_green(0, x, z), line.clamped_green(0, z, x));
         for a in 0..3 {
             for b in 0..3 {
@@ -187,8 +232,16 @@ fn dividing_an_element_changes_nothing() {
         }
         let (a, b) = (fill(&whole, &at), fill(&cut, &at));
         let (value, slope) = (a.value.amax(), a.slope.amax());
-        assert!((&a.value - &b.value).amax() < 1e-13 * value, "{:e}", (&a.value - &b.value).amax() / value);
-        assert!((&a.slope - &b.slope).amax() < 1e-13 * slope, "{:e}", (&a.slope - &b.slope).amax() / slope);
+        assert!(
+            (&a.value - &b.value).amax() < 1e-13 * value,
+            "{:e}",
+            (&a.value - &b.value).amax() / value
+        );
+        assert!(
+            (&a.slope - &b.slope).amax() < 1e-13 * slope,
+            "{:e}",
+            (&a.slope - &b.slope).amax() / slope
+        );
         assert_eq!(a.value, a.value.transpose());
     }
 }
@@ -246,7 +299,10 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
     let beam = Beam::paper();
     let plain = beam.surface(&[0.0, 60.0]);
     let h = 3.5;
-    let flexibility = Flexibility { bending_z: beam.c, ..Flexibility::default() };
+    let flexibility = Flexibility {
+        bending_z: beam.c,
+        ..Flexibility::default()
+    };
     let line = Rails::new(chain(&[0.0, 60.0], [0.0, h, 0.0], flexibility)).expect("valid");
     let surface = ExactSurface::new(Arc::new(line), plain.nodal().clone()).expect("fits");
     let mut random = Random::new(9);
@@ -256,8 +312,16 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
         let got = fill(&surface, &at).value;
         let coupling = -h * beam.give(Effect::Force, x, Effect::Moment, z);
         let along = h * h * beam.give(Effect::Moment, z, Effect::Moment, z);
-        assert!((got[(0, 1)] - coupling).abs() < 1e-21, "{:e} {coupling:e}", got[(0, 1)]);
-        assert!((got[(1, 1)] - along).abs() < 1e-21, "{:e} {along:e}", got[(1, 1)]);
+        assert!(
+            (got[(0, 1)] - coupling).abs() < 1e-21,
+            "{:e} {coupling:e}",
+            got[(0, 1)]
+        );
+        assert!(
+            (got[(1, 1)] - along).abs() < 1e-21,
+            "{:e} {along:e}",
+            got[(1, 1)]
+        );
         assert!((got[(0, 0)] - beam.deflection(x, x)).abs() < 1e-20);
     }
 }
@@ -266,10 +330,16 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
 #[test]
 fn rail_above_the_axis_moves_sideways_by_twist() {
     let (h, t, l) = (3.0, 2e-10, 40.0);
-    let flexibility = Flexibility { torsion: t, ..Flexibility::default() };
+    let flexibility = Flexibility {
+        torsion: t,
+        ..Flexibility::default()
+    };
     let line = Rails::new(chain(&[0.0, l], [0.0, h, 0.0], flexibility)).expect("valid");
     let surface = ExactSurface::new(Arc::new(line), DMatrix::zeros(12, 12)).expect("fits");
-    let got = fill(&surface, &[probe(Axis::Lateral, 10.0), probe(Axis::Lateral, 25.0)]);
+    let got = fill(
+        &surface,
+        &[probe(Axis::Lateral, 10.0), probe(Axis::Lateral, 25.0)],
+    );
     let expected = h * h * t * 10.0 * 15.0 / l;
     assert!((got.value[(0, 1)] / expected - 1.0).abs() < 1e-14);
     // The slope jumps under one's own force from h^2 t (l - x)/l to -h^2 t x/l; the result is their mean.
@@ -280,12 +350,18 @@ fn rail_above_the_axis_moves_sideways_by_twist() {
 /// Smallest eigenvalue of random layouts, relative to the largest.
 #[test]
 fn surface_is_positive_and_symmetric_to_the_last_bit() {
-    let surface = Beam { c: 1.0 / EI, g: 1e-9, supports: vec![0.0, 60.0] };
+    let surface = Beam {
+        c: 1.0 / EI,
+        g: 1e-9,
+        supports: vec![0.0, 60.0],
+    };
     let surface = surface.surface(&[-15.0, 0.0, 30.0, 60.0, 75.0]);
     let mut random = Random::new(21);
     for n in [2, 4, 8, 16, 24] {
         for _ in 0..200 {
-            let at: Vec<Probe> = (0..n).map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0))).collect();
+            let at: Vec<Probe> = (0..n)
+                .map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0)))
+                .collect();
             let value = fill(&surface, &at).value;
             assert_eq!(value, value.transpose());
             let eigenvalues = value.symmetric_eigenvalues();
@@ -312,9 +388,15 @@ fn arm(rail: usize, x: [f64; 2], end: usize) -> RailElement {
 #[test]
 fn rigid_arm_moves_with_its_state() {
     let line = Rails::new(vec![arm(0, [10.0, 11.0], 0)]).expect("valid");
-    let nodal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    let nodal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![
+        1.0, 2.0, 3.0, 4.0, 5.0, 6.0,
+    ]));
     let surface = ExactSurface::new(Arc::new(line), nodal).expect("fits");
-    let at = [probe(Axis::Vertical, 10.75), probe(Axis::Longitudinal, 10.0), probe(Axis::Lateral, 11.0)];
+    let at = [
+        probe(Axis::Vertical, 10.75),
+        probe(Axis::Longitudinal, 10.0),
+        probe(Axis::Lateral, 11.0),
+    ];
     let got = fill(&surface, &at);
     // theta x (r, 2, 0), r = x - 10.5: (-2 tz, r tz, 2 tx - r ty).
     assert_eq!(got.value[(0, 0)], 2.0 + 0.25 * 0.25 * 6.0);
@@ -333,7 +415,10 @@ fn first_listed_element_carries_the_place_where_two_meet() {
     assert_eq!(earlier.row(at).map(|row| row.element), Ok(0));
     assert_eq!(later.row(at).map(|row| row.element), Ok(0));
     assert_eq!(later.row(at).expect("on the rail").indices(), &[7, 11]);
-    assert_eq!(later.row(probe(Axis::Vertical, 0.5)).map(|row| row.element), Ok(1));
+    assert_eq!(
+        later.row(probe(Axis::Vertical, 0.5)).map(|row| row.element),
+        Ok(1)
+    );
     assert_eq!(later.breaks(0), vec![0.0, 1.0, 2.0]);
     assert_eq!(later.range(0), Some([0.0, 2.0]));
     assert_eq!(later.range(1), None);
@@ -341,54 +426,115 @@ fn first_listed_element_carries_the_place_where_two_meet() {
 
 #[test]
 fn probes_off_the_rail_are_refused() {
-    let line =
-        Rails::new(vec![arm(3, [0.0, 1.0], 0), arm(3, [2.0, 3.0], 1), arm(7, [2.0, 3.0], 1)]).expect("valid");
-    let row = |rail, x| line.row(Probe { rail, x, axis: Axis::Vertical }).map(|row| row.element);
+    let line = Rails::new(vec![
+        arm(3, [0.0, 1.0], 0),
+        arm(3, [2.0, 3.0], 1),
+        arm(7, [2.0, 3.0], 1),
+    ])
+    .expect("valid");
+    let row = |rail, x| {
+        line.row(Probe {
+            rail,
+            x,
+            axis: Axis::Vertical,
+        })
+        .map(|row| row.element)
+    };
     assert_eq!(row(0, 0.5), Err(Error::NoRail { rail: 0 }));
     assert_eq!(row(3, -0.1), Err(Error::OffRail { rail: 3, x: -0.1 }));
     assert_eq!(row(3, 1.5), Err(Error::OffRail { rail: 3, x: 1.5 }));
     assert_eq!(row(3, 3.1), Err(Error::OffRail { rail: 3, x: 3.1 }));
-    assert!(matches!(row(3, f64::NAN), Err(Error::OffRail { rail: 3, .. })));
+    assert!(matches!(
+        row(3, f64::NAN),
+        Err(Error::OffRail { rail: 3, .. })
+    ));
     assert_eq!(row(3, 3.0 + 1e-13), Ok(1));
     assert_eq!(row(7, 2.5), Ok(2));
 }
 
 #[test]
 fn missing_stiffness_is_refused_only_where_it_is_needed() {
-    let loose = Flexibility { axial: f64::INFINITY, torsion: f64::INFINITY, ..Flexibility::default() };
+    let loose = Flexibility {
+        axial: f64::INFINITY,
+        torsion: f64::INFINITY,
+        ..Flexibility::default()
+    };
     let row = |offset, axis| {
         let line = Rails::new(chain(&[0.0, 10.0], offset, loose)).expect("valid");
         line.row(probe(axis, 4.0)).map(|_| ())
     };
-    let refused = |axis| Err(Error::NoStiffness { rail: 0, x: 4.0, axis });
+    let refused = |axis| {
+        Err(Error::NoStiffness {
+            rail: 0,
+            x: 4.0,
+            axis,
+        })
+    };
     assert_eq!(row([0.0; 3], Axis::Vertical), Ok(()));
     assert_eq!(row([0.0; 3], Axis::Lateral), Ok(()));
-    assert_eq!(row([0.0; 3], Axis::Longitudinal), refused(Axis::Longitudinal));
+    assert_eq!(
+        row([0.0; 3], Axis::Longitudinal),
+        refused(Axis::Longitudinal)
+    );
     assert_eq!(row([0.0, 2.0, 0.0], Axis::Vertical), Ok(()));
     assert_eq!(row([0.0, 2.0, 0.0], Axis::Lateral), refused(Axis::Lateral));
-    assert_eq!(row([0.0, 0.0, 2.0], Axis::Vertical), refused(Axis::Vertical));
+    assert_eq!(
+        row([0.0, 0.0, 2.0], Axis::Vertical),
+        refused(Axis::Vertical)
+    );
     let line = Rails::new(chain(&[0.0, 10.0], [0.0, 2.0, 0.0], loose)).expect("valid");
     let kernel = line.clamped_green(0, 4.0, 5.0);
-    assert_eq!((kernel[0][0], kernel[2][2], kernel[1][1]), (f64::INFINITY, f64::INFINITY, 0.0));
+    assert_eq!(
+        (kernel[0][0], kernel[2][2], kernel[1][1]),
+        (f64::INFINITY, f64::INFINITY, 0.0)
+    );
 }
 
 #[test]
 fn infinite_nodal_compliance_refuses_the_probes_that_need_it() {
-    let line = Arc::new(Rails::new(chain(&[0.0, 10.0], [0.0; 3], Flexibility::default())).expect("valid"));
+    let line =
+        Arc::new(Rails::new(chain(&[0.0, 10.0], [0.0; 3], Flexibility::default())).expect("valid"));
     let mut nodal = DMatrix::identity(12, 12);
     nodal[(2, 2)] = f64::INFINITY;
     let surface = ExactSurface::new(line.clone(), nodal.clone()).expect("fits");
     let mut out = Influence::zeros(1);
-    assert_eq!(surface.fill(&[probe(Axis::Vertical, 4.0)], &mut out), Ok(()));
-    let refused = Error::NoStiffness { rail: 0, x: 4.0, axis: Axis::Lateral };
-    assert_eq!(surface.fill(&[probe(Axis::Lateral, 4.0)], &mut out), Err(refused));
+    assert_eq!(
+        surface.fill(&[probe(Axis::Vertical, 4.0)], &mut out),
+        Ok(())
+    );
+    let refused = Error::NoStiffness {
+        rail: 0,
+        x: 4.0,
+        axis: Axis::Lateral,
+    };
+    assert_eq!(
+        surface.fill(&[probe(Axis::Lateral, 4.0)], &mut out),
+        Err(refused)
+    );
     nodal[(2, 2)] = f64::NAN;
-    assert!(matches!(ExactSurface::new(line.clone(), nodal), Err(Error::NodalNumber { row: 2, column: 2 })));
+    assert!(matches!(
+        ExactSurface::new(line.clone(), nodal),
+        Err(Error::NodalNumber { row: 2, column: 2 })
+    ));
     let small = ExactSurface::new(line, DMatrix::zeros(6, 6));
-    assert!(matches!(small, Err(Error::NodalShape { rows: 6, columns: 6, expected: 12 })));
+    assert!(matches!(
+        small,
+        Err(Error::NodalShape {
+            rows: 6,
+            columns: 6,
+            expected: 12
+        })
+    ));
     let mut wrong = Influence::zeros(3);
-    let refused = Error::OutputShape { rows: 3, columns: 3, expected: 1 };
-    assert_eq!(surface.fill(&[probe(Axis::Vertical, 4.0)], &mut wrong), Err(refused));
+    let refused = Error::OutputShape {
+        rows: 3,
+        columns: 3,
+        expected: 1,
+    };
+    assert_eq!(
+        surface.fill(&[probe(Axis::Vertical, 4.0)], &mut wrong),
+        Err(refused)
+    );
 }
 
 #[test]
@@ -397,31 +543,73 @@ fn unusable_elements_are_refused() {
     let refuse = |cells: Vec<RailElement>| Rails::new(cells).map(|_| ()).expect_err("refused");
     assert_eq!(refuse(vec![]), Error::NoElements);
     assert_eq!(
-        refuse(vec![RailElement { x: [2.0, 2.0], ..good.clone() }]),
-        Error::ElementExtent { cell: 0, x: [2.0, 2.0] }
+        refuse(vec![RailElement {
+            x: [2.0, 2.0],
+            ..good.clone()
+        }]),
+        Error::ElementExtent {
+            cell: 0,
+            x: [2.0, 2.0]
+        }
     );
     assert_eq!(
-        refuse(vec![RailElement { x: [0.0, f64::INFINITY], ..good.clone() }]),
+        refuse(vec![RailElement {
+            x: [0.0, f64::INFINITY],
+            ..good.clone()
+        }]),
         Error::ElementNumber { cell: 0 }
     );
     assert_eq!(
-        refuse(vec![RailElement { offset: [f64::NAN, 0.0, 0.0], ..good.clone() }]),
+        refuse(vec![RailElement {
+            offset: [f64::NAN, 0.0, 0.0],
+            ..good.clone()
+        }]),
         Error::ElementNumber { cell: 0 }
     );
     assert_eq!(
-        refuse(vec![RailElement { length: 0.0, ..good.clone() }]),
-        Error::ElementLength { cell: 0, length: 0.0 }
+        refuse(vec![RailElement {
+            length: 0.0,
+            ..good.clone()
+        }]),
+        Error::ElementLength {
+            cell: 0,
+            length: 0.0
+        }
     );
     let left_handed = [STRAIGHT[0], STRAIGHT[2], STRAIGHT[1]];
     assert_eq!(
-        refuse(vec![RailElement { frame: left_handed, ..good.clone() }]),
+        refuse(vec![RailElement {
+            frame: left_handed,
+            ..good.clone()
+        }]),
         Error::ElementFrame { cell: 0 }
     );
-    let negative = Flexibility { shear_y: -1.0, ..Flexibility::default() };
+    let negative = Flexibility {
+        shear_y: -1.0,
+        ..Flexibility::default()
+    };
     assert_eq!(
-        refuse(vec![good.clone(), RailElement { rail: 1, flexibility: negative, ..good.clone() }]),
+        refuse(vec![
+            good.clone(),
+            RailElement {
+                rail: 1,
+                flexibility: negative,
+                ..good.clone()
+            }
+        ]),
         Error::ElementFlexibility { cell: 1 }
     );
-    let over = RailElement { x: [9.0, 12.0], ..good.clone() };
-    assert_eq!(refuse(vec![over, good]), Error::Overlap { rail: 0, first: 1, second: 0, x: 9.0 });
+    let over = RailElement {
+        x: [9.0, 12.0],
+        ..good.clone()
+    };
+    assert_eq!(
+        refuse(vec![over, good]),
+        Error::Overlap {
+            rail: 0,
+            first: 1,
+            second: 0,
+            x: 9.0
+        }
+    );
 }

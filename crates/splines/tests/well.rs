@@ -1,6 +1,9 @@
 //! Work that wheels gain or lose on a slow path over a table, without simulating a motion.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 mod beam;
 
@@ -18,7 +21,11 @@ const START: f64 = 12.0;
 /// the forces along the rail, F_i sum of dG_ij/dx_i F_j, less the change of the energy stored. It is zero
 /// where G is symmetric.
 fn excess(give: &dyn Differentiable, x: f64) -> f64 {
-    let at = [x - ARM, x + ARM].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
+    let at = [x - ARM, x + ARM].map(|x| Probe {
+        rail: 0,
+        x,
+        axis: Axis::Vertical,
+    });
     let mut sum = 0.0;
     for p in at {
         for q in at {
@@ -52,7 +59,9 @@ fn akispl_loses_a_tenth_of_the_well_on_the_way_across_and_nothing_in_a_slow_cycl
     let akispl = read(ReadingMethod::Akispl, table(&VERTICAL));
     let mut way = forth();
     let across = lost(&akispl, &way);
-    let worst = (0..across.len()).min_by(|&i, &j| across[i].total_cmp(&across[j])).unwrap_or(0);
+    let worst = (0..across.len())
+        .min_by(|&i, &j| across[i].total_cmp(&across[j]))
+        .unwrap_or(0);
     println!(
         "{:.0} ft lb at {:.3} ft, {:.1e} across",
         across[worst],
@@ -73,13 +82,20 @@ fn akispl_loses_a_tenth_of_the_well_on_the_way_across_and_nothing_in_a_slow_cycl
     assert!(across[across.len() - 1].abs() < 1.0);
     way.extend(forth().iter().rev().skip(1));
     let cycle = lost(&akispl, &way);
-    assert!(cycle[cycle.len() - 1].abs() < 1e-6, "{}", cycle[cycle.len() - 1]);
+    assert!(
+        cycle[cycle.len() - 1].abs() < 1e-6,
+        "{}",
+        cycle[cycle.len() - 1]
+    );
 }
 
 #[test]
 fn symmetric_readings_lose_nothing_anywhere() {
     let natural = read(ReadingMethod::Natural, table(&VERTICAL));
-    for give in [&natural as &dyn Differentiable, &Beam::paper().surface(&STATIONS)] {
+    for give in [
+        &natural as &dyn Differentiable,
+        &Beam::paper().surface(&STATIONS),
+    ] {
         assert!(lost(give, &forth()).iter().all(|lost| lost.abs() < 1e-6));
     }
 }

@@ -75,14 +75,30 @@ pub fn choose(
 ) -> Result<StationChoice, Error> {
     let mut tolerance = goal.tolerance;
     for round in 0.. {
-        let choice = attempt(grid, surface, &StationGoal { tolerance, ..goal.clone() })?;
-        let wanted = |block: &&BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
-        let worst = choice.others.iter().filter(wanted).map(|block| block.error).fold(0.0, f64::max);
+        let choice = attempt(
+            grid,
+            surface,
+            &StationGoal {
+                tolerance,
+                ..goal.clone()
+            },
+        )?;
+        let wanted =
+            |block: &&BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
+        let worst = choice
+            .others
+            .iter()
+            .filter(wanted)
+            .map(|block| block.error)
+            .fold(0.0, f64::max);
         if worst <= goal.tolerance {
             return Ok(choice);
         }
         if round == ROUNDS {
-            return Err(Error::TooFewStations { most: choice.grid.size(), error: worst });
+            return Err(Error::TooFewStations {
+                most: choice.grid.size(),
+                error: worst,
+            });
         }
         tolerance *= TIGHTER;
     }
@@ -90,7 +106,11 @@ pub fn choose(
 }
 
 /// One search of all rails.
-fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Result<StationChoice, Error> {
+fn attempt(
+    grid: &StationGrid,
+    surface: &ExactSurface,
+    goal: &StationGoal,
+) -> Result<StationChoice, Error> {
     let mut rails = Vec::new();
     for (rail, given) in grid.rails.iter().enumerate() {
         let range = surface.range(rail).ok_or(Error::NoRail { rail })?;
@@ -105,27 +125,47 @@ fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Re
             tolerance: goal.tolerance,
             max_stations: MAX_STATIONS,
         };
-        rails.push(ChosenStations { rail: given.name.clone(), stations: splines::fewest_stations(&search)? });
+        rails.push(ChosenStations {
+            rail: given.name.clone(),
+            stations: splines::fewest_stations(&search)?,
+        });
     }
-    let named =
-        |rail: &ChosenStations| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() };
+    let named = |rail: &ChosenStations| GridRail {
+        name: rail.rail.clone(),
+        stations: rail.stations.at.clone(),
+    };
     let grid = at(grid, surface, rails.iter().map(named).collect())?;
     let others = others(&grid, surface, goal)?;
-    Ok(StationChoice { grid, rails, others })
+    Ok(StationChoice {
+        grid,
+        rails,
+        others,
+    })
 }
 
 /// The same blocks at other stations.
 ///
 /// # Errors
 /// A station beyond its rail.
-pub fn at(grid: &StationGrid, surface: &ExactSurface, rails: Vec<GridRail>) -> Result<StationGrid, Error> {
-    let mut out = StationGrid { rails, effects: None, ..grid.clone() };
+pub fn at(
+    grid: &StationGrid,
+    surface: &ExactSurface,
+    rails: Vec<GridRail>,
+) -> Result<StationGrid, Error> {
+    let mut out = StationGrid {
+        rails,
+        effects: None,
+        ..grid.clone()
+    };
     for (quantity, block) in &mut out.blocks {
         let (deflection, load) = axes(*quantity);
         let parts = out.rails.iter().enumerate().map(|(r, row)| {
             let parts = out.rails.iter().enumerate().map(|(c, column)| {
-                let block =
-                    CouplingBlock { compliance: surface, deflection: (r, deflection), load: (c, load) };
+                let block = CouplingBlock {
+                    compliance: surface,
+                    deflection: (r, deflection),
+                    load: (c, load),
+                };
                 block.matrix(&row.stations, &column.stations)
             });
             parts.collect::<Result<Vec<_>, _>>()
@@ -138,8 +178,13 @@ pub fn at(grid: &StationGrid, surface: &ExactSurface, rails: Vec<GridRail>) -> R
 
 /// One matrix from blocks by rows and columns of rails.
 fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
-    let rows = parts.iter().map(|row| row.first().map_or(0, DMatrix::nrows)).sum();
-    let columns = parts.first().map_or(0, |row| row.iter().map(DMatrix::ncols).sum());
+    let rows = parts
+        .iter()
+        .map(|row| row.first().map_or(0, DMatrix::nrows))
+        .sum();
+    let columns = parts
+        .first()
+        .map_or(0, |row| row.iter().map(DMatrix::ncols).sum());
     let mut out = DMatrix::zeros(rows, columns);
     let mut top = 0;
     for row in parts {
@@ -154,7 +199,11 @@ fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
 }
 
 /// Errors of the blocks that the searches of single rails do not consider.
-fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Result<Vec<BlockError>, Error> {
+fn others(
+    grid: &StationGrid,
+    surface: &ExactSurface,
+    goal: &StationGoal,
+) -> Result<Vec<BlockError>, Error> {
     if goal.method == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
@@ -170,10 +219,17 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
         .collect();
     let largest = |(rail, axis): RailDirection| {
         let at = &at_rails[rail];
-        Ok::<f64, Error>(CouplingBlock::direct(surface, (rail, axis)).matrix(at, at)?.amax())
+        Ok::<f64, Error>(
+            CouplingBlock::direct(surface, (rail, axis))
+                .matrix(at, at)?
+                .amax(),
+        )
     };
     let mut out = Vec::new();
-    for InfluenceBlock { deflection, load, .. } in &blocks {
+    for InfluenceBlock {
+        deflection, load, ..
+    } in &blocks
+    {
         let own = deflection.0 == load.0;
         if own && goal.axes.contains(&deflection.1) && goal.axes.contains(&load.1) {
             continue;
@@ -183,10 +239,23 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
             deflection: *deflection,
             load: *load,
         });
-        let error_of_block = reading_error(&pair[0], &pair[1], &at_rails[load.0], &at_rails[deflection.0])?;
+        let error_of_block = reading_error(
+            &pair[0],
+            &pair[1],
+            &at_rails[load.0],
+            &at_rails[deflection.0],
+        )?;
         let scale = (largest(*deflection)? * largest(*load)?).sqrt();
-        let error = if scale > 0.0 { error_of_block.largest.value.abs() / scale } else { 0.0 };
-        out.push(BlockError { paths: [*deflection, *load], error, worst: error_of_block.largest });
+        let error = if scale > 0.0 {
+            error_of_block.largest.value.abs() / scale
+        } else {
+            0.0
+        };
+        out.push(BlockError {
+            paths: [*deflection, *load],
+            error,
+            worst: error_of_block.largest,
+        });
     }
     Ok(out)
 }
@@ -201,10 +270,18 @@ fn blocks(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
             for (quantity, block) in &grid.blocks {
                 let (deflection, load) = axes(*quantity);
                 if r <= c || deflection != load {
-                    let values = block.view((top, left), (row.stations.len(), column.stations.len()));
-                    let table =
-                        SplineTable::new(column.stations.clone(), row.stations.clone(), values.into_owned())?;
-                    out.push(InfluenceBlock { deflection: (r, deflection), load: (c, load), table });
+                    let values =
+                        block.view((top, left), (row.stations.len(), column.stations.len()));
+                    let table = SplineTable::new(
+                        column.stations.clone(),
+                        row.stations.clone(),
+                        values.into_owned(),
+                    )?;
+                    out.push(InfluenceBlock {
+                        deflection: (r, deflection),
+                        load: (c, load),
+                        table,
+                    });
                 }
             }
             left += column.stations.len();
@@ -218,8 +295,7 @@ impl StationChoice {
     /// The stations and their errors as JSON.
     #[must_use]
     pub fn json(&self, goal: &StationGoal) -> Value {
-        let name =
-            |path: RailDirection| json!({ "rail": self.grid.rails[path.0].name, "axis": word(path.1) });
+        let name = |path: RailDirection| json!({ "rail": self.grid.rails[path.0].name, "axis": word(path.1) });
         let error = |paths: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
             json!({
                 "relative": relative, "value": worst.value, "x": worst.x, "z": worst.z,
@@ -233,7 +309,10 @@ impl StationChoice {
                 "error": error(found.directions, found.error, found.worst),
             })
         });
-        let others = self.others.iter().map(|block| error(block.paths, block.error, block.worst));
+        let others = self
+            .others
+            .iter()
+            .map(|block| error(block.paths, block.error, block.worst));
         json!({
             "format": "girderway-stations/1",
             "reading": goal.method.word(),
@@ -264,7 +343,8 @@ impl StationChoice {
                 )
             })
             .collect();
-        let wanted = |block: &BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
+        let wanted =
+            |block: &BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
         let worst = |within: bool| {
             let blocks = self.others.iter().filter(|block| wanted(block) == within);
             blocks.max_by(|a, b| a.error.total_cmp(&b.error))
@@ -283,7 +363,10 @@ impl StationChoice {
             out.push(format!("between rails: {}", describe(block)));
         }
         if let Some(block) = worst(false) {
-            out.push(format!("note: directions that were not asked for err by up to {}", describe(block)));
+            out.push(format!(
+                "note: directions that were not asked for err by up to {}",
+                describe(block)
+            ));
         }
         out
     }
@@ -292,13 +375,20 @@ impl StationChoice {
 /// Directions that a goal covers by default: vertical and lateral, as far as the grid has them.
 #[must_use]
 pub fn usual(grid: &StationGrid) -> Vec<Axis> {
-    let both = [(GridBlock::Vertical, Axis::Vertical), (GridBlock::Lateral, Axis::Lateral)];
+    let both = [
+        (GridBlock::Vertical, Axis::Vertical),
+        (GridBlock::Lateral, Axis::Lateral),
+    ];
     let known: Vec<Axis> = both
         .into_iter()
         .filter(|(quantity, _)| grid.block(*quantity).is_some())
         .map(|(_, axis)| axis)
         .collect();
-    if known.is_empty() { vec![Axis::Longitudinal] } else { known }
+    if known.is_empty() {
+        vec![Axis::Longitudinal]
+    } else {
+        known
+    }
 }
 
 /// The word of a direction.

@@ -54,8 +54,13 @@ impl AxisColumn {
                 }
             }
             (AxisColumn::Numbers(numbers), value) => {
-                let mut column = AxisColumn::Levels(Vec::new(), Vec::with_capacity(numbers.capacity()));
-                numbers.drain(..).map(AxisValue::Number).chain([value]).for_each(|value| column.push(value));
+                let mut column =
+                    AxisColumn::Levels(Vec::new(), Vec::with_capacity(numbers.capacity()));
+                numbers
+                    .drain(..)
+                    .map(AxisValue::Number)
+                    .chain([value])
+                    .for_each(|value| column.push(value));
                 *self = column;
             }
         }
@@ -64,7 +69,9 @@ impl AxisColumn {
     /// Puts the rows in an order: that of their former places.
     pub(crate) fn arrange(&mut self, order: &[usize]) {
         match self {
-            AxisColumn::Numbers(numbers) => *numbers = order.iter().map(|&row| numbers[row]).collect(),
+            AxisColumn::Numbers(numbers) => {
+                *numbers = order.iter().map(|&row| numbers[row]).collect()
+            }
             AxisColumn::Levels(_, rows) => *rows = order.iter().map(|&row| rows[row]).collect(),
         }
     }
@@ -81,7 +88,12 @@ mod tests {
         let lists = [
             vec![number(0.5), number(-1.0), number(0.5)],
             vec![word("rigid"), word("influence"), word("rigid")],
-            vec![number(2.0), word("rigid"), AxisValue::Flag(true), number(2.0)],
+            vec![
+                number(2.0),
+                word("rigid"),
+                AxisValue::Flag(true),
+                number(2.0),
+            ],
         ];
         for values in lists {
             let mut column = AxisColumn::with_room(0);
@@ -92,7 +104,10 @@ mod tests {
             assert_eq!(found(&column), values);
             let order: Vec<usize> = (0..values.len()).rev().collect();
             column.arrange(&order);
-            assert_eq!(found(&column), values.iter().rev().cloned().collect::<Vec<_>>());
+            assert_eq!(
+                found(&column),
+                values.iter().rev().cloned().collect::<Vec<_>>()
+            );
         }
     }
 }

@@ -32,38 +32,65 @@ pub fn write_parquet(table: &ResultTable, to: impl Write + Send) -> Result<(), P
     for name in &table.columns {
         fields.push(field(name, Physical::DOUBLE, Repetition::OPTIONAL)?);
     }
-    let schema = Type::group_type_builder("results").with_fields(fields).build()?;
-    let properties = WriterProperties::builder().set_created_by("girderway".to_owned()).build();
+    let schema = Type::group_type_builder("results")
+        .with_fields(fields)
+        .build()?;
+    let properties = WriterProperties::builder()
+        .set_created_by("girderway".to_owned())
+        .build();
     let mut writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))?;
     for from in (0..table.runs.len()).step_by(GROUP) {
         let rows = from..table.runs.len().min(from + GROUP);
         let mut group = writer.next_row_group()?;
         let mut next =
             |write: &mut dyn FnMut(&mut SerializedColumnWriter<'_>) -> Result<(), ParquetError>| {
-                let Some(mut column) = group.next_column()? else { return Ok(()) };
+                let Some(mut column) = group.next_column()? else {
+                    return Ok(());
+                };
                 write(&mut column)?;
                 column.close()
             };
-        let runs: Vec<i64> = table.runs[rows.clone()].iter().map(|&run| run as i64).collect();
-        next(&mut |column| column.typed::<Int64Type>().write_batch(&runs, None, None).map(drop))?;
+        let runs: Vec<i64> = table.runs[rows.clone()]
+            .iter()
+            .map(|&run| run as i64)
+            .collect();
+        next(&mut |column| {
+            column
+                .typed::<Int64Type>()
+                .write_batch(&runs, None, None)
+                .map(drop)
+        })?;
         for (axis, kind) in table.axis_values.iter().zip(&kinds) {
             let values = rows.clone().map(|row| axis.value(row));
             match kind {
                 Physical::DOUBLE => {
                     let numbers: Vec<f64> = values.filter_map(|value| value.number()).collect();
                     next(&mut |column| {
-                        column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop)
+                        column
+                            .typed::<DoubleType>()
+                            .write_batch(&numbers, None, None)
+                            .map(drop)
                     })?;
                 }
                 Physical::BOOLEAN => {
-                    let flags: Vec<bool> = values.map(|value| value == AxisValue::Flag(true)).collect();
-                    next(&mut |column| column.typed::<BoolType>().write_batch(&flags, None, None).map(drop))?;
+                    let flags: Vec<bool> =
+                        values.map(|value| value == AxisValue::Flag(true)).collect();
+                    next(&mut |column| {
+                        column
+                            .typed::<BoolType>()
+                            .write_batch(&flags, None, None)
+                            .map(drop)
+                    })?;
                 }
                 _ => {
-                    let texts: Vec<ByteArray> =
-                        values.map(|value| ByteArray::from(value.to_string().into_bytes())).collect();
+                    let texts: Vec<ByteArray> = values
+                        .map(|value| ByteArray::from(value.to_string().into_bytes()))
+                        .collect();
                     next(&mut |column| {
-                        column.typed::<ByteArrayType>().write_batch(&texts, None, None).map(drop)
+                        column
+                            .typed::<ByteArrayType>()
+                            .write_batch(&texts, None, None)
+                            .map(drop)
                     })?;
                 }
             }
@@ -136,7 +163,11 @@ mod tests {
         let bytes = written();
         assert_eq!(bytes, written(), "equal tables give equal bytes");
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a Parquet file");
-        let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+        let rows: Vec<_> = reader
+            .get_row_iter(None)
+            .expect("rows")
+            .map(|row| row.expect("a row"))
+            .collect();
         assert_eq!(rows.len(), 2);
         assert_eq!(rows[1].get_long(0).expect("a number"), 3);
         assert_eq!(rows[1].get_double(1).expect("a number"), 0.1 * 3.0);

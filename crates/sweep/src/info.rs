@@ -37,7 +37,11 @@ impl SweepInfo {
     #[must_use]
     pub fn new(sweep: &Sweep, file: &str, units: Units, as_written: &RunRow) -> SweepInfo {
         let label = |dimension: Dimension| units.label(dimension);
-        let results = as_written.names.iter().zip(&as_written.dimensions).zip(&as_written.values);
+        let results = as_written
+            .names
+            .iter()
+            .zip(&as_written.dimensions)
+            .zip(&as_written.values);
         SweepInfo {
             name: sweep.name.clone(),
             file: file.to_owned(),
@@ -46,7 +50,11 @@ impl SweepInfo {
             sampling: sampling_word(sweep.sampling).to_owned(),
             seed: sweep.seed,
             runs: sweep.count,
-            axes: sweep.axes.iter().map(|axis| [axis.pointer.clone(), values_phrase(&axis.values)]).collect(),
+            axes: sweep
+                .axes
+                .iter()
+                .map(|axis| [axis.pointer.clone(), values_phrase(&axis.values)])
+                .collect(),
             results: sweep.results.iter().map(result_word).collect(),
             as_written: results
                 .map(|((name, dimension), value)| (name.clone(), label(*dimension), *value))
@@ -82,13 +90,18 @@ fn values_phrase(values: &AxisValues) -> String {
     match values {
         AxisValues::List(list) => {
             let shown: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
-            let more =
-                if list.len() > SHOWN { format!(" and {} more", list.len() - SHOWN) } else { String::new() };
+            let more = if list.len() > SHOWN {
+                format!(" and {} more", list.len() - SHOWN)
+            } else {
+                String::new()
+            };
             format!("{}{more}", shown.join(", "))
         }
         AxisValues::Range(from, to, count) => format!("{count} values from {from} to {to}"),
         AxisValues::Uniform(low, high) => format!("uniform from {low} to {high}"),
-        AxisValues::Normal(mean, deviation) => format!("normal, mean {mean}, standard deviation {deviation}"),
+        AxisValues::Normal(mean, deviation) => {
+            format!("normal, mean {mean}, standard deviation {deviation}")
+        }
         AxisValues::Lognormal(mean, deviation) => {
             format!("lognormal, mean {mean}, standard deviation {deviation}")
         }

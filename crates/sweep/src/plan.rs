@@ -24,7 +24,11 @@ impl RunPlan {
             Sampling::Latin => Some(UnitPoints::latin(axes.len(), sweep.count, sweep.seed)),
             Sampling::Sobol => Some(UnitPoints::sobol(axes.len(), sweep.seed)),
         };
-        RunPlan { axes, runs: sweep.count, points }
+        RunPlan {
+            axes,
+            runs: sweep.count,
+            points,
+        }
     }
 
     /// Number of runs.
@@ -99,9 +103,23 @@ mod tests {
     fn a_grid_has_every_combination_once_and_its_last_axis_changes_first() {
         let list = AxisValues::List([5.0, 50.0, 100.0].map(AxisValue::Number).to_vec());
         let plan = plan(vec![list, AxisValues::Range(0.0, 1.0, 3)], 9, None);
-        let rows: Vec<Vec<f64>> =
-            (1..=9).map(|run| plan.values(run).iter().filter_map(AxisValue::number).collect()).collect();
-        assert_eq!(rows[..4], [vec![5.0, 0.0], vec![5.0, 0.5], vec![5.0, 1.0], vec![50.0, 0.0]]);
+        let rows: Vec<Vec<f64>> = (1..=9)
+            .map(|run| {
+                plan.values(run)
+                    .iter()
+                    .filter_map(AxisValue::number)
+                    .collect()
+            })
+            .collect();
+        assert_eq!(
+            rows[..4],
+            [
+                vec![5.0, 0.0],
+                vec![5.0, 0.5],
+                vec![5.0, 1.0],
+                vec![50.0, 0.0]
+            ]
+        );
         assert_eq!(rows[8], [100.0, 1.0]);
     }
 
@@ -119,12 +137,18 @@ mod tests {
 
     #[test]
     fn latin_samples_have_the_mean_and_deviation_of_their_distribution() {
-        let axes = vec![AxisValues::Lognormal(10.0, 2.0), AxisValues::Normal(-3.0, 0.5)];
+        let axes = vec![
+            AxisValues::Lognormal(10.0, 2.0),
+            AxisValues::Normal(-3.0, 0.5),
+        ];
         let plan = plan(axes, 20_000, Some(UnitPoints::latin(2, 20_000, 11)));
         for (axis, (mean, deviation)) in [(10.0, 2.0), (-3.0, 0.5)].into_iter().enumerate() {
-            let values: Vec<f64> = (1..=20_000).filter_map(|run| plan.values(run)[axis].number()).collect();
+            let values: Vec<f64> = (1..=20_000)
+                .filter_map(|run| plan.values(run)[axis].number())
+                .collect();
             let found = values.iter().sum::<f64>() / 20_000.0;
-            let spread = (values.iter().map(|x| (x - found).powi(2)).sum::<f64>() / 19_999.0).sqrt();
+            let spread =
+                (values.iter().map(|x| (x - found).powi(2)).sum::<f64>() / 19_999.0).sqrt();
             assert!((found - mean).abs() < 1e-3 * deviation, "{found}");
             assert!((spread - deviation).abs() < 2e-3 * deviation, "{spread}");
         }
@@ -132,10 +156,16 @@ mod tests {
 
     #[test]
     fn lists_have_equal_shares_in_a_latin_hypercube() {
-        let words = AxisValues::List(["a", "b", "c"].map(|word| AxisValue::Text(word.to_owned())).to_vec());
+        let words = AxisValues::List(
+            ["a", "b", "c"]
+                .map(|word| AxisValue::Text(word.to_owned()))
+                .to_vec(),
+        );
         let plan = plan(vec![words], 300, Some(UnitPoints::latin(1, 300, 5)));
         let count = |word: &str| {
-            (1..=300).filter(|run| plan.values(*run)[0] == AxisValue::Text(word.to_owned())).count()
+            (1..=300)
+                .filter(|run| plan.values(*run)[0] == AxisValue::Text(word.to_owned()))
+                .count()
         };
         assert_eq!([count("a"), count("b"), count("c")], [100, 100, 100]);
     }

@@ -59,7 +59,10 @@ impl UnitPoints {
             UnitPoints::Sobol(axes) => {
                 let (directions, shift) = &axes[axis];
                 let gray = index ^ (index >> 1);
-                let used = directions.iter().enumerate().filter(|(bit, _)| gray >> bit & 1 == 1);
+                let used = directions
+                    .iter()
+                    .enumerate()
+                    .filter(|(bit, _)| gray >> bit & 1 == 1);
                 open_unit(used.fold(*shift, |sum, (_, direction)| sum ^ direction))
             }
         }
@@ -86,8 +89,9 @@ mod tests {
     fn latin_points_have_one_coordinate_in_each_part() {
         let points = UnitPoints::latin(3, 1000, 7);
         for axis in 0..3 {
-            let mut parts: Vec<usize> =
-                (0..1000).map(|run| (1000.0 * points.coordinate(axis, run)) as usize).collect();
+            let mut parts: Vec<usize> = (0..1000)
+                .map(|run| (1000.0 * points.coordinate(axis, run)) as usize)
+                .collect();
             parts.sort_unstable();
             assert!(parts.iter().enumerate().all(|(part, found)| part == *found));
         }
@@ -100,10 +104,14 @@ mod tests {
         // the first 2^k points of a (t, s)-sequence: one coordinate in each binary interval of length 2^-k, shifted or not
         let points = UnitPoints::sobol(5, 3);
         for axis in 0..5 {
-            let mut parts: Vec<usize> =
-                (0..256).map(|run| (256.0 * points.coordinate(axis, run)) as usize).collect();
+            let mut parts: Vec<usize> = (0..256)
+                .map(|run| (256.0 * points.coordinate(axis, run)) as usize)
+                .collect();
             parts.sort_unstable();
-            assert!(parts.iter().enumerate().all(|(part, found)| part == *found), "axis {axis}");
+            assert!(
+                parts.iter().enumerate().all(|(part, found)| part == *found),
+                "axis {axis}"
+            );
         }
         // the first two axes are a (0, 2)-sequence: one point in each of 16 x 16 boxes
         let mut boxes: Vec<(usize, usize)> = (0..256)
@@ -119,8 +127,14 @@ mod tests {
     fn sobol_points_without_their_shift_are_those_of_joe_and_kuo() {
         // source: Joe and Kuo, table of new-joe-kuo-6.21201, points 1 to 3 of three dimensions
         let known = [[0.5, 0.5, 0.5], [0.75, 0.25, 0.25], [0.25, 0.75, 0.75]];
-        let UnitPoints::Sobol(axes) = UnitPoints::sobol(3, 1) else { panic!("a Sobol sequence") };
-        let plain = UnitPoints::Sobol(axes.into_iter().map(|(directions, _)| (directions, 0)).collect());
+        let UnitPoints::Sobol(axes) = UnitPoints::sobol(3, 1) else {
+            panic!("a Sobol sequence")
+        };
+        let plain = UnitPoints::Sobol(
+            axes.into_iter()
+                .map(|(directions, _)| (directions, 0))
+                .collect(),
+        );
         for (index, point) in known.iter().enumerate() {
             for (axis, value) in point.iter().enumerate() {
                 assert!((plain.coordinate(axis, index + 1) - value).abs() < 1e-15);

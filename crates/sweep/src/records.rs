@@ -36,7 +36,10 @@ impl RecordLines {
     pub fn lines(&mut self, record: &RunRecord) -> String {
         let axes: Vec<Value> = record.axes.iter().map(AxisValue::json).collect();
         match &record.outcome {
-            Err(why) => format!("{}\n", json!({ "run": record.run, "axes": axes, "failure": why })),
+            Err(why) => format!(
+                "{}\n",
+                json!({ "run": record.run, "axes": axes, "failure": why })
+            ),
             Ok(row) => {
                 let line = json!({ "run": record.run, "axes": axes, "values": row.values });
                 if self.names.as_ref() == Some(&row.names) {
@@ -63,7 +66,13 @@ pub struct RecordReader<R> {
 impl<R: BufRead> RecordReader<R> {
     /// A reader of lines that begin here.
     pub fn new(lines: R) -> RecordReader<R> {
-        RecordReader { lines, line: Vec::new(), names: Arc::default(), seen: BTreeSet::new(), whole: 0 }
+        RecordReader {
+            lines,
+            line: Vec::new(),
+            names: Arc::default(),
+            seen: BTreeSet::new(),
+            whole: 0,
+        }
     }
 
     /// Bytes of the whole lines that were read.
@@ -74,7 +83,9 @@ impl<R: BufRead> RecordReader<R> {
     /// A writer that goes on after the lines that were read.
     #[must_use]
     pub fn writer(&self) -> RecordLines {
-        RecordLines { names: Some(Arc::clone(&self.names)).filter(|_| self.whole > 0) }
+        RecordLines {
+            names: Some(Arc::clone(&self.names)).filter(|_| self.whole > 0),
+        }
     }
 
     /// The next run; `None` after the last whole line.
@@ -85,10 +96,15 @@ impl<R: BufRead> RecordReader<R> {
             if self.line.last() != Some(&b'\n') {
                 return Ok(None);
             }
-            let Ok(value) = serde_json::from_slice::<Value>(&self.line) else { return Ok(None) };
+            let Ok(value) = serde_json::from_slice::<Value>(&self.line) else {
+                return Ok(None);
+            };
             let found = match value["names"].as_array() {
                 Some(list) => {
-                    let names = list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+                    let names = list
+                        .iter()
+                        .filter_map(|name| name.as_str().map(str::to_owned))
+                        .collect();
                     self.names = Arc::new(names);
                     None
                 }
@@ -115,14 +131,27 @@ impl<R: BufRead> Iterator for RecordReader<R> {
 
 fn record(value: &Value, names: &Arc<Vec<String>>) -> Option<RunRecord> {
     let run = usize::try_from(value["run"].as_u64()?).ok()?;
-    let axes = value["axes"].as_array()?.iter().map(scalar).collect::<Option<Vec<_>>>()?;
+    let axes = value["axes"]
+        .as_array()?
+        .iter()
+        .map(scalar)
+        .collect::<Option<Vec<_>>>()?;
     let outcome = match value["failure"].as_str() {
         Some(why) => Err(why.to_owned()),
         None => {
-            let values: Vec<f64> =
-                value["values"].as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?;
+            let values: Vec<f64> = value["values"]
+                .as_array()?
+                .iter()
+                .map(Value::as_f64)
+                .collect::<Option<_>>()?;
             let is_whole = values.len() == names.len();
-            is_whole.then(|| Ok(RunRow { names: Arc::clone(names), values, dimensions: Vec::new() }))?
+            is_whole.then(|| {
+                Ok(RunRow {
+                    names: Arc::clone(names),
+                    values,
+                    dimensions: Vec::new(),
+                })
+            })?
         }
     };
     Some(RunRecord { run, axes, outcome })
@@ -143,36 +172,68 @@ mod tests {
 
     fn row(names: &[&str], values: &[f64]) -> RunOutcome {
         let names = Arc::new(names.iter().map(|name| (*name).to_owned()).collect());
-        Ok(RunRow { names, values: values.to_vec(), dimensions: Vec::new() })
+        Ok(RunRow {
+            names,
+            values: values.to_vec(),
+            dimensions: Vec::new(),
+        })
     }
 
     #[test]
     fn lines_are_read_back_to_the_last_bit_and_up_to_the_first_torn_one() {
-        let axes =
-            vec![AxisValue::Number(0.1 + 0.2), AxisValue::Text("rigid".to_owned()), AxisValue::Flag(true)];
+        let axes = vec![
+            AxisValue::Number(0.1 + 0.2),
+            AxisValue::Text("rigid".to_owned()),
+            AxisValue::Flag(true),
+        ];
         let records = [
-            RunRecord { run: 2, axes: axes.clone(), outcome: row(&["a", "b"], &[1.0 / 3.0, -1e-300]) },
-            RunRecord { run: 1, axes: axes.clone(), outcome: Err("it falls \"down\"".to_owned()) },
-            RunRecord { run: 3, axes: axes.clone(), outcome: row(&["a", "b"], &[5e-324, 1.0]) },
-            RunRecord { run: 4, axes, outcome: row(&["a"], &[2.0]) },
+            RunRecord {
+                run: 2,
+                axes: axes.clone(),
+                outcome: row(&["a", "b"], &[1.0 / 3.0, -1e-300]),
+            },
+            RunRecord {
+                run: 1,
+                axes: axes.clone(),
+                outcome: Err("it falls \"down\"".to_owned()),
+            },
+            RunRecord {
+                run: 3,
+                axes: axes.clone(),
+                outcome: row(&["a", "b"], &[5e-324, 1.0]),
+            },
+            RunRecord {
+                run: 4,
+                axes,
+                outcome: row(&["a"], &[2.0]),
+            },
         ];
         let mut writer = RecordLines::default();
         let text: String = records.iter().map(|record| writer.lines(record)).collect();
         assert_eq!(text.matches("names").count(), 2);
         let read = |text: &str| -> Vec<RunRecord> {
-            RecordReader::new(text.as_bytes()).map(|record| record.expect("memory")).collect()
+            RecordReader::new(text.as_bytes())
+                .map(|record| record.expect("memory"))
+                .collect()
         };
         assert_eq!(read(&text), records);
         let twice = format!("{text}{text}");
         assert_eq!(read(&twice), records);
         for cut in 0..text.len() {
             let mut reader = RecordReader::new(&text.as_bytes()[..cut]);
-            let found: Vec<RunRecord> = reader.by_ref().map(|record| record.expect("memory")).collect();
+            let found: Vec<RunRecord> = reader
+                .by_ref()
+                .map(|record| record.expect("memory"))
+                .collect();
             assert_eq!(found, records[..found.len()], "cut at {cut}");
             // what was cut off is written again
             let mut whole = text[..reader.whole() as usize].to_owned();
             let mut writer = reader.writer();
-            whole.extend(records[found.len()..].iter().map(|record| writer.lines(record)));
+            whole.extend(
+                records[found.len()..]
+                    .iter()
+                    .map(|record| writer.lines(record)),
+            );
             assert_eq!(whole, text, "cut at {cut}");
         }
     }

@@ -32,13 +32,23 @@ impl<'s> Runner<'s> {
     /// A runner without solved structures.
     #[must_use]
     pub fn new(sweep: &'s Sweep) -> Runner<'s> {
-        Runner { sweep, solved: StructureCache::default(), designed: DesignStructures::default() }
+        Runner {
+            sweep,
+            solved: StructureCache::default(),
+            designed: DesignStructures::default(),
+        }
     }
 
     /// The files of a run: those of the scene or design with the values of the axes in them.
     #[must_use]
     pub fn inputs(&self, values: &[AxisValue]) -> Inputs {
-        let changes: Vec<_> = self.sweep.axes.iter().map(|axis| &axis.place).zip(values).collect();
+        let changes: Vec<_> = self
+            .sweep
+            .axes
+            .iter()
+            .map(|axis| &axis.place)
+            .zip(values)
+            .collect();
         self.sweep.target.with(&changes)
     }
 
@@ -84,7 +94,9 @@ impl<'s> Runner<'s> {
     /// every machine.
     fn with_own_names(&self, why: String) -> String {
         let files = self.sweep.target.inputs().all().iter();
-        files.fold(why, |text, file| text.replace(&file.display_name, &file.name))
+        files.fold(why, |text, file| {
+            text.replace(&file.display_name, &file.name)
+        })
     }
 
     fn run_files(&self, inputs: Inputs, go_on: GoOn<'_>) -> Result<(Units, RunRow), RunFailure> {
@@ -97,7 +109,10 @@ impl<'s> Runner<'s> {
     fn run_scene(&self, inputs: Inputs, go_on: GoOn<'_>) -> Result<(Units, RunRow), RunFailure> {
         let document = scene(inputs).map_err(|wrong| first(&wrong))?;
         // runs are on threads of their own, and few sweeps ask for extremes of girders
-        let options = RunOptions { threads: Some(1), girders: GirderTime::OnDemand };
+        let options = RunOptions {
+            threads: Some(1),
+            girders: GirderTime::OnDemand,
+        };
         let run = SceneRun::of(document, &self.solved, options, &|_| go_on());
         let run = run.map_err(|error| match error {
             results::Error::Stopped => RunFailure::Stopped,
@@ -108,20 +123,28 @@ impl<'s> Runner<'s> {
             return Err(line(&why).into());
         }
         if self.sweep.results.contains(&ResultKind::Extremes) {
-            run.compute_girders(Some(1), go_on).map_err(|_| RunFailure::Stopped)?;
+            run.compute_girders(Some(1), go_on)
+                .map_err(|_| RunFailure::Stopped)?;
         }
         let scene = run.document.scene();
-        Ok((scene.units, values::of_scene(&self.sweep.results, scene, &run.cases[0])?))
+        Ok((
+            scene.units,
+            values::of_scene(&self.sweep.results, scene, &run.cases[0])?,
+        ))
     }
 
     fn run_design(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
         let (read, inputs) = design(inputs).map_err(|wrong| first(&wrong))?;
         let read = ::design::with_combinations(&read);
-        let result = ::design::solve_on(&self.designed, &read, &inputs).map_err(|error| match error {
-            SolveError::Input(wrong) => first(&wrong),
-            SolveError::NoSolution(why) => line(&why),
-        })?;
-        Ok((read.units, values::of_design(&self.sweep.results, &::design::summary(&read, &result))?))
+        let result =
+            ::design::solve_on(&self.designed, &read, &inputs).map_err(|error| match error {
+                SolveError::Input(wrong) => first(&wrong),
+                SolveError::NoSolution(why) => line(&why),
+            })?;
+        Ok((
+            read.units,
+            values::of_design(&self.sweep.results, &::design::summary(&read, &result))?,
+        ))
     }
 }
 
@@ -138,7 +161,10 @@ fn design(inputs: Inputs) -> Result<(Design, Inputs), Vec<Diagnostic>> {
 
 /// The first of several faults, and how many more there are.
 fn first(wrong: &[Diagnostic]) -> String {
-    let text = wrong.first().map(|one| line(&one.to_string())).unwrap_or_default();
+    let text = wrong
+        .first()
+        .map(|one| line(&one.to_string()))
+        .unwrap_or_default();
     match wrong.len() {
         0 | 1 => text,
         count => format!("{text} (and {} more)", count - 1),

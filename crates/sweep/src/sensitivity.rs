@@ -40,8 +40,9 @@ pub struct Sensitivity {
 /// measures from given data (2013); Ezekiel's adjustment of the correlation ratio.
 #[must_use]
 pub fn sensitivities(table: &ResultTable, column: usize) -> Vec<Sensitivity> {
-    let (rows, results): (Vec<usize>, Vec<f64>) =
-        (0..table.runs.len()).filter_map(|row| Some((row, table.result(column, row)?))).unzip();
+    let (rows, results): (Vec<usize>, Vec<f64>) = (0..table.runs.len())
+        .filter_map(|row| Some((row, table.result(column, row)?)))
+        .unzip();
     let is_constant = results.windows(2).all(|pair| pair[0] == pair[1]);
     if results.len() < FEWEST || is_constant {
         return Vec::new();
@@ -50,8 +51,9 @@ pub fn sensitivities(table: &ResultTable, column: usize) -> Vec<Sensitivity> {
     let axis = |values: &AxisColumn| {
         let values = || rows.iter().map(|&row| values.value(row));
         let numbers: Option<Vec<f64>> = values().map(|value| value.number()).collect();
-        let rank_correlation =
-            numbers.as_deref().and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
+        let rank_correlation = numbers
+            .as_deref()
+            .and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
         Sensitivity {
             rank_correlation,
             chance: rank_correlation.map(|r| chance_of_correlation(r, results.len())),
@@ -68,10 +70,13 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     let mut ranks = vec![0.0; values.len()];
     let mut from = 0;
     while from < order.len() {
-        let to =
-            (from..order.len()).find(|&k| values[order[k]] != values[order[from]]).unwrap_or(order.len());
+        let to = (from..order.len())
+            .find(|&k| values[order[k]] != values[order[from]])
+            .unwrap_or(order.len());
         let mean = (from + 1 + to) as f64 / 2.0;
-        order[from..to].iter().for_each(|&index| ranks[index] = mean);
+        order[from..to]
+            .iter()
+            .for_each(|&index| ranks[index] = mean);
         from = to;
     }
     ranks
@@ -89,7 +94,10 @@ fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 }
 
 /// The class of each run by the value of an axis, from 0.
-fn classes(values: impl ExactSizeIterator<Item = AxisValue>, numbers: Option<&[f64]>) -> Vec<usize> {
+fn classes(
+    values: impl ExactSizeIterator<Item = AxisValue>,
+    numbers: Option<&[f64]>,
+) -> Vec<usize> {
     let count = values.len();
     let mut distinct: Vec<AxisValue> = Vec::new();
     let mut own: Vec<usize> = Vec::with_capacity(count);
@@ -131,8 +139,11 @@ fn first_order(classes: &[usize], results: &[f64]) -> Option<f64> {
         sums[class].0 += value - mean;
         sums[class].1 += 1.0;
     }
-    let between: f64 =
-        sums.iter().filter(|(_, count)| *count > 0.0).map(|(sum, count)| sum * sum / count).sum();
+    let between: f64 = sums
+        .iter()
+        .filter(|(_, count)| *count > 0.0)
+        .map(|(sum, count)| sum * sum / count)
+        .sum();
     let all: f64 = results.iter().map(|value| (value - mean).powi(2)).sum();
     let explained = between / all;
     Some((1.0 - (1.0 - explained) * (n - 1.0) / (n - groups as f64)).clamp(0.0, 1.0))
@@ -152,10 +163,21 @@ mod tests {
         let names = Arc::new(vec!["f".to_owned()]);
         let record = |run: usize| {
             let x = [0, 1, 2].map(|axis| PI * (2.0 * points.coordinate(axis, run - 1) - 1.0));
-            let row = RunRow { names: Arc::clone(&names), values: vec![f(x)], dimensions: Vec::new() };
-            RunRecord { run, axes: x.map(AxisValue::Number).to_vec(), outcome: Ok(row) }
+            let row = RunRow {
+                names: Arc::clone(&names),
+                values: vec![f(x)],
+                dimensions: Vec::new(),
+            };
+            RunRecord {
+                run,
+                axes: x.map(AxisValue::Number).to_vec(),
+                outcome: Ok(row),
+            }
         };
-        ResultTable::new(["/a", "/b", "/c"].map(str::to_owned).to_vec(), (1..=runs).map(record))
+        ResultTable::new(
+            ["/a", "/b", "/c"].map(str::to_owned).to_vec(),
+            (1..=runs).map(record),
+        )
     }
 
     #[test]
@@ -163,13 +185,21 @@ mod tests {
         // analytic, a = 7, b = 0.1: V = 1/2 + a^2/8 + b pi^4/5 + b^2 pi^8/18
         let (a, b): (f64, f64) = (7.0, 0.1);
         let variance = 0.5 + a * a / 8.0 + b * PI.powi(4) / 5.0 + b * b * PI.powi(8) / 18.0;
-        let exact = [0.5 * (1.0 + b * PI.powi(4) / 5.0).powi(2) / variance, a * a / 8.0 / variance, 0.0];
-        let ishigami = |[x, y, z]: [f64; 3]| x.sin() + a * y.sin().powi(2) + b * z.powi(4) * x.sin();
+        let exact = [
+            0.5 * (1.0 + b * PI.powi(4) / 5.0).powi(2) / variance,
+            a * a / 8.0 / variance,
+            0.0,
+        ];
+        let ishigami =
+            |[x, y, z]: [f64; 3]| x.sin() + a * y.sin().powi(2) + b * z.powi(4) * x.sin();
         for points in [UnitPoints::latin(3, 8192, 2), UnitPoints::sobol(3, 2)] {
             let found = sensitivities(&table(&points, 8192, ishigami), 0);
             for (axis, exact) in exact.iter().enumerate() {
                 let index = found[axis].first_order.expect("enough runs");
-                assert!((index - exact).abs() < 0.015, "axis {axis}: {index} for {exact}");
+                assert!(
+                    (index - exact).abs() < 0.015,
+                    "axis {axis}: {index} for {exact}"
+                );
             }
         }
     }

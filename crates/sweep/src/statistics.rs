@@ -48,8 +48,15 @@ impl ResultDistribution {
         let count = values.len();
         let n = count as f64;
         let mean = values.iter().map(|(_, value)| value).sum::<f64>() / n;
-        let squares = values.iter().map(|(_, value)| (value - mean).powi(2)).sum::<f64>();
-        let deviation = if count > 1 { (squares / (n - 1.0)).sqrt() } else { 0.0 };
+        let squares = values
+            .iter()
+            .map(|(_, value)| (value - mean).powi(2))
+            .sum::<f64>();
+        let deviation = if count > 1 {
+            (squares / (n - 1.0)).sqrt()
+        } else {
+            0.0
+        };
         let (mut least, mut most) = ((first, run), (first, run));
         for &(run, value) in values {
             if value < least.0 {
@@ -66,7 +73,10 @@ impl ResultDistribution {
             count,
             mean,
             deviation,
-            mean_interval: Interval { low: mean - half, high: mean + half },
+            mean_interval: Interval {
+                low: mean - half,
+                high: mean + half,
+            },
             least,
             most,
             quantiles: QUANTILES.map(|p| quantile(&sorted, p)),
@@ -90,7 +100,10 @@ fn order_interval(sorted: &[f64], p: f64) -> Interval {
     let n = sorted.len() as f64;
     let half = TWO_SIDED * (n * p * (1.0 - p)).sqrt();
     let at = |rank: f64| sorted[(rank.round().max(1.0) as usize).min(sorted.len()) - 1];
-    Interval { low: at(n * p - half), high: at(n * p + half + 1.0) }
+    Interval {
+        low: at(n * p - half),
+        high: at(n * p + half + 1.0),
+    }
 }
 
 /// Probability that the correlation of `count` independent pairs is at least as large as `r`, by Fisher's
@@ -98,7 +111,11 @@ fn order_interval(sorted: &[f64], p: f64) -> Interval {
 #[must_use]
 pub(crate) fn chance_of_correlation(r: f64, count: usize) -> f64 {
     if count < 4 || r.abs() >= 1.0 {
-        return if r.abs() >= 1.0 && count >= 4 { 0.0 } else { 1.0 };
+        return if r.abs() >= 1.0 && count >= 4 {
+            0.0
+        } else {
+            1.0
+        };
     }
     erfc(r.atanh().abs() * ((count - 3) as f64).sqrt() / std::f64::consts::SQRT_2)
 }
@@ -126,7 +143,9 @@ mod tests {
         // uniform numbers of a linear congruential generator; the quantile of 95 % is 0.95
         let mut state = 1_u64;
         let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let inside = (0..2000).filter(|_| {

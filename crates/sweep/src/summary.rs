@@ -16,7 +16,9 @@ const FORMAT: &str = "girderway-sweep-summary/1";
 pub fn summary(info: &SweepInfo, table: &ResultTable) -> Value {
     let mut results = Map::new();
     for (index, name) in table.columns.iter().enumerate() {
-        let Some(found) = ResultDistribution::new(&table.column(index)) else { continue };
+        let Some(found) = ResultDistribution::new(&table.column(index)) else {
+            continue;
+        };
         let [q5, q50, q95, q99] = found.quantiles;
         let mut entry = json!({
             "count": found.count,
@@ -44,8 +46,11 @@ pub fn summary(info: &SweepInfo, table: &ResultTable) -> Value {
         }
         results.insert(name.clone(), entry);
     }
-    let axes: Map<String, Value> =
-        info.axes.iter().map(|[pointer, values]| (pointer.clone(), json!(values))).collect();
+    let axes: Map<String, Value> = info
+        .axes
+        .iter()
+        .map(|[pointer, values]| (pointer.clone(), json!(values)))
+        .collect();
     json!({
         "format": FORMAT,
         "name": info.name,

@@ -63,7 +63,11 @@ impl ResultTable {
     /// Values of a column with the numbers of their runs.
     #[must_use]
     pub fn column(&self, index: usize) -> Vec<(usize, f64)> {
-        let all = self.runs.iter().copied().zip(self.results[index].iter().copied());
+        let all = self
+            .runs
+            .iter()
+            .copied()
+            .zip(self.results[index].iter().copied());
         all.filter(|(_, value)| !value.is_nan()).collect()
     }
 
@@ -74,9 +78,11 @@ impl ResultTable {
         iter::from_fn(move || {
             let next = rows.peek().map(|&row| self.runs[row]);
             match failures.next_if(|(run, ..)| next.is_none_or(|next| *run < next)) {
-                Some((run, axes, why)) => {
-                    Some(RunRecord { run: *run, axes: axes.clone(), outcome: Err(why.clone()) })
-                }
+                Some((run, axes, why)) => Some(RunRecord {
+                    run: *run,
+                    axes: axes.clone(),
+                    outcome: Err(why.clone()),
+                }),
                 None => rows.next().map(|row| self.record(row)),
             }
         })
@@ -85,11 +91,23 @@ impl ResultTable {
     /// The run of a row.
     fn record(&self, row: usize) -> RunRecord {
         let layout = &self.layouts[self.layout_of[row] as usize];
-        let values = layout.columns.iter().map(|&column| self.results[column][row]).collect();
+        let values = layout
+            .columns
+            .iter()
+            .map(|&column| self.results[column][row])
+            .collect();
         RunRecord {
             run: self.runs[row],
-            axes: self.axis_values.iter().map(|axis| axis.value(row)).collect(),
-            outcome: Ok(RunRow { names: Arc::clone(&layout.names), values, dimensions: Vec::new() }),
+            axes: self
+                .axis_values
+                .iter()
+                .map(|axis| axis.value(row))
+                .collect(),
+            outcome: Ok(RunRow {
+                names: Arc::clone(&layout.names),
+                values,
+                dimensions: Vec::new(),
+            }),
         }
     }
 
@@ -99,7 +117,9 @@ impl ResultTable {
     /// Those of the writer.
     pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(to);
-        let head = ["run"].into_iter().chain(self.axes.iter().chain(&self.columns).map(String::as_str));
+        let head = ["run"]
+            .into_iter()
+            .chain(self.axes.iter().chain(&self.columns).map(String::as_str));
         writer.write_record(head)?;
         for row in 0..self.runs.len() {
             writer.write_field(self.runs[row].to_string())?;
@@ -159,7 +179,11 @@ impl TableBuilder {
             layout_of: Vec::with_capacity(room),
             failures: Vec::new(),
         };
-        TableBuilder { table, room, last: 0 }
+        TableBuilder {
+            table,
+            room,
+            last: 0,
+        }
     }
 
     /// Adds a run.
@@ -171,8 +195,15 @@ impl TableBuilder {
                 let table = &mut self.table;
                 table.runs.push(run);
                 table.layout_of.push(layout as u32);
-                table.axis_values.iter_mut().zip(axes).for_each(|(column, value)| column.push(value));
-                table.results.iter_mut().for_each(|column| column.push(f64::NAN));
+                table
+                    .axis_values
+                    .iter_mut()
+                    .zip(axes)
+                    .for_each(|(column, value)| column.push(value));
+                table
+                    .results
+                    .iter_mut()
+                    .for_each(|column| column.push(f64::NAN));
                 let places = &table.layouts[layout].columns;
                 for (&place, value) in places.iter().zip(row.values) {
                     if let Some(last) = table.results[place].last_mut() {
@@ -187,8 +218,14 @@ impl TableBuilder {
     /// The layout of a run whose results have these names, which is added where it is new.
     fn layout(&mut self, run: usize, names: Arc<Vec<String>>) -> usize {
         let layouts = &self.table.layouts;
-        let is_last = layouts.get(self.last).is_some_and(|last| last.names == names);
-        let known = if is_last { Some(self.last) } else { layouts.iter().position(|one| one.names == names) };
+        let is_last = layouts
+            .get(self.last)
+            .is_some_and(|last| last.names == names);
+        let known = if is_last {
+            Some(self.last)
+        } else {
+            layouts.iter().position(|one| one.names == names)
+        };
         self.last = known.unwrap_or(layouts.len());
         match known {
             Some(known) => {
@@ -197,7 +234,11 @@ impl TableBuilder {
             }
             None => {
                 let columns = names.iter().map(|name| self.place(name)).collect();
-                self.table.layouts.push(Layout { names, columns, first: run });
+                self.table.layouts.push(Layout {
+                    names,
+                    columns,
+                    first: run,
+                });
             }
         }
         self.last
@@ -206,13 +247,17 @@ impl TableBuilder {
     /// The column of a result by its name, which is added where it is new.
     fn place(&mut self, name: &String) -> usize {
         let table = &mut self.table;
-        table.columns.iter().position(|known| known == name).unwrap_or_else(|| {
-            table.columns.push(name.clone());
-            let mut column = Vec::with_capacity(self.room);
-            column.resize(table.runs.len(), f64::NAN);
-            table.results.push(column);
-            table.columns.len() - 1
-        })
+        table
+            .columns
+            .iter()
+            .position(|known| known == name)
+            .unwrap_or_else(|| {
+                table.columns.push(name.clone());
+                let mut column = Vec::with_capacity(self.room);
+                column.resize(table.runs.len(), f64::NAN);
+                table.results.push(column);
+                table.columns.len() - 1
+            })
     }
 
     /// The table, its rows in the order of the runs, and its columns in the order in which these have them.
@@ -225,7 +270,10 @@ impl TableBuilder {
             order.sort_by_key(|&row| table.runs[row]);
             table.runs = order.iter().map(|&row| table.runs[row]).collect();
             table.layout_of = order.iter().map(|&row| table.layout_of[row]).collect();
-            table.axis_values.iter_mut().for_each(|axis| axis.arrange(&order));
+            table
+                .axis_values
+                .iter_mut()
+                .for_each(|axis| axis.arrange(&order));
             for column in &mut table.results {
                 *column = order.iter().map(|&row| column[row]).collect();
             }
@@ -240,9 +288,19 @@ impl TableBuilder {
                 order.push(column);
             }
         }
-        table.columns = order.iter().map(|&column| std::mem::take(&mut table.columns[column])).collect();
-        table.results = order.iter().map(|&column| std::mem::take(&mut table.results[column])).collect();
-        for column in table.layouts.iter_mut().flat_map(|layout| &mut layout.columns) {
+        table.columns = order
+            .iter()
+            .map(|&column| std::mem::take(&mut table.columns[column]))
+            .collect();
+        table.results = order
+            .iter()
+            .map(|&column| std::mem::take(&mut table.results[column]))
+            .collect();
+        for column in table
+            .layouts
+            .iter_mut()
+            .flat_map(|layout| &mut layout.columns)
+        {
             *column = new_place[*column].expect("every column is that of a layout");
         }
         table
@@ -256,12 +314,26 @@ mod tests {
     fn record(run: usize, results: &[(&str, f64)]) -> RunRecord {
         let names = Arc::new(results.iter().map(|(name, _)| (*name).to_owned()).collect());
         let values = results.iter().map(|(_, value)| *value).collect();
-        let axes = vec![AxisValue::Number(run as f64 / 8.0), AxisValue::Text(format!("word {}", run % 2))];
-        RunRecord { run, axes, outcome: Ok(RunRow { names, values, dimensions: Vec::new() }) }
+        let axes = vec![
+            AxisValue::Number(run as f64 / 8.0),
+            AxisValue::Text(format!("word {}", run % 2)),
+        ];
+        RunRecord {
+            run,
+            axes,
+            outcome: Ok(RunRow {
+                names,
+                values,
+                dimensions: Vec::new(),
+            }),
+        }
     }
 
     fn table(records: &[RunRecord]) -> ResultTable {
-        ResultTable::new(["/a", "/b"].map(str::to_owned).to_vec(), records.iter().cloned())
+        ResultTable::new(
+            ["/a", "/b"].map(str::to_owned).to_vec(),
+            records.iter().cloned(),
+        )
     }
 
     /// Runs with different results, and one without.
@@ -307,7 +379,10 @@ mod tests {
                 count[at] += 1;
                 at = 0;
                 let found = table(&order);
-                assert_eq!((&found.columns, &found.runs), (&expected.columns, &expected.runs));
+                assert_eq!(
+                    (&found.columns, &found.runs),
+                    (&expected.columns, &expected.runs)
+                );
                 assert_eq!(found.records().collect::<Vec<_>>(), all);
                 let mut csv = Vec::new();
                 found.write_csv(&mut csv).expect("memory");
@@ -323,21 +398,34 @@ mod tests {
     fn a_table_takes_eight_bytes_for_each_number_also_where_results_alternate() {
         const RUNS: usize = 1000;
         const RESULTS: usize = 88;
-        let names: Vec<String> = (0..RESULTS).map(|k| format!("girder.span {k}.bending.bottom")).collect();
+        let names: Vec<String> = (0..RESULTS)
+            .map(|k| format!("girder.span {k}.bending.bottom"))
+            .collect();
         let run = |run: usize| {
             let results = names.iter().map(|name| (name.as_str(), run as f64));
             // the span that governs is that of one run or another
-            let last = if run.is_multiple_of(2) { "span 1.web" } else { "span 2.web" };
+            let last = if run.is_multiple_of(2) {
+                "span 1.web"
+            } else {
+                "span 2.web"
+            };
             record(run, &results.chain([(last, 0.5)]).collect::<Vec<_>>())
         };
-        let made = ResultTable::new(["/a", "/b"].map(str::to_owned).to_vec(), (1..=RUNS).map(run));
+        let made = ResultTable::new(
+            ["/a", "/b"].map(str::to_owned).to_vec(),
+            (1..=RUNS).map(run),
+        );
         // names once, and for each run its results, its number, its axes and its layout
         assert_eq!(
             (made.layouts.len(), made.columns.len(), made.results.len()),
             (2, RESULTS + 2, RESULTS + 2)
         );
-        let AxisColumn::Numbers(numbers) = &made.axis_values[0] else { panic!("not numbers") };
-        let AxisColumn::Levels(levels, rows) = &made.axis_values[1] else { panic!("not words") };
+        let AxisColumn::Numbers(numbers) = &made.axis_values[0] else {
+            panic!("not numbers")
+        };
+        let AxisColumn::Levels(levels, rows) = &made.axis_values[1] else {
+            panic!("not words")
+        };
         assert_eq!((numbers.len(), levels.len(), rows.len()), (RUNS, 2, RUNS));
         let room: usize = made.results.iter().map(Vec::capacity).sum();
         assert_eq!(room, RUNS * (RESULTS + 2));

@@ -22,9 +22,16 @@ pub(crate) fn of_scene(
         let before = row.names.len();
         match kind {
             ResultKind::Peaks => {
-                let names: Vec<&str> =
-                    outcome.columns.columns.iter().skip(1).map(|column| column.name.as_str()).collect();
-                names.into_iter().for_each(|name| peaks(name, outcome, &mut row));
+                let names: Vec<&str> = outcome
+                    .columns
+                    .columns
+                    .iter()
+                    .skip(1)
+                    .map(|column| column.name.as_str())
+                    .collect();
+                names
+                    .into_iter()
+                    .for_each(|name| peaks(name, outcome, &mut row));
             }
             ResultKind::Column(name) => peaks(name, outcome, &mut row),
             ResultKind::Extremes => {
@@ -48,7 +55,9 @@ pub(crate) fn of_scene(
 /// A result that the design does not have.
 pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow, RunFailure> {
     let mut row = RunRow::default();
-    let has_several_cases = summary["cases"].as_array().is_some_and(|cases| cases.len() > 1);
+    let has_several_cases = summary["cases"]
+        .as_array()
+        .is_some_and(|cases| cases.len() > 1);
     for (index, kind) in kinds.iter().enumerate() {
         let before = row.names.len();
         match kind {
@@ -66,8 +75,11 @@ pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow,
 
 /// Largest and smallest value of a column.
 fn peaks(name: &str, outcome: &CaseResult, row: &mut RunRow) {
-    let found =
-        outcome.columns.columns.iter().find(|column| column.name == name && !column.values.is_empty());
+    let found = outcome
+        .columns
+        .columns
+        .iter()
+        .find(|column| column.name == name && !column.values.is_empty());
     let Some(found) = found else { return };
     let values = &found.values;
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -83,8 +95,8 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
         let case = has_several_cases.then(|| format!("case {}", entry["case"]));
         let span = entry["span"].as_u64().map(|span| format!("span {span}"));
         // torsion and normal forces have no plane of their own
-        let plane =
-            text("plane").filter(|_| !matches!(entry["quantity"].as_str(), Some("normal" | "torsion")));
+        let plane = text("plane")
+            .filter(|_| !matches!(entry["quantity"].as_str(), Some("normal" | "torsion")));
         let parts = [
             case,
             text("rail"),
@@ -98,13 +110,16 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
         ];
         let dimension = match (entry["quantity"].as_str(), entry["direction"].as_str()) {
             (Some("deflection"), _) => Dimension::LENGTH,
-            (Some("moment" | "torsion" | "Mx" | "My" | "Mz"), _) | (_, Some("rx" | "ry" | "rz")) => {
-                Dimension::MOMENT
-            }
+            (Some("moment" | "torsion" | "Mx" | "My" | "Mz"), _)
+            | (_, Some("rx" | "ry" | "rz")) => Dimension::MOMENT,
             _ => Dimension::FORCE,
         };
         if let Some(value) = entry["value"].as_f64() {
-            row.add(parts.into_iter().flatten().collect::<Vec<_>>().join("."), value, dimension);
+            row.add(
+                parts.into_iter().flatten().collect::<Vec<_>>().join("."),
+                value,
+                dimension,
+            );
         }
     }
 }
@@ -112,9 +127,17 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
 /// Fatigue damage of one run at each stress point.
 fn fatigue(outcome: &CaseResult, row: &mut RunRow) {
     for point in &outcome.fatigue {
-        row.add(format!("{}.damage", point.column), point.damage.sum, Dimension::NUMBER);
+        row.add(
+            format!("{}.damage", point.column),
+            point.damage.sum,
+            Dimension::NUMBER,
+        );
         if let Some(life) = point.life {
-            row.add(format!("{}.life damage", point.column), life, Dimension::NUMBER);
+            row.add(
+                format!("{}.life damage", point.column),
+                life,
+                Dimension::NUMBER,
+            );
         }
     }
 }
@@ -126,36 +149,67 @@ const CARRIED: f64 = 0.9;
 /// Whether each rail on the ground carries at the start what it carries without motion anywhere: not where a trolley or a
 /// hanging load moves from rail to rail, a load stands on the floor, or a body falls.
 fn has_static_start(scene: &Scene, outcome: &CaseResult) -> bool {
-    if scene.structures.iter().any(|structure| structure.carrier.is_some())
+    if scene
+        .structures
+        .iter()
+        .any(|structure| structure.carrier.is_some())
         || scene.bodies.iter().any(|body| body.in_space)
     {
         return false;
     }
-    let grounded = scene.rails.iter().filter(|rail| scene.structures[rail.structure].carrier.is_none());
-    let carried: f64 = grounded.filter_map(|rail| outcome.columns.part(&rail.name, "reaction").first()).sum();
-    let weight: f64 = scene.bodies.iter().map(|body| body.mass * scene.gravity).sum();
+    let grounded = scene
+        .rails
+        .iter()
+        .filter(|rail| scene.structures[rail.structure].carrier.is_none());
+    let carried: f64 = grounded
+        .filter_map(|rail| outcome.columns.part(&rail.name, "reaction").first())
+        .sum();
+    let weight: f64 = scene
+        .bodies
+        .iter()
+        .map(|body| body.mass * scene.gravity)
+        .sum();
     carried >= CARRIED * weight
 }
 
 /// The largest force of each rail over that of the equilibrium at the start, where that is its static force; measured
 /// values of the run beside those of codes, and static deflections over their limits, where the scene asks for codes.
 fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
-    let rails = if has_static_start(scene, outcome) { &scene.rails[..] } else { &[] };
+    let rails = if has_static_start(scene, outcome) {
+        &scene.rails[..]
+    } else {
+        &[]
+    };
     for rail in rails {
         let forces = outcome.columns.part(&rail.name, "reaction");
         let most = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if let Some(&first) = forces.first().filter(|first| **first > 0.0) {
-            row.add(format!("{}.dynamic factor", rail.name), most / first, Dimension::NUMBER);
+            row.add(
+                format!("{}.dynamic factor", rail.name),
+                most / first,
+                Dimension::NUMBER,
+            );
         }
     }
     let Some(codes) = &outcome.codes else { return };
     for comparison in &codes.rows {
-        row.add(comparison.name.to_owned(), comparison.measured.value, comparison.dimension);
+        row.add(
+            comparison.name.to_owned(),
+            comparison.measured.value,
+            comparison.dimension,
+        );
         let mut names: Vec<String> = Vec::new();
         for value in &comparison.values {
-            let name = format!("{}.{} {}", comparison.name, value.clause.standard, value.clause.clause);
+            let name = format!(
+                "{}.{} {}",
+                comparison.name, value.clause.standard, value.clause.clause
+            );
             let twins = names.iter().filter(|known| **known == name).count();
-            let unique = if twins > 0 { format!("{name} ({})", twins + 1) } else { name.clone() };
+            let unique = if twins > 0 {
+                format!("{name} ({})", twins + 1)
+            } else {
+                name.clone()
+            };
             names.push(name);
             row.add(unique, value.value, comparison.dimension);
         }
@@ -170,7 +224,8 @@ fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
             entry["to"]
         );
         for code in entry["codes"].as_array().into_iter().flatten() {
-            let (Some(value), Some(limit)) = (entry["static_deflection"].as_f64(), code["value"].as_f64())
+            let (Some(value), Some(limit)) =
+                (entry["static_deflection"].as_f64(), code["value"].as_f64())
             else {
                 continue;
             };
@@ -193,18 +248,31 @@ fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
         let case = has_several_cases.then(|| format!("case {}", entry["case"]));
         let span = entry["span"].as_u64().map(|span| format!("span {span}"));
         let ends = last.iter().map(|key| text(key));
-        [case, text("rail"), span].into_iter().chain(ends).flatten().collect::<Vec<_>>().join(".")
+        [case, text("rail"), span]
+            .into_iter()
+            .chain(ends)
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(".")
     };
     for limit in summary["limits"].as_array().into_iter().flatten() {
         if let (Some(value), Some(most)) = (limit["value"].as_f64(), limit["limit"].as_f64())
             && most > 0.0
         {
-            row.add(name(limit, &["quantity", "code", "clause"]), value.abs() / most, Dimension::NUMBER);
+            row.add(
+                name(limit, &["quantity", "code", "clause"]),
+                value.abs() / most,
+                Dimension::NUMBER,
+            );
         }
     }
     for stress in summary["stresses"].as_array().into_iter().flatten() {
         if let Some(used) = stress["utilisation"].as_f64() {
-            row.add(name(stress, &["section", "quantity"]), used, Dimension::NUMBER);
+            row.add(
+                name(stress, &["section", "quantity"]),
+                used,
+                Dimension::NUMBER,
+            );
         }
     }
 }

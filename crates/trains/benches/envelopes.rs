@@ -50,13 +50,25 @@ fn calculate(spans: usize, wheels: usize, trains: usize) -> usize {
     let (model, rail) = girder.model_and_rail().expect("the girder is valid");
     let structure = Structure::new(&model, &[rail], false).expect("the girder is stable");
     let holds = structure.frame().restraints(&model);
-    let effects = holds.into_iter().map(|hold| vec![fea::Effect::Reaction(hold)]).collect();
+    let effects = holds
+        .into_iter()
+        .map(|hold| vec![fea::Effect::Reaction(hold)])
+        .collect();
     let ends: Vec<f64> = (0..=spans).map(|k| 7.5 * k as f64).collect();
     let places = (0..=20 * spans).map(|k| 7.5 * k as f64 / 20.0).collect();
-    let request = Request { spans: vec![ends], places: vec![places], effects };
+    let request = Request {
+        spans: vec![ends],
+        places: vec![places],
+        effects,
+    };
     let trains = (0..trains).map(|_| train(wheels)).collect();
-    let case = TrainCase { trains, gap: 0.5, ..TrainCase::default() };
-    let found = envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("the train fits");
+    let case = TrainCase {
+        trains,
+        gap: 0.5,
+        ..TrainCase::default()
+    };
+    let found =
+        envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("the train fits");
     found[0].extremes.len()
 }
 

@@ -69,26 +69,55 @@ struct Found {
 impl Alone<'_> {
     /// The governing state, and what sign times the deflection nowhere exceeds. `under_wheels` is the largest value under
     /// the wheels, where the slope has kinks; `known` is sign times a value below which nothing is sought.
-    pub fn enclosed(&self, under_wheels: Option<Governing>, known: f64) -> (Option<Governing>, f64) {
+    pub fn enclosed(
+        &self,
+        under_wheels: Option<Governing>,
+        known: f64,
+    ) -> (Option<Governing>, f64) {
         let is_force = (self.quantity as usize) < QUANTITIES;
         let follows = under_wheels.is_some() || is_force;
-        let mut found = Found { largest: self.size, best: under_wheels };
+        let mut found = Found {
+            largest: self.size,
+            best: under_wheels,
+        };
         let [from, to] = self.window;
         let all: Active = Rc::new(self.active(&mut found, known));
-        let place = |k: usize| if k == PARTS { to } else { from + (to - from) * k as f64 / PARTS as f64 };
-        let ends: Vec<Vec<f64>> =
-            (0..=PARTS).map(|k| self.evaluate(place(k), &all, f64::NEG_INFINITY, &mut found)).collect();
-        let spacing = self.over.all().map(|p| p.on.least_distance()).fold(f64::INFINITY, f64::min);
+        let place = |k: usize| {
+            if k == PARTS {
+                to
+            } else {
+                from + (to - from) * k as f64 / PARTS as f64
+            }
+        };
+        let ends: Vec<Vec<f64>> = (0..=PARTS)
+            .map(|k| self.evaluate(place(k), &all, f64::NEG_INFINITY, &mut found))
+            .collect();
+        let spacing = self
+            .over
+            .all()
+            .map(|p| p.on.least_distance())
+            .fold(f64::INFINITY, f64::min);
         let spacing = spacing / self.carrier.rate();
         let bulge = self.bulges();
         let margin = |x: [f64; 2], at: &[usize; 2]| {
             let h = x[1] - x[0];
             let own = bulge(at) * h * h;
-            let all = if is_force { f64::INFINITY } else { own / 8.0 + self.kinks * h / 4.0 };
-            if follows && h < spacing { all.min(own / 2.0) } else { all }
+            let all = if is_force {
+                f64::INFINITY
+            } else {
+                own / 8.0 + self.kinks * h / 4.0
+            };
+            if follows && h < spacing {
+                all.min(own / 2.0)
+            } else {
+                all
+            }
         };
         // What is known under wheels, for forces: sign times their values there are no larger.
-        let beside = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
+        let beside = found
+            .best
+            .as_ref()
+            .map_or(known, |g| known.max(self.sign * g.value));
         let most_within = |x: [f64; 2], at: &[usize; 2], ends: f64| {
             if !is_force {
                 return ends + margin(x, at);
@@ -97,35 +126,62 @@ impl Alone<'_> {
             (ends + margin(x, at)).min(ends.max(beside) + bulge(at) * h * h / 8.0)
         };
         let limit = |found: &Found| {
-            let best = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
+            let best = found
+                .best
+                .as_ref()
+                .map_or(known, |g| known.max(self.sign * g.value));
             best + self.gap * found.largest
         };
         let mut open: Vec<Interval> = Vec::new();
         for k in 0..PARTS {
             let [a, b] = [&ends[k], &ends[k + 1]];
-            open.extend(interval([place(k), place(k + 1)], &all, [a, b], &most_within, limit(&found)));
+            open.extend(interval(
+                [place(k), place(k + 1)],
+                &all,
+                [a, b],
+                &most_within,
+                limit(&found),
+            ));
         }
         let mut evaluations = PARTS + 1;
         loop {
             let most = limit(&found);
             open.retain(|interval| interval.bound > most);
             let widest = (0..open.len()).max_by(|&a, &b| open[a].bound.total_cmp(&open[b].bound));
-            let Some(widest) = widest else { return (found.best, most) };
+            let Some(widest) = widest else {
+                return (found.best, most);
+            };
             if evaluations >= self.most {
                 return (found.best, open[widest].bound);
             }
-            let Interval { x, active, values, .. } = open.swap_remove(widest);
+            let Interval {
+                x, active, values, ..
+            } = open.swap_remove(widest);
             let middle = 0.5 * (x[0] + x[1]);
             let halves = [[x[0], middle], [middle, x[1]]];
             // Pieces that stay below this are left out of both halves, whatever their value is.
-            let largest = active.iter().map(|at| margin(halves[0], at).max(margin(halves[1], at)));
+            let largest = active
+                .iter()
+                .map(|at| margin(halves[0], at).max(margin(halves[1], at)));
             let floor = most - largest.fold(0.0, f64::max);
             let at_middle = self.evaluate(middle, &active, floor, &mut found);
             evaluations += 1;
             let most = limit(&found);
             let [a, b] = &values;
-            open.extend(interval(halves[0], &active, [a, &at_middle], &most_within, most));
-            open.extend(interval(halves[1], &active, [&at_middle, b], &most_within, most));
+            open.extend(interval(
+                halves[0],
+                &active,
+                [a, &at_middle],
+                &most_within,
+                most,
+            ));
+            open.extend(interval(
+                halves[1],
+                &active,
+                [&at_middle, b],
+                &most_within,
+                most,
+            ));
         }
     }
 
@@ -133,21 +189,42 @@ impl Alone<'_> {
     fn bulges(&self) -> impl Fn(&[usize; 2]) -> f64 {
         let rate = self.carrier.rate();
         let k = self.quantity as usize;
-        let dead = self.dead.map_or(0.0, |dead| dead.bend(self.quantity, self.carrier.length));
-        move |&[stance, piece]| (self.over.bounds(stance).bulge(k, self.sign, piece) + dead) * rate * rate
+        let dead = self
+            .dead
+            .map_or(0.0, |dead| dead.bend(self.quantity, self.carrier.length));
+        move |&[stance, piece]| {
+            (self.over.bounds(stance).bulge(k, self.sign, piece) + dead) * rate * rate
+        }
     }
 
     /// The pieces that can exceed the value at the middle of the window, and what is known.
     fn active(&self, found: &mut Found, known: f64) -> Vec<[usize; 2]> {
         let k = self.quantity as usize;
         let middle = 0.5 * (self.window[0] + self.window[1]);
-        let hint = self.over.best(self.plan, k, self.sign, self.carrier.place(middle), &[]);
-        if let Some(Standing { stance, origin: [piece, _], .. }) = hint.map(|hint| hint.trains[0]) {
-            self.evaluate(middle, &Rc::new(vec![[stance, piece]]), f64::NEG_INFINITY, found);
+        let hint = self
+            .over
+            .best(self.plan, k, self.sign, self.carrier.place(middle), &[]);
+        if let Some(Standing {
+            stance,
+            origin: [piece, _],
+            ..
+        }) = hint.map(|hint| hint.trains[0])
+        {
+            self.evaluate(
+                middle,
+                &Rc::new(vec![[stance, piece]]),
+                f64::NEG_INFINITY,
+                found,
+            );
         }
-        let best = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
+        let best = found
+            .best
+            .as_ref()
+            .map_or(known, |g| known.max(self.sign * g.value));
         let places = self.window.map(|x| self.carrier.place(x));
-        let dead = self.dead.map_or(0.0, |dead| dead.bound(self.quantity, self.sign, places));
+        let dead = self
+            .dead
+            .map_or(0.0, |dead| dead.bound(self.quantity, self.sign, places));
         self.over.pieces_above(k, self.sign, best - dead)
     }
 
@@ -178,7 +255,10 @@ impl Alone<'_> {
                 {
                     return;
                 }
-                let standing = TrainPosition { position, stance: self.plan.trains[0][stance].stance };
+                let standing = TrainPosition {
+                    position,
+                    stance: self.plan.trains[0][stance].stance,
+                };
                 let governing = Governing {
                     value: self.sign * signed,
                     dead,
@@ -213,5 +293,10 @@ fn interval(
     } else {
         Rc::new(keeps.iter().map(|&k| active[k]).collect())
     };
-    Some(Interval { x, active, values: [take(a), take(b)], bound })
+    Some(Interval {
+        x,
+        active,
+        values: [take(a), take(b)],
+        bound,
+    })
 }

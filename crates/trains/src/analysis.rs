@@ -8,7 +8,9 @@ use crate::dead::{DeadLoad, DeadLoads};
 use crate::deflection::{Deflections, GAP, MOST};
 use crate::effect::{extremes_of_effects, plans};
 use crate::error::Error;
-use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition};
+use crate::extremes::{
+    CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition,
+};
 use crate::follow::{SectionSide, Target};
 use crate::hints::Hint;
 use crate::line::Lines;
@@ -58,7 +60,12 @@ pub fn envelopes(
     request: &Request,
 ) -> Result<Vec<CaseEnvelopes>, Error> {
     let (plans, used) = plans(structure, dead, cases)?;
-    let analysis = Analysis { structure, plans: &plans, request, used };
+    let analysis = Analysis {
+        structure,
+        plans: &plans,
+        request,
+        used,
+    };
     let mut extremes: Vec<Accumulated> = cases.iter().map(|_| Accumulated::default()).collect();
     let mut out = vec![CaseEnvelopes::default(); cases.len()];
     let mut waiting: VecDeque<Prepared<'_>> = VecDeque::new();
@@ -86,15 +93,23 @@ pub fn envelopes(
     for (case, out) in out.iter_mut().enumerate() {
         out.envelopes.sort_by(|a, b| {
             let key = |e: &EnvelopeValue| (e.quantity, !e.is_max);
-            let place = a.rail.cmp(&b.rail).then(a.governing.x.total_cmp(&b.governing.x));
+            let place = a
+                .rail
+                .cmp(&b.rail)
+                .then(a.governing.x.total_cmp(&b.governing.x));
             place.then(key(a).cmp(&key(b)))
         });
         out.extremes = finished(&extremes[case], &out.envelopes, structure.slack());
-        out.deflections.sort_by_key(|d| (d.rail, d.span, d.quantity));
+        out.deflections
+            .sort_by_key(|d| (d.rail, d.span, d.quantity));
     }
-    for (out, effects) in
-        out.iter_mut().zip(extremes_of_effects(structure, dead, &plans, &request.effects, used)?)
-    {
+    for (out, effects) in out.iter_mut().zip(extremes_of_effects(
+        structure,
+        dead,
+        &plans,
+        &request.effects,
+        used,
+    )?) {
         out.effects = effects;
     }
     Ok(out)
@@ -107,17 +122,32 @@ fn finished(all: &Accumulated, envelopes: &[EnvelopeValue], slack: f64) -> Vec<S
         .iter()
         .filter_map(|entry| {
             let mut governing = entry.governing.clone()?;
-            let first =
-                envelopes.partition_point(|e| (e.rail, e.governing.x) < (entry.rail, governing.x - slack));
+            let first = envelopes
+                .partition_point(|e| (e.rail, e.governing.x) < (entry.rail, governing.x - slack));
             let same = envelopes[first..]
                 .iter()
                 .take_while(|e| e.rail == entry.rail && e.governing.x <= governing.x + slack)
                 .find(|e| (e.quantity, e.is_max) == (entry.quantity, entry.is_max));
             governing.coincident = same.map_or([0.0; 3], |e| e.governing.coincident);
             let sign = sign_of(entry.is_max);
-            let bound = entry.bound.map_or(governing.value, |bound| sign * bound.max(sign * governing.value));
-            let Entry { rail, span, quantity, is_max, .. } = *entry;
-            Some(SpanExtreme { rail, span, quantity, is_max, governing, bound })
+            let bound = entry.bound.map_or(governing.value, |bound| {
+                sign * bound.max(sign * governing.value)
+            });
+            let Entry {
+                rail,
+                span,
+                quantity,
+                is_max,
+                ..
+            } = *entry;
+            Some(SpanExtreme {
+                rail,
+                span,
+                quantity,
+                is_max,
+                governing,
+                bound,
+            })
         })
         .collect();
     out.sort_by_key(|e| (e.rail, e.span, e.quantity, !e.is_max));
@@ -147,14 +177,27 @@ impl<'a> Analysis<'a> {
         forces: Lines<QUANTITIES>,
         load: &DeadLoad,
     ) -> Result<Prepared<'a>, Error> {
-        let deflections = |direction| self.structure.deflection_lines(carrier, direction, None, self.used);
-        let lines = CarrierLines { forces, deflections: [deflections(0)?, deflections(1)?] };
+        let deflections = |direction| {
+            self.structure
+                .deflection_lines(carrier, direction, None, self.used)
+        };
+        let lines = CarrierLines {
+            forces,
+            deflections: [deflections(0)?, deflections(1)?],
+        };
         let lines = lines.joined(self.structure, carrier);
         let case = |plan: &CasePlan| {
-            Ok((Overrun::new(self.structure, plan, carrier, &lines)?, load.times(plan.dead)))
+            Ok((
+                Overrun::new(self.structure, plan, carrier, &lines)?,
+                load.times(plan.dead),
+            ))
         };
         let cases = self.plans.iter().map(case).collect::<Result<_, Error>>()?;
-        Ok(Prepared { carrier, lines, cases })
+        Ok(Prepared {
+            carrier,
+            lines,
+            cases,
+        })
     }
 
     /// Numbers of the first and the last span over a carrier.
@@ -171,7 +214,11 @@ impl<'a> Analysis<'a> {
         extremes: &mut [Accumulated],
         out: &mut [CaseEnvelopes],
     ) -> Result<(), Error> {
-        let each = self.plans.iter().zip(&prepared.cases).zip(extremes.iter_mut().zip(out));
+        let each = self
+            .plans
+            .iter()
+            .zip(&prepared.cases)
+            .zip(extremes.iter_mut().zip(out));
         for ((plan, (over, dead)), (extremes, out)) in each {
             self.forces_on(prepared.carrier, plan, over, dead, extremes)?;
             let deflections = Deflections {
@@ -214,14 +261,25 @@ impl<'a> Analysis<'a> {
                     let sign = sign_of(is_max);
                     let entry = entry(out, carrier.rail, span, *quantity, is_max);
                     for section in &sections {
-                        let found = section.best(*quantity, sign, &[]).map(|(governing, _)| governing);
+                        let found = section
+                            .best(*quantity, sign, &[])
+                            .map(|(governing, _)| governing);
                         offer(&mut entry.governing, found, sign);
                     }
-                    let target = Target { k: *quantity as usize, sign, window, dead };
+                    let target = Target {
+                        k: *quantity as usize,
+                        sign,
+                        window,
+                        dead,
+                    };
                     if plan.trains.len() == 1 {
-                        let found = follow_one(plan, over, carrier, &target, entry.governing.as_ref());
+                        let found =
+                            follow_one(plan, over, carrier, &target, entry.governing.as_ref());
                         offer(&mut entry.governing, found, sign);
-                        if over.all().any(|passage| passage.on.bent_row(target.k).is_some()) {
+                        if over
+                            .all()
+                            .any(|passage| passage.on.bent_row(target.k).is_some())
+                        {
                             let search = Alone {
                                 plan,
                                 over,
@@ -235,16 +293,23 @@ impl<'a> Analysis<'a> {
                                 size: 0.0,
                                 most: MOST,
                             };
-                            let known =
-                                entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                            let known = entry
+                                .governing
+                                .as_ref()
+                                .map_or(f64::NEG_INFINITY, |g| sign * g.value);
                             let (found, bound) = search.enclosed(None, known);
                             offer(&mut entry.governing, found, sign);
                             entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                         }
                         continue;
                     }
-                    let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
-                    if let Some((found, bound)) = several::enclosed(plan, over, carrier, &target, known)? {
+                    let known = entry
+                        .governing
+                        .as_ref()
+                        .map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                    if let Some((found, bound)) =
+                        several::enclosed(plan, over, carrier, &target, known)?
+                    {
                         offer(&mut entry.governing, found, sign);
                         entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                     }
@@ -266,28 +331,52 @@ impl<'a> Analysis<'a> {
     }
 
     /// Envelopes at the places of the request and of the extremes within a carrier.
-    fn envelopes_on(&self, prepared: &Prepared<'_>, extremes: &mut [Accumulated], out: &mut [CaseEnvelopes]) {
+    fn envelopes_on(
+        &self,
+        prepared: &Prepared<'_>,
+        extremes: &mut [Accumulated],
+        out: &mut [CaseEnvelopes],
+    ) {
         let slack = self.structure.slack();
         let carrier = prepared.carrier;
-        let each = self.plans.iter().zip(&prepared.cases).zip(extremes.iter().zip(out));
+        let each = self
+            .plans
+            .iter()
+            .zip(&prepared.cases)
+            .zip(extremes.iter().zip(out));
         for ((plan, (over, dead)), (extremes, out)) in each {
             let mut hints = vec![None; 2 * GirderResponse::ALL.len()];
             for x in self.places_on(carrier, extremes) {
                 let end = usize::from((x - carrier.x[1]).abs() <= slack);
                 let s = carrier.place(x);
                 let side = self.side_of_end(carrier, x, end);
-                let section = Section { plan, dead, over, s, x, side };
+                let section = Section {
+                    plan,
+                    dead,
+                    over,
+                    s,
+                    x,
+                    side,
+                };
                 for quantity in GirderResponse::ALL {
                     let exists = (quantity as usize).checked_sub(QUANTITIES);
-                    if exists.is_some_and(|direction| prepared.lines.deflections[direction].is_none()) {
+                    if exists
+                        .is_some_and(|direction| prepared.lines.deflections[direction].is_none())
+                    {
                         continue;
                     }
                     for is_max in [true, false] {
                         let hint = &mut hints[2 * quantity as usize + usize::from(is_max)];
-                        let Some(governing) = section.envelope(quantity, sign_of(is_max), hint) else {
+                        let Some(governing) = section.envelope(quantity, sign_of(is_max), hint)
+                        else {
                             continue;
                         };
-                        let found = EnvelopeValue { rail: carrier.rail, quantity, is_max, governing };
+                        let found = EnvelopeValue {
+                            rail: carrier.rail,
+                            quantity,
+                            is_max,
+                            governing,
+                        };
                         offer_envelope(out, found, slack);
                     }
                 }
@@ -298,9 +387,20 @@ impl<'a> Analysis<'a> {
     /// Places of the request and of the extremes of a case on a carrier, increasing.
     fn places_on(&self, carrier: &Carrier, extremes: &Accumulated) -> Vec<f64> {
         let slack = self.structure.slack();
-        let own = extremes.list.iter().filter(|entry| entry.rail == carrier.rail);
-        let of_extremes = own.filter_map(|entry| entry.governing.as_ref()).map(|governing| governing.x);
-        let asked = self.request.places.get(carrier.rail).into_iter().flatten().copied();
+        let own = extremes
+            .list
+            .iter()
+            .filter(|entry| entry.rail == carrier.rail);
+        let of_extremes = own
+            .filter_map(|entry| entry.governing.as_ref())
+            .map(|governing| governing.x);
+        let asked = self
+            .request
+            .places
+            .get(carrier.rail)
+            .into_iter()
+            .flatten()
+            .copied();
         let inside = |x: &f64| *x >= carrier.x[0] - slack && *x <= carrier.x[1] + slack;
         let mut places: Vec<f64> = asked.chain(of_extremes).filter(inside).collect();
         places.sort_by(f64::total_cmp);
@@ -351,7 +451,9 @@ impl Section<'_> {
         sign: f64,
         hints: &[Hint<'_>],
     ) -> Option<(Governing, Arrangement)> {
-        let found = self.over.best(self.plan, quantity as usize, sign, self.s, hints)?;
+        let found = self
+            .over
+            .best(self.plan, quantity as usize, sign, self.s, hints)?;
         let dead = self.dead.at(quantity, self.s);
         let governing = Governing {
             value: sign * found.signed + dead,
@@ -397,7 +499,10 @@ fn follow_one(
 ) -> Option<Governing> {
     let mut best: Option<Governing> = None;
     for (stance, placed) in plan.trains[0].iter().enumerate() {
-        let so_far = best.as_ref().or(known).map_or(f64::NEG_INFINITY, |g| target.sign * g.value);
+        let so_far = best
+            .as_ref()
+            .or(known)
+            .map_or(f64::NEG_INFINITY, |g| target.sign * g.value);
         let floor = so_far - TIE * so_far.abs();
         let Some(peak) = over.passages[0][stance].follow(over.bounds(stance), target, floor) else {
             continue;
@@ -408,7 +513,10 @@ fn follow_one(
             dead,
             x: carrier.coordinate(peak.place),
             side: peak.side,
-            trains: vec![TrainPosition { position: peak.position, stance: placed.stance }],
+            trains: vec![TrainPosition {
+                position: peak.position,
+                stance: placed.stance,
+            }],
             coincident: [0.0; 3],
         };
         offer(&mut best, Some(found), target.sign);

@@ -47,7 +47,12 @@ impl Bent {
     /// The functions on a part of some length.
     pub fn new(planes: [BentPlane; 2], length: f64) -> Bent {
         let zero = [[[0.0; 4]; BENT]; BENT];
-        let mut out = Bent { ends: zero, spread: zero, planes, length };
+        let mut out = Bent {
+            ends: zero,
+            spread: zero,
+            planes,
+            length,
+        };
         for plane in planes {
             let nodes = NODES.map(|node| functions(plane.square, node * length));
             let cubic = |k: usize| {
@@ -58,12 +63,15 @@ impl Bent {
                     own
                 })
             };
-            let [cosh, sinh, rate, integral, more] = [cubic(0), cubic(1), cubic(2), cubic(3), cubic(4)];
+            let [cosh, sinh, rate, integral, more] =
+                [cubic(0), cubic(1), cubic(2), cubic(3), cubic(4)];
             let d = plane.direction;
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let (weight, [vi, vj, mi, mj]) = (d[i] * d[j], [i, j, 2 + i, 2 + j]);
                 let add = |sum: &mut [f64; 4], of: &[f64; 4]| {
-                    sum.iter_mut().zip(of).for_each(|(sum, c)| *sum += weight * c);
+                    sum.iter_mut()
+                        .zip(of)
+                        .for_each(|(sum, c)| *sum += weight * c);
                 };
                 add(&mut out.ends[mi][mj], &cosh);
                 add(&mut out.ends[mi][vj], &sinh);
@@ -92,7 +100,12 @@ impl Bent {
     pub fn jump<const N: usize>(&self, given: [f64; N]) -> [f64; N] {
         let mut out = given;
         out[FIRST..FIRST + 2].fill(0.0);
-        for BentPlane { direction: d, stiffening, .. } in &self.planes {
+        for BentPlane {
+            direction: d,
+            stiffening,
+            ..
+        } in &self.planes
+        {
             let own = (d[0] * given[FIRST] + d[1] * given[FIRST + 1]) / stiffening;
             (0..2).for_each(|i| out[FIRST + i] += d[i] * own);
         }
@@ -123,7 +136,12 @@ impl Bent {
 /// Shear forces and moments at a distance from where they are `from`, without loads between.
 pub(crate) fn moved(planes: &[BentPlane; 2], from: &[f64; BENT], s: f64) -> [f64; BENT] {
     let mut out = [0.0; BENT];
-    for BentPlane { direction: d, square, .. } in planes {
+    for BentPlane {
+        direction: d,
+        square,
+        ..
+    } in planes
+    {
         let [cosh, sinh, rate, ..] = functions(*square, s);
         let [shear, moment] = [0, 2].map(|k| d[0] * from[k] + d[1] * from[k + 1]);
         for i in 0..2 {
@@ -136,7 +154,12 @@ pub(crate) fn moved(planes: &[BentPlane; 2], from: &[f64; BENT], s: f64) -> [f64
 
 /// The sum of cubics by the four bent ones among some quantities.
 fn sum<const N: usize>(row: &[[f64; 4]; BENT], of: &[f64; N]) -> [f64; 4] {
-    std::array::from_fn(|p| row.iter().zip(&of[FIRST..]).map(|(cubic, value)| cubic[p] * value).sum())
+    std::array::from_fn(|p| {
+        row.iter()
+            .zip(&of[FIRST..])
+            .map(|(cubic, value)| cubic[p] * value)
+            .sum()
+    })
 }
 
 /// cosh, sinh/lambda, lambda sinh, (cosh - 1)/lambda^2 and cosh - 1 of lambda s; the circular functions where lambda^2 is
@@ -151,7 +174,13 @@ fn functions(square: f64, s: f64) -> [f64; 5] {
         } else {
             [x.cos(), x.sin(), -2.0 * half.sin().powi(2), -1.0]
         };
-        return [cosh, sinh / lambda, sign * lambda * sinh, more / square, more];
+        return [
+            cosh,
+            sinh / lambda,
+            sign * lambda * sinh,
+            more / square,
+            more,
+        ];
     }
     // sums of z^k/(2 k + 1)! and z^k/(2 k + 2)!
     let (mut odd, mut even, mut term) = (0.0, 0.0, 1.0);
@@ -160,7 +189,13 @@ fn functions(square: f64, s: f64) -> [f64; 5] {
         even += term / f64::from(2 * k + 2);
         term *= z / f64::from((2 * k + 2) * (2 * k + 3));
     }
-    [1.0 + z * even, s * odd, square * s * odd, s * s * even, z * even]
+    [
+        1.0 + z * even,
+        s * odd,
+        square * s * odd,
+        s * s * even,
+        z * even,
+    ]
 }
 
 #[cfg(test)]
@@ -171,7 +206,11 @@ mod tests {
     #[test]
     fn moments_turn_with_the_axial_force() {
         let (k, h) = (1.3_f64, 0.05);
-        let plane = |direction, square| BentPlane { direction, square, stiffening: 1.0 };
+        let plane = |direction, square| BentPlane {
+            direction,
+            square,
+            stiffening: 1.0,
+        };
         let bent = Bent::new([plane([1.0, 0.0], -k * k), plane([0.0, 1.0], 0.0)], h);
         let start = [0.0, 0.0, 2.0, 5.0, 3.0, 7.0];
         let at = |q: usize, s: f64| {
@@ -186,9 +225,12 @@ mod tests {
             assert!((at(5, s) - (7.0 + 5.0 * s)).abs() < 1e-14 && (at(3, s) - 5.0).abs() < 1e-14);
         }
         // Half of a load along the part is passed at the middle: V = q sin(k s)/k.
-        let q = bent.under(2, &[0.0, 0.0, 1.5, 0.0, 0.0, 0.0]).expect("it is bent");
+        let q = bent
+            .under(2, &[0.0, 0.0, 1.5, 0.0, 0.0, 0.0])
+            .expect("it is bent");
         assert!(
-            (q[0] + 0.02 * (q[1] + 0.02 * (q[2] + 0.02 * q[3])) - 1.5 * (k * 0.02).sin() / k).abs() < 1e-9
+            (q[0] + 0.02 * (q[1] + 0.02 * (q[2] + 0.02 * q[3])) - 1.5 * (k * 0.02).sin() / k).abs()
+                < 1e-9
         );
     }
 }

@@ -30,15 +30,21 @@ impl SecondDerivatives {
         for (bounds, cells) in rails.iter_mut().zip(&lines.rails) {
             for cell in cells {
                 let h = cell.x[1] - cell.x[0];
-                let on = loads.iter().find(|(on, _)| Some(on.other.stretch) == cell.stretch);
+                let on = loads
+                    .iter()
+                    .find(|(on, _)| Some(on.other.stretch) == cell.stretch);
                 for (component, bound) in bounds.iter_mut().enumerate() {
                     let ahead = of_cell(cell, component);
-                    let mut offer = |found: [f64; 2]| (0..2).for_each(|k| bound[k] = bound[k].max(found[k]));
+                    let mut offer =
+                        |found: [f64; 2]| (0..2).for_each(|k| bound[k] = bound[k].max(found[k]));
                     offer(ahead.second(width, h));
                     let Some((on, kernels)) = on else { continue };
                     let first = on.start + on.rate * (cell.x[0] - on.other.x[0]);
                     let kernel = Bicubic::new(NODES.map(|node| {
-                        in_fractions(kernels[component].passing(node * carrier.length - first, on.rate), h)
+                        in_fractions(
+                            kernels[component].passing(node * carrier.length - first, on.rate),
+                            h,
+                        )
                     }));
                     offer(ahead.plus(&kernel).second(width, h));
                 }
@@ -52,7 +58,9 @@ impl SecondDerivatives {
         let wheels = train.wheels.iter().map(|wheel| {
             let bounds = wheel.load.iter().zip(&self.rails[wheel.rail]);
             bounds
-                .map(|(load, [above, below])| load.abs() * if sign * load > 0.0 { *below } else { *above })
+                .map(|(load, [above, below])| {
+                    load.abs() * if sign * load > 0.0 { *below } else { *above }
+                })
                 .sum::<f64>()
         });
         wheels.sum()
@@ -61,7 +69,9 @@ impl SecondDerivatives {
 
 /// The deflection with the load in a cell, not passed.
 fn of_cell(cell: &LineCell<POWERS>, component: usize) -> Bicubic {
-    Bicubic { c: cell.cubics[component].map(|cubic| in_fractions(cubic, cell.x[1] - cell.x[0])) }
+    Bicubic {
+        c: cell.cubics[component].map(|cubic| in_fractions(cubic, cell.x[1] - cell.x[0])),
+    }
 }
 
 /// A cubic in the fraction of a length.
@@ -86,7 +96,9 @@ impl Bicubic {
     }
 
     fn plus(&self, other: &Bicubic) -> Bicubic {
-        Bicubic { c: std::array::from_fn(|i| std::array::from_fn(|j| self.c[i][j] + other.c[i][j])) }
+        Bicubic {
+            c: std::array::from_fn(|i| std::array::from_fn(|j| self.c[i][j] + other.c[i][j])),
+        }
     }
 
     /// Bounds over both fractions from 0 to 1 of plus and minus the second derivative by u, and of those along u and v
@@ -111,7 +123,9 @@ impl Bicubic {
         [own, along]
             .iter()
             .map(bernstein)
-            .fold([f64::NEG_INFINITY; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])])
+            .fold([f64::NEG_INFINITY; 2], |a, b| {
+                [a[0].max(b[0]), a[1].max(b[1])]
+            })
     }
 }
 
@@ -124,7 +138,9 @@ fn bernstein(powers: &[[f64; 4]; 4]) -> [f64; 2] {
     let rows = powers.map(convert);
     let columns: [[f64; 4]; 4] = std::array::from_fn(|j| convert(rows.map(|row| row[j])));
     let all = columns.iter().flatten();
-    all.fold([f64::NEG_INFINITY; 2], |bounds, c| [bounds[0].max(*c), bounds[1].max(-c)])
+    all.fold([f64::NEG_INFINITY; 2], |bounds, c| {
+        [bounds[0].max(*c), bounds[1].max(-c)]
+    })
 }
 
 #[cfg(test)]
@@ -137,6 +153,9 @@ mod tests {
         let at_nodes = NODES.map(|u| [0.0, u * u, 3.0, 0.0]);
         let found = Bicubic::new(at_nodes).second(2.0, 5.0);
         // The second derivative by u alone is between 0 and 0.5.
-        assert!((found[0] - (0.5 + 0.4 + 0.24)).abs() < 1e-12 && found[1].abs() < 1e-12, "{found:?}");
+        assert!(
+            (found[0] - (0.5 + 0.4 + 0.24)).abs() < 1e-12 && found[1].abs() < 1e-12,
+            "{found:?}"
+        );
     }
 }

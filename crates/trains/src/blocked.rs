@@ -55,31 +55,49 @@ impl Blocked {
                 let more = bent_bends(passage, target, rate);
                 [bend + more[0], slope + more[1]]
             });
-            let [bend, steep] = bends.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
+            let [bend, steep] =
+                bends.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
             curvature += bend;
             slope += steep;
             let most = |k: usize| {
-                stances.iter().map(|p| p.on.jumps(k).map(f64::abs).sum::<f64>()).fold(0.0, f64::max)
+                stances
+                    .iter()
+                    .map(|p| p.on.jumps(k).map(f64::abs).sum::<f64>())
+                    .fold(0.0, f64::max)
             };
             jumps += most(target.k);
             if let Some(shear) = shear {
                 kinks += most(shear) * rate;
                 // A section that moves past held wheels changes its moment by the shear force.
-                let largest = stances.iter().map(|p| largest(&p.pieces, shear)).fold(0.0, f64::max);
+                let largest = stances
+                    .iter()
+                    .map(|p| largest(&p.pieces, shear))
+                    .fold(0.0, f64::max);
                 slope += (largest + most(shear)) * rate;
             }
         }
         let [_, b, c, d] = target.dead.cubic(target.k);
-        let ends = [0.0, carrier.length].map(|s| -target.sign * (2.0 * c + 6.0 * d * s) * rate * rate);
+        let ends =
+            [0.0, carrier.length].map(|s| -target.sign * (2.0 * c + 6.0 * d * s) * rate * rate);
         curvature += ends[0].max(ends[1]).max(0.0);
-        slope += (b.abs() + carrier.length * (2.0 * c.abs() + 3.0 * d.abs() * carrier.length)) * rate;
+        slope +=
+            (b.abs() + carrier.length * (2.0 * c.abs() + 3.0 * d.abs() * carrier.length)) * rate;
         let places = places(plan, over, carrier, &|train, stance| {
             sharp_positions(&over.passages[train][stance], target)
         });
         let trains = plan.trains.len() as f64;
         let opposed = over.all().any(|passage| passage.on.has_opposed_wheels());
         let only_kinks = shear.is_some() && jumps == 0.0;
-        Blocked { curvature, slope, kinks, jumps, places, opposed, trains, only_kinks }
+        Blocked {
+            curvature,
+            slope,
+            kinks,
+            jumps,
+            places,
+            opposed,
+            trains,
+            only_kinks,
+        }
     }
 
     /// The bounds for a deflection of a carrier with a bound of the second derivative of every state that is moved along, and
@@ -104,7 +122,16 @@ impl Blocked {
         let trains = plan.trains.len() as f64;
         let opposed = over.all().any(|passage| passage.on.has_opposed_wheels());
         let Bend { curvature, kinks } = bend;
-        Blocked { curvature, slope: 0.0, kinks, jumps: 0.0, places, opposed, trains, only_kinks: true }
+        Blocked {
+            curvature,
+            slope: 0.0,
+            kinks,
+            jumps: 0.0,
+            places,
+            opposed,
+            trains,
+            only_kinks: true,
+        }
     }
 
     /// By how much the envelope may exceed its values at the ends of an interval.
@@ -112,7 +139,11 @@ impl Blocked {
         let h = to - from;
         let reach = self.trains * h;
         let first = self.places.partition_point(|x| *x < from - reach);
-        let near = self.places[first..].iter().take_while(|x| **x <= to + reach).take(2).count();
+        let near = self.places[first..]
+            .iter()
+            .take_while(|x| **x <= to + reach)
+            .take(2)
+            .count();
         let near = if self.opposed { 2 } else { near };
         let smooth = self.curvature * h * h / 8.0;
         match (near, self.only_kinks) {
@@ -131,8 +162,9 @@ fn bends(pieces: &Pieces<QUANTITIES>, target: &Target<'_>, rate: f64) -> [f64; 2
     for piece in &pieces.list {
         let h = piece.length();
         let [_, b, c, d] = piece.cubics[target.k].map(|c| target.sign * c);
-        let [_, e, f, g] =
-            slope_index(target.k).map_or([0.0; 4], |shear| piece.cubics[shear].map(|c| target.sign * c));
+        let [_, e, f, g] = slope_index(target.k).map_or([0.0; 4], |shear| {
+            piece.cubics[shear].map(|c| target.sign * c)
+        });
         // Bernstein coefficients of the slope of a cubic on 0..=h enclose it.
         let slopes = |b: f64, c: f64, d: f64| [b, b + c * h, b + 2.0 * c * h + 3.0 * d * h * h];
         let turning = slopes(e, f, g).into_iter().fold(f64::INFINITY, f64::min);
@@ -152,15 +184,21 @@ fn bends(pieces: &Pieces<QUANTITIES>, target: &Target<'_>, rate: f64) -> [f64; 2
 /// What an axial force adds to both bounds of [`bends`], wherever train and section move: all that differs from B(p) + s V(p),
 /// and the curvature of what wheels that have been passed add.
 fn bent_bends(passage: &Passage, target: &Target<'_>, rate: f64) -> [f64; 2] {
-    let Some(row) = passage.on.bent_row(target.k) else { return [0.0; 2] };
+    let Some(row) = passage.on.bent_row(target.k) else {
+        return [0.0; 2];
+    };
     let shear = slope_index(target.k);
     let length = passage.on.length();
     let mut out = [0.0_f64; 2];
     let factors: Vec<([f64; 3], usize)> = row
         .map(|(cubic, of)| {
             let [a, b, c, d] = *cubic;
-            let more =
-                [a - f64::from(u8::from(of == target.k)), b - f64::from(u8::from(Some(of) == shear)), c, d];
+            let more = [
+                a - f64::from(u8::from(of == target.k)),
+                b - f64::from(u8::from(Some(of) == shear)),
+                c,
+                d,
+            ];
             (sizes(&more, length), of)
         })
         .collect();
@@ -186,7 +224,11 @@ fn bent_bends(passage: &Passage, target: &Target<'_>, rate: f64) -> [f64; 2] {
 /// Bounds of the sizes of a cubic, its first and its second derivative on 0..=h.
 fn sizes(cubic: &[f64; 4], h: f64) -> [f64; 3] {
     let [a, b, c, d] = cubic.map(f64::abs);
-    [a + h * (b + h * (c + h * d)), b + h * (2.0 * c + 3.0 * d * h), 2.0 * c + 6.0 * d * h]
+    [
+        a + h * (b + h * (c + h * d)),
+        b + h * (2.0 * c + 3.0 * d * h),
+        2.0 * c + 6.0 * d * h,
+    ]
 }
 
 /// Bound of the size of response k.
@@ -213,7 +255,10 @@ fn places(
         let mut own: Vec<usize> = Vec::new();
         let mut barriers = vec![Vec::new(); stances.len()];
         for (stance, placed) in stances.iter().enumerate() {
-            let known = own.iter().copied().find(|&k| stances[k].stance.turned == placed.stance.turned);
+            let known = own
+                .iter()
+                .copied()
+                .find(|&k| stances[k].stance.turned == placed.stance.turned);
             let way = known.unwrap_or(stance);
             if known.is_none() {
                 own.push(stance);
@@ -231,9 +276,12 @@ fn places(
     let mut out = Vec::new();
     plan.for_each_arrangement(&ways, &mut |order, stances| {
         let mut add = |k: usize, position: f64| {
-            over.passages[order[k]][stances[k]].on.coordinates(carrier, position, &mut out);
+            over.passages[order[k]][stances[k]]
+                .on
+                .coordinates(carrier, position, &mut out);
         };
-        let step = |j: usize, k: usize| plan.distance((order[j], stances[j]), (order[k], stances[k]));
+        let step =
+            |j: usize, k: usize| plan.distance((order[j], stances[j]), (order[k], stances[k]));
         for k in 0..order.len() {
             for &barrier in &all[order[k]][stances[k]] {
                 add(k, barrier);
@@ -242,15 +290,19 @@ fn places(
                 reached[k].push(barrier);
                 for next in k + 1..order.len() {
                     let from = (k..next).flat_map(|j| reached[j].iter().map(move |p| (j, *p)));
-                    let touching: Vec<f64> =
-                        from.map(|(j, p)| p + step(j, next)).filter(|p| p.is_finite()).collect();
+                    let touching: Vec<f64> = from
+                        .map(|(j, p)| p + step(j, next))
+                        .filter(|p| p.is_finite())
+                        .collect();
                     touching.iter().for_each(|p| add(next, *p));
                     reached[next] = touching;
                 }
                 for next in (0..k).rev() {
                     let from = (next + 1..=k).flat_map(|j| reached[j].iter().map(move |p| (j, *p)));
-                    let touching: Vec<f64> =
-                        from.map(|(j, p)| p - step(next, j)).filter(|p| p.is_finite()).collect();
+                    let touching: Vec<f64> = from
+                        .map(|(j, p)| p - step(next, j))
+                        .filter(|p| p.is_finite())
+                        .collect();
                     touching.iter().for_each(|p| add(next, *p));
                     reached[next] = touching;
                 }
@@ -273,20 +325,31 @@ fn sharp_positions(passage: &Passage, target: &Target<'_>) -> Vec<f64> {
         let list = passage.response(target.k, s);
         let shears = shear.map(|shear| passage.response(shear, s));
         let size = |list: &[ResponsePiece]| {
-            list.iter().map(|piece| start(piece)[0].abs().max(end(piece)[0].abs())).fold(0.0, f64::max)
+            list.iter()
+                .map(|piece| start(piece)[0].abs().max(end(piece)[0].abs()))
+                .fold(0.0, f64::max)
         };
         let length = list.last().map_or(0.0, |last| last.position[1]) - list[0].position[0];
-        let breaks = passage.pieces.list.iter().skip(1).filter(|piece| !piece.begins_inside);
+        let breaks = passage
+            .pieces
+            .list
+            .iter()
+            .skip(1)
+            .filter(|piece| !piece.begins_inside);
         let breaks = breaks.map(|piece| piece.position[0]);
         for position in breaks {
             let after = list.partition_point(|piece| piece.position[0] < position);
             let change = |list: &[ResponsePiece]| {
-                let [before, behind] =
-                    after.checked_sub(1).and_then(|k| list.get(k..k + 2)).map(|pair| [pair[0], pair[1]])?;
+                let [before, behind] = after
+                    .checked_sub(1)
+                    .and_then(|k| list.get(k..k + 2))
+                    .map(|pair| [pair[0], pair[1]])?;
                 let ([a, b], [c, d]) = (end(&before), start(&behind));
                 Some([c - a, d - b])
             };
-            let Some([jump, kink]) = change(&list) else { continue };
+            let Some([jump, kink]) = change(&list) else {
+                continue;
+            };
             let sharp = jump.abs() > SMOOTH * size(&list)
                 || kink.abs() * length > 10.0 * SMOOTH * size(&list)
                 || shears.as_ref().is_some_and(|list| {
@@ -310,5 +373,8 @@ fn start(piece: &ResponsePiece) -> [f64; 2] {
 fn end(piece: &ResponsePiece) -> [f64; 2] {
     let h = piece.length();
     let [a, b, c, d] = piece.cubic;
-    [a + h * (b + h * (c + h * d)), b + h * (2.0 * c + 3.0 * d * h)]
+    [
+        a + h * (b + h * (c + h * d)),
+        b + h * (2.0 * c + 3.0 * d * h),
+    ]
 }

@@ -43,7 +43,13 @@ impl Bounds {
         let second: [Vec<[f64; 2]>; 2] = [0, 1].map(|direction| {
             let known = passage.deflections[direction].is_some();
             (0..pieces)
-                .map(|piece| if known { second(passage, piece, direction) } else { [0.0; 2] })
+                .map(|piece| {
+                    if known {
+                        second(passage, piece, direction)
+                    } else {
+                        [0.0; 2]
+                    }
+                })
                 .collect()
         });
         let bent: Vec<Vec<f64>> = match passage.on.bent() {
@@ -79,7 +85,14 @@ impl Bounds {
         }
         let largest = |own: &[f64]| own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let most = values.chunks(pieces.max(1)).map(largest).collect();
-        Bounds { values, most, second, bent, pieces, length }
+        Bounds {
+            values,
+            most,
+            second,
+            bent,
+            pieces,
+            length,
+        }
     }
 
     /// A bound of minus the second derivative of sign times response k in a piece, at least 0: by how much a state can
@@ -103,7 +116,9 @@ impl Bounds {
 
     /// The bound of sign times response k over the carrier in a piece.
     pub fn over_all(&self, k: usize, sign: f64, piece: usize) -> f64 {
-        (0..PARTS).map(|part| self.of_part(part, k, sign)[piece]).fold(f64::NEG_INFINITY, f64::max)
+        (0..PARTS)
+            .map(|part| self.of_part(part, k, sign)[piece])
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn of_part(&self, part: usize, k: usize, sign: f64) -> &[f64] {
@@ -125,14 +140,18 @@ impl Bounds {
 /// Bounds of plus and minus the second derivative of a deflection in a piece, by distance along the member. It is linear
 /// between wheels, as a moment is, so that the ends and both sides of each wheel tell for all.
 fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
-    let Some(pieces) = &passage.deflections[direction] else { return [0.0; 2] };
+    let Some(pieces) = &passage.deflections[direction] else {
+        return [0.0; 2];
+    };
     let length = passage.on.length();
     let time = passage.pieces.list[piece].length();
     let wheels = passage.wheels(piece);
     let [_, _, c, d] = &pieces.list[piece].cubics;
     let base = |place: &Polynomial| {
         let own = Polynomial::new(d).times(place);
-        Polynomial::default().plus(&Polynomial::new(c), 2.0 / length.powi(2)).plus(&own, 6.0 / length.powi(3))
+        Polynomial::default()
+            .plus(&Polynomial::new(c), 2.0 / length.powi(2))
+            .plus(&own, 6.0 / length.powi(3))
     };
     let mut out = [f64::NEG_INFINITY; 2];
     let mut offer = |second: &Polynomial| {
@@ -144,14 +163,18 @@ fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
     if wheels.iter().any(|wheel| wheel.rate != wheels[0].rate) {
         // Wheels that move against each other: with any of them passed.
         ends.iter().for_each(|end| offer(&base(end)));
-        let more: f64 = wheels.iter().map(|wheel| wheel.kernel(direction).second(length)).sum();
+        let more: f64 = wheels
+            .iter()
+            .map(|wheel| wheel.kernel(direction).second(length))
+            .sum();
         return out.map(|bound| bound + more);
     }
     let mut at = |place_of: &Polynomial, passed: usize| {
         let bent = |sum: Polynomial, wheel: &WheelOnMember| {
             let distance = place_of.plus(&place(wheel), -1.0);
             let [constant, slope] = wheel.kernel(direction).second_derivative();
-            sum.plus(&Polynomial::new(&[constant]), 1.0).plus(&distance, slope)
+            sum.plus(&Polynomial::new(&[constant]), 1.0)
+                .plus(&distance, slope)
         };
         offer(&wheels[..passed].iter().fold(base(place_of), bent));
     };
@@ -166,14 +189,24 @@ fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
 
 /// Bounds of the size of the second derivative of quantity k, by piece, between wheels.
 fn bent_seconds(passage: &Passage, k: usize) -> Vec<f64> {
-    let Some((bent, factors)) = passage.on.bent().and_then(|bent| Some((bent, bent.second(k)?))) else {
+    let Some((bent, factors)) = passage
+        .on
+        .bent()
+        .and_then(|bent| Some((bent, bent.second(k)?)))
+    else {
         return vec![0.0; passage.pieces.list.len()];
     };
     let of = |(index, piece): (usize, &Piece<QUANTITIES>)| {
         let h = piece.length();
         let size = |cubic: &[f64; 4]| cubic.iter().rev().fold(0.0, |sum, c| sum * h + c.abs());
-        let of_ends = factors.iter().zip(&piece.cubics[FIRST..]).map(|(factor, cubic)| factor * size(cubic));
-        let wheels = passage.wheels(index).iter().map(|wheel| bent.bend(wheel.behind(k)));
+        let of_ends = factors
+            .iter()
+            .zip(&piece.cubics[FIRST..])
+            .map(|(factor, cubic)| factor * size(cubic));
+        let wheels = passage
+            .wheels(index)
+            .iter()
+            .map(|wheel| bent.bend(wheel.behind(k)));
         of_ends.sum::<f64>() + wheels.sum::<f64>()
     };
     passage.pieces.list.iter().enumerate().map(of).collect()
@@ -181,7 +214,11 @@ fn bent_seconds(passage: &Passage, k: usize) -> Vec<f64> {
 
 /// Minus the second derivative of a deflection (sign 0) or of its negative (1) at most, by bounds of plus and minus.
 fn bulge([above, below]: [f64; 2], sign: usize) -> f64 {
-    if sign == 0 { below.max(0.0) } else { above.max(0.0) }
+    if sign == 0 {
+        below.max(0.0)
+    } else {
+        above.max(0.0)
+    }
 }
 
 /// By how much sign times response k, apart from the bulge of a deflection, can exceed its values at the ends of a part of the carrier.
@@ -192,10 +229,15 @@ fn margin(passage: &Passage, piece: usize, k: usize, part: usize) -> f64 {
     let [from, to] = [part as f64 * h, (part + 1) as f64 * h];
     let within = passage.wheels(piece).iter().filter(|wheel| {
         let ends = [wheel.start, wheel.start + wheel.rate * time];
-        ends[0].min(ends[1]) <= to + ROUNDING * length && ends[0].max(ends[1]) >= from - ROUNDING * length
+        ends[0].min(ends[1]) <= to + ROUNDING * length
+            && ends[0].max(ends[1]) >= from - ROUNDING * length
     });
     if let Some(direction) = k.checked_sub(QUANTITIES) {
-        return within.map(|w| w.kernel(direction).slope().abs()).sum::<f64>() * h / 4.0;
+        return within
+            .map(|w| w.kernel(direction).slope().abs())
+            .sum::<f64>()
+            * h
+            / 4.0;
     }
     within
         .map(|wheel| {

@@ -35,10 +35,20 @@ pub(crate) fn entry(
     is_max: bool,
 ) -> &mut Entry {
     let list = &mut all.list;
-    let at = *all.places.entry((rail, span, quantity as usize, is_max)).or_insert_with(|| {
-        list.push(Entry { rail, span, quantity, is_max, governing: None, bound: None });
-        list.len() - 1
-    });
+    let at = *all
+        .places
+        .entry((rail, span, quantity as usize, is_max))
+        .or_insert_with(|| {
+            list.push(Entry {
+                rail,
+                span,
+                quantity,
+                is_max,
+                governing: None,
+                bound: None,
+            });
+            list.len() - 1
+        });
     &mut list[at]
 }
 
@@ -50,7 +60,10 @@ pub(crate) const fn sign_of(is_max: bool) -> f64 {
 /// Replaces a governing state by a better one.
 pub(crate) fn offer(known: &mut Option<Governing>, found: Option<Governing>, sign: f64) {
     let Some(found) = found else { return };
-    if known.as_ref().is_none_or(|known| is_better(&found, known, sign)) {
+    if known
+        .as_ref()
+        .is_none_or(|known| is_better(&found, known, sign))
+    {
         *known = Some(found);
     }
 }
@@ -71,7 +84,8 @@ pub(crate) fn is_better(found: &Governing, known: &Governing, sign: f64) -> bool
         )
     };
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-300);
-    let ((turned, positions, x), (known_turned, known_positions, known_x)) = (order(found), order(known));
+    let ((turned, positions, x), (known_turned, known_positions, known_x)) =
+        (order(found), order(known));
     if turned != known_turned {
         return turned < known_turned;
     }
@@ -94,7 +108,11 @@ pub(crate) fn spans_of(
     let ends = request.spans.get(carrier.rail).unwrap_or(&none);
     let mut out = Vec::new();
     for span in 0..=ends.len() {
-        let from = if span == 0 { f64::NEG_INFINITY } else { ends[span - 1] };
+        let from = if span == 0 {
+            f64::NEG_INFINITY
+        } else {
+            ends[span - 1]
+        };
         let to = ends.get(span).copied().unwrap_or(f64::INFINITY);
         let part = [from.max(carrier.x[0]), to.min(carrier.x[1])];
         if part[1] - part[0] > slack {

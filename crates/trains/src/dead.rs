@@ -10,7 +10,8 @@ use crate::kernel::RailPoint;
 use crate::line::Lines;
 use crate::polynomial::Polynomial;
 use crate::structure::{
-    Carrier, DEFLECTIONS, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis, end_effects,
+    Carrier, DEFLECTIONS, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis,
+    end_effects,
 };
 
 /// Loads that stay.
@@ -57,13 +58,20 @@ impl DeadLoad {
         }
         let square = place.times(place);
         let quadratic = linear.plus(&square, c);
-        if d == 0.0 { quadratic } else { quadratic.plus(&square.times(place), d) }
+        if d == 0.0 {
+            quadratic
+        } else {
+            quadratic.plus(&square.times(place), d)
+        }
     }
 
     /// A deflection at a place that is linear.
     pub fn deflection_along(&self, direction: usize, place: &Polynomial) -> Polynomial {
         let add = |sum: Polynomial, c: &f64| sum.times(place).plus(&Polynomial::new(&[*c]), 1.0);
-        self.deflections[direction].iter().rev().fold(Polynomial::default(), add)
+        self.deflections[direction]
+            .iter()
+            .rev()
+            .fold(Polynomial::default(), add)
     }
 
     /// Bound of sign times a quantity over a stretch of the carrier.
@@ -125,7 +133,9 @@ impl Structure {
         }
         let up = Vector3::from(self.model.up).normalize();
         let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
-        let weight = self.frame.effects_of_weight(&self.model, self.unit_weight(), &effects)?;
+        let weight = self
+            .frame
+            .effects_of_weight(&self.model, self.unit_weight(), &effects)?;
         let mut out = Vec::with_capacity(carriers.len());
         let mut jumps = Vec::with_capacity(carriers.len());
         for (index, (carrier, lines)) in carriers.iter().zip(lines).enumerate() {
@@ -134,14 +144,20 @@ impl Structure {
             for (rail, cells) in lines.rails.iter().enumerate() {
                 let load = -dead.line(rail);
                 for (k, start) in start.iter_mut().enumerate() {
-                    *start +=
-                        load * cells.iter().map(|cell| integral(&cell.cubics[1][k], cell.x)).sum::<f64>();
+                    *start += load
+                        * cells
+                            .iter()
+                            .map(|cell| integral(&cell.cubics[1][k], cell.x))
+                            .sum::<f64>();
                 }
             }
             let [force, couple] = self.distributed(dead, carrier, &up)?;
             let jump = carrier.jump(&force, &couple);
             let spread = carrier.jump_of_load(&force, &couple);
-            out.push(DeadLoad { forces: along(carrier, &start, &spread), deflections: [[0.0; 5]; 2] });
+            out.push(DeadLoad {
+                forces: along(carrier, &start, &spread),
+                deflections: [[0.0; 5]; 2],
+            });
             jumps.push(jump);
         }
         self.add_deflections(dead, carriers, &jumps, &mut out)?;
@@ -158,14 +174,21 @@ impl Structure {
         if dead.is_empty() {
             return Ok(0.0);
         }
-        let weight: f64 =
-            self.frame.effects_of_weight(&self.model, self.unit_weight(), effects)?.iter().sum();
+        let weight: f64 = self
+            .frame
+            .effects_of_weight(&self.model, self.unit_weight(), effects)?
+            .iter()
+            .sum();
         let on_rails: f64 = line
             .rails
             .iter()
             .enumerate()
             .map(|(rail, cells)| {
-                dead.line(rail) * cells.iter().map(|cell| integral(&cell.cubics[1][0], cell.x)).sum::<f64>()
+                dead.line(rail)
+                    * cells
+                        .iter()
+                        .map(|cell| integral(&cell.cubics[1][0], cell.x))
+                        .sum::<f64>()
             })
             .sum();
         Ok(-dead.gravity * weight - on_rails)
@@ -208,25 +231,45 @@ impl Structure {
         };
         let probes = |carrier: &Carrier| {
             let (rail, ends) = (carrier.rail, carrier.x);
-            let all = DEFLECTIONS.into_iter().zip(resisted(carrier)).filter(|(_, resists)| *resists);
+            let all = DEFLECTIONS
+                .into_iter()
+                .zip(resisted(carrier))
+                .filter(|(_, resists)| *resists);
             all.flat_map(move |(quantity, _)| {
-                ends.map(|x| Probe { rail, x, axis: deflection_axis(quantity).0 })
+                ends.map(|x| Probe {
+                    rail,
+                    x,
+                    axis: deflection_axis(quantity).0,
+                })
             })
         };
         let at: Vec<Probe> = carriers.iter().flat_map(probes).collect();
-        let moved = self.frame.displacements_of_weight(self.unit_weight(), &at)?;
+        let moved = self
+            .frame
+            .displacements_of_weight(self.unit_weight(), &at)?;
         let mut moved = moved.chunks_exact(2);
         for ((carrier, jump), load) in carriers.iter().zip(jumps).zip(out) {
             let interior = self.interior_motion(carrier, load, jump)?;
-            for (direction, (quantity, resists)) in DEFLECTIONS.into_iter().zip(resisted(carrier)).enumerate()
+            for (direction, (quantity, resists)) in
+                DEFLECTIONS.into_iter().zip(resisted(carrier)).enumerate()
             {
                 let (axis, sign) = deflection_axis(quantity);
-                let Some(ends) = (if resists { moved.next() } else { None }) else { continue };
+                let Some(ends) = (if resists { moved.next() } else { None }) else {
+                    continue;
+                };
                 let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
                 if carrier.bent.is_some() {
                     for (end, x) in ends.iter_mut().zip(carrier.x) {
                         *end += sign
-                            * self.held_deflection(dead, carrier, Probe { rail: carrier.rail, x, axis })?;
+                            * self.held_deflection(
+                                dead,
+                                carrier,
+                                Probe {
+                                    rail: carrier.rail,
+                                    x,
+                                    axis,
+                                },
+                            )?;
                     }
                 }
                 for (end, x) in ends.iter_mut().zip(carrier.x) {
@@ -236,13 +279,15 @@ impl Structure {
                     let used = [false, true, false, false, false];
                     let line = self.deflection_line(carrier.rail, x, quantity, used)?;
                     for (rail, cells) in line.rails.iter().enumerate() {
-                        let all = cells.iter().map(|cell| integral(&cell.cubics[1][0], cell.x));
+                        let all = cells
+                            .iter()
+                            .map(|cell| integral(&cell.cubics[1][0], cell.x));
                         *end -= dead.line(rail) * all.sum::<f64>();
                     }
                 }
                 let component = axis.component();
-                let inside =
-                    interior.map(|power| sign * power.dot(&self.rails[carrier.rail].axes[component]));
+                let inside = interior
+                    .map(|power| sign * power.dot(&self.rails[carrier.rail].axes[component]));
                 let deflection = &mut load.deflections[direction];
                 deflection.copy_from_slice(&inside);
                 deflection[0] += ends[0];
@@ -253,7 +298,12 @@ impl Structure {
     }
 
     /// Displacement at a probe on a carrier by the weight of its member alone, whose ends are held.
-    fn held_deflection(&self, dead: &DeadLoads, carrier: &Carrier, at: Probe) -> Result<f64, Error> {
+    fn held_deflection(
+        &self,
+        dead: &DeadLoads,
+        carrier: &Carrier,
+        at: Probe,
+    ) -> Result<f64, Error> {
         let section = &self.model.sections[self.model.members[carrier.member].section];
         let up = Vector3::from(self.model.up).normalize();
         let (_, under) = self.frame.line()?.uniform_load(at)?;
@@ -282,19 +332,34 @@ impl Structure {
             }
         };
         // Moment and force on the face that looks along +t, in the planes of the section's axes.
-        let [vertical, lateral] =
-            [quantity(GirderResponse::VerticalMoment), quantity(GirderResponse::LateralMoment)];
-        let spread =
-            [GirderResponse::VerticalShear, GirderResponse::LateralShear].map(|shear| jump[shear as usize]);
+        let [vertical, lateral] = [
+            quantity(GirderResponse::VerticalMoment),
+            quantity(GirderResponse::LateralMoment),
+        ];
+        let spread = [GirderResponse::VerticalShear, GirderResponse::LateralShear]
+            .map(|shear| jump[shear as usize]);
         let point = RailPoint::new(self, carrier)?;
         let [_, mu_y, mu_z] = point.stiffening;
         let planes = [
-            (y_axis, z_axis, 1.0, flexibility.bending_z / mu_y, flexibility.shear_y / mu_y),
-            (z_axis, y_axis, -1.0, flexibility.bending_y / mu_z, flexibility.shear_z / mu_z),
+            (
+                y_axis,
+                z_axis,
+                1.0,
+                flexibility.bending_z / mu_y,
+                flexibility.shear_y / mu_y,
+            ),
+            (
+                z_axis,
+                y_axis,
+                -1.0,
+                flexibility.bending_y / mu_z,
+                flexibility.shear_z / mu_z,
+            ),
         ];
         for (direction, about, sign, bending, shear) in planes {
             let times = |c: f64, flexibility: f64| if c == 0.0 { 0.0 } else { c * flexibility };
-            let moment = |p: usize| sign * (vertical[p] * z.dot(&about) + lateral[p] * u.dot(&about));
+            let moment =
+                |p: usize| sign * (vertical[p] * z.dot(&about) + lateral[p] * u.dot(&about));
             let rate = -spread[0] * u.dot(&direction) + spread[1] * z.dot(&direction);
             let mut second: [f64; 3] = std::array::from_fn(|p| times(moment(p), bending));
             second[0] += times(rate, shear);
@@ -318,7 +383,11 @@ fn integral(cubic: &[f64; 4], [from, to]: [f64; 2]) -> f64 {
 }
 
 /// Quantities along a carrier by those at its first end and their jump per length.
-fn along(carrier: &Carrier, start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 4]; QUANTITIES] {
+fn along(
+    carrier: &Carrier,
+    start: &[f64; QUANTITIES],
+    jump: &[f64; QUANTITIES],
+) -> [[f64; 4]; QUANTITIES] {
     std::array::from_fn(|k| {
         let of = |bent: &Bent| Some((bent.passed(k, start)?, bent.under(k, jump)?));
         if let Some((of_ends, spread)) = carrier.bent.as_deref().and_then(of) {
@@ -336,7 +405,11 @@ fn along(carrier: &Carrier, start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES])
 fn quadratic(&[a, b, c, d]: &[f64; 4], h: f64) -> [f64; 3] {
     // T3 on 0..=h is -1 + 18 r - 48 r^2 + 32 r^3 with r = s/h.
     let part = d * h * h * h / 32.0;
-    if part == 0.0 { [a, b, c] } else { [a + part, b - 18.0 * part / h, c + 48.0 * part / (h * h)] }
+    if part == 0.0 {
+        [a, b, c]
+    } else {
+        [a + part, b - 18.0 * part / h, c + 48.0 * part / (h * h)]
+    }
 }
 
 /// The polynomial with second derivative a + b s + c s^2 that is zero at 0 and at `length`.

@@ -60,11 +60,18 @@ impl Deflections<'_> {
                 let mut largest = 0.0;
                 for is_max in [true, false] {
                     let sign = sign_of(is_max);
-                    let blocked = if several { Some(self.blocked(direction, sign, bend)?) } else { None };
+                    let blocked = if several {
+                        Some(self.blocked(direction, sign, bend)?)
+                    } else {
+                        None
+                    };
                     let entry = entry(all, self.carrier.rail, span, quantity, is_max);
                     let (best, bound) = if self.plan.trains.len() == 1 {
                         let size = largest;
-                        let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                        let known = entry
+                            .governing
+                            .as_ref()
+                            .map_or(f64::NEG_INFINITY, |g| sign * g.value);
                         self.alone(direction, sign, window, bend.kinks, (known, size))
                     } else {
                         let margin: Margin<'_> = match &blocked {
@@ -72,8 +79,16 @@ impl Deflections<'_> {
                             None => Box::new(move |x| bend.margin(x)),
                         };
                         let mut hints = Hints::default();
-                        let value =
-                            |x| Ok(self.best(self.over, Some(self.dead), direction, sign, x, &mut hints));
+                        let value = |x| {
+                            Ok(self.best(
+                                self.over,
+                                Some(self.dead),
+                                direction,
+                                sign,
+                                x,
+                                &mut hints,
+                            ))
+                        };
                         let mut search = Search::new(sign, margin, window, value);
                         if several {
                             search.most = MOST_OF_SEVERAL;
@@ -85,7 +100,10 @@ impl Deflections<'_> {
                         (search.best, search.bound)
                     };
                     offer(&mut entry.governing, best, sign);
-                    largest = entry.governing.as_ref().map_or(largest, |g| largest.max(g.value.abs()));
+                    largest = entry
+                        .governing
+                        .as_ref()
+                        .map_or(largest, |g| largest.max(g.value.abs()));
                     entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                 }
             }
@@ -104,7 +122,12 @@ impl Deflections<'_> {
     ) -> (Option<Governing>, f64) {
         let under = if kinks > 0.0 {
             let window = window.map(|x| self.carrier.place(x));
-            let under = UnderWheels { direction, sign, window, dead: Some(self.dead) };
+            let under = UnderWheels {
+                direction,
+                sign,
+                window,
+                dead: Some(self.dead),
+            };
             under.largest(self.plan, self.over, self.carrier)
         } else {
             None
@@ -153,20 +176,35 @@ impl Deflections<'_> {
 
     /// What bounds a deflection under several trains between two places.
     fn blocked(&self, direction: usize, sign: f64, bend: Bend) -> Result<Blocked, Error> {
-        let Some(lines) = &self.lines.deflections[direction] else { return Ok(Blocked::default()) };
+        let Some(lines) = &self.lines.deflections[direction] else {
+            return Ok(Blocked::default());
+        };
         let bounds = SecondDerivatives::new(self.structure, self.carrier, direction, lines)?;
         let of_train = |stances: &Vec<PlacedTrain>| {
-            stances.iter().map(|train| bounds.of_train(train, sign)).fold(0.0, f64::max)
+            stances
+                .iter()
+                .map(|train| bounds.of_train(train, sign))
+                .fold(0.0, f64::max)
         };
         let rate = self.carrier.rate();
         let dead = self.dead.bend(DEFLECTIONS[direction], self.carrier.length) * rate * rate;
         let curvature = self.plan.trains.iter().map(of_train).sum::<f64>() + dead;
         let bend = Bend { curvature, ..bend };
-        Ok(Blocked::of_deflection(self.structure, self.plan, self.over, self.carrier, bend))
+        Ok(Blocked::of_deflection(
+            self.structure,
+            self.plan,
+            self.over,
+            self.carrier,
+            bend,
+        ))
     }
 
     /// Largest deflections of spans from their chords, without dead load, added to those of other carriers.
-    pub fn beside_chords(&self, all: &mut Accumulated, out: &mut Vec<SpanDeflection>) -> Result<(), Error> {
+    pub fn beside_chords(
+        &self,
+        all: &mut Accumulated,
+        out: &mut Vec<SpanDeflection>,
+    ) -> Result<(), Error> {
         let (structure, carrier, plan) = (self.structure, self.carrier, self.plan);
         for (span, window) in spans_of(self.request, structure, carrier) {
             let spans = &self.request.spans[carrier.rail];
@@ -174,8 +212,10 @@ impl Deflections<'_> {
                 continue;
             }
             let ends = [spans[span - 1], spans[span]];
-            let lines = |direction| structure.deflection_lines(carrier, direction, Some(ends), self.used);
-            let Some(over) = Overrun::of_deflections(structure, plan, carrier, [lines(0)?, lines(1)?])?
+            let lines =
+                |direction| structure.deflection_lines(carrier, direction, Some(ends), self.used);
+            let Some(over) =
+                Overrun::of_deflections(structure, plan, carrier, [lines(0)?, lines(1)?])?
             else {
                 continue;
             };
@@ -217,16 +257,21 @@ impl Deflections<'_> {
                     };
                     let Some(governing) = found else { continue };
                     let rail = carrier.rail;
-                    let known = out
-                        .iter_mut()
-                        .rev()
-                        .find(|known| (known.rail, known.span, known.quantity) == (rail, span, quantity));
+                    let known = out.iter_mut().rev().find(|known| {
+                        (known.rail, known.span, known.quantity) == (rail, span, quantity)
+                    });
                     match known {
                         Some(known) if governing.value.abs() > known.governing.value.abs() => {
                             known.governing = governing;
                         }
                         Some(_) => {}
-                        None => out.push(SpanDeflection { rail, span, ends, quantity, governing }),
+                        None => out.push(SpanDeflection {
+                            rail,
+                            span,
+                            ends,
+                            quantity,
+                            governing,
+                        }),
                     }
                 }
             }
@@ -239,7 +284,10 @@ impl Deflections<'_> {
         let mut most = |quantity: GirderResponse| -> f64 {
             let mut of = |is_max| {
                 let entry = entry(all, self.carrier.rail, span, quantity, is_max);
-                entry.governing.as_ref().map_or(0.0, |g| g.value.abs() + g.dead.abs())
+                entry
+                    .governing
+                    .as_ref()
+                    .map_or(0.0, |g| g.value.abs() + g.dead.abs())
             };
             of(true).max(of(false))
         };
@@ -248,13 +296,24 @@ impl Deflections<'_> {
         let [_, y_axis, z_axis] = point.axes;
         let along = |v: &Vector3<f64>| negligible(v.dot(&point.directions[direction]));
         // Moments and shear forces about and along the axes of the section are at most the sums of their projections.
-        let mut project = |plane: [GirderResponse; 2], axis: &Vector3<f64>, other: [&Vector3<f64>; 2]| {
-            most(plane[0]) * negligible(axis.dot(other[0])) + most(plane[1]) * negligible(axis.dot(other[1]))
-        };
-        let moments = [GirderResponse::VerticalMoment, GirderResponse::LateralMoment];
+        let mut project =
+            |plane: [GirderResponse; 2], axis: &Vector3<f64>, other: [&Vector3<f64>; 2]| {
+                most(plane[0]) * negligible(axis.dot(other[0]))
+                    + most(plane[1]) * negligible(axis.dot(other[1]))
+            };
+        let moments = [
+            GirderResponse::VerticalMoment,
+            GirderResponse::LateralMoment,
+        ];
         let shears = [GirderResponse::VerticalShear, GirderResponse::LateralShear];
-        let (moment_z, moment_y) = (project(moments, &z_axis, [&z, &u]), project(moments, &y_axis, [&z, &u]));
-        let (shear_y, shear_z) = (project(shears, &y_axis, [&u, &z]), project(shears, &z_axis, [&u, &z]));
+        let (moment_z, moment_y) = (
+            project(moments, &z_axis, [&z, &u]),
+            project(moments, &y_axis, [&z, &u]),
+        );
+        let (shear_y, shear_z) = (
+            project(shears, &y_axis, [&u, &z]),
+            project(shears, &z_axis, [&u, &z]),
+        );
         let rate = |k: GirderResponse| self.dead.cubic(k as usize)[1].abs();
         let distributed = rate(GirderResponse::VerticalShear) + rate(GirderResponse::LateralShear);
         let [twisted, bending_y, bending_z] = point.bending;
@@ -268,14 +327,24 @@ impl Deflections<'_> {
             + along(&t) * stretched * rate(GirderResponse::Normal);
         let scale = self.carrier.rate();
         let of_train = |stances: &Vec<Passage>| {
-            stances.iter().map(|passage| passage.on.kinks(direction)).fold(0.0, f64::max)
+            stances
+                .iter()
+                .map(|passage| passage.on.kinks(direction))
+                .fold(0.0, f64::max)
         };
         let kinks: f64 = self.over.passages.iter().map(of_train).sum();
-        Ok(Bend { curvature: curvature * scale * scale, kinks: kinks * scale })
+        Ok(Bend {
+            curvature: curvature * scale * scale,
+            kinks: kinks * scale,
+        })
     }
 }
 
 /// Size of a component of a unit vector, 0 where it is only rounding.
 fn negligible(component: f64) -> f64 {
-    if component.abs() < 1e-12 { 0.0 } else { component.abs() }
+    if component.abs() < 1e-12 {
+        0.0
+    } else {
+        component.abs()
+    }
 }

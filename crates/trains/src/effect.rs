@@ -65,8 +65,15 @@ pub(crate) fn plans(
         .collect::<Result<_, _>>()?;
     let mut used = [false; COMPONENTS];
     used[1] = dead.lines.iter().any(|line| *line != 0.0);
-    for wheel in plans.iter().flat_map(|plan| &plan.trains).flatten().flat_map(|train| &train.wheels) {
-        used.iter_mut().zip(wheel.load).for_each(|(used, load)| *used |= load != 0.0);
+    for wheel in plans
+        .iter()
+        .flat_map(|plan| &plan.trains)
+        .flatten()
+        .flat_map(|train| &train.wheels)
+    {
+        used.iter_mut()
+            .zip(wheel.load)
+            .for_each(|(used, load)| *used |= load != 0.0);
     }
     Ok((plans, used))
 }
@@ -99,10 +106,15 @@ pub(crate) fn extremes_of_effects(
 fn governing(structure: &Structure, plan: &CasePlan, line: &Lines<1>, dead: f64) -> [Governing; 2] {
     let slack = structure.slack();
     let of = |(stance, train)| (stance, Pieces::sum(line, train, slack).responses());
-    let responses: Responses =
-        plan.trains.iter().map(|stances| stances.iter().enumerate().map(of).collect()).collect();
+    let responses: Responses = plan
+        .trains
+        .iter()
+        .map(|stances| stances.iter().enumerate().map(of).collect())
+        .collect();
     [1.0, -1.0].map(|sign| {
-        let found = plan.best(&responses, sign, f64::NEG_INFINITY).unwrap_or_default();
+        let found = plan
+            .best(&responses, sign, f64::NEG_INFINITY)
+            .unwrap_or_default();
         Governing {
             value: sign * found.signed + dead,
             dead,

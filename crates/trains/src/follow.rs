@@ -51,29 +51,44 @@ impl Passage {
     /// `floor`.
     pub fn follow(&self, bounds: &Bounds, target: &Target<'_>, floor: f64) -> Option<Peak> {
         let mut best: Option<Peak> = None;
-        let dead = target.dead.bound(GirderResponse::ALL[target.k], target.sign, target.window);
+        let dead = target
+            .dead
+            .bound(GirderResponse::ALL[target.k], target.sign, target.window);
         for (index, piece) in self.pieces.list.iter().enumerate() {
             let limit = limit_of(&best, floor);
             if bounds.over_all(target.k, target.sign, index) + dead <= limit {
                 continue;
             }
             let wheels = self.wheels(index);
-            let state = State { base: &piece.cubics, wheels, on: &self.on };
+            let state = State {
+                base: &piece.cubics,
+                wheels,
+                on: &self.on,
+            };
             let h = piece.length();
             for (j, wheel) in wheels.iter().enumerate() {
                 // Positions at which the wheel is within the window.
                 let times = target.window.map(|s| (s - wheel.start) / wheel.rate);
-                let [from, to] = [times[0].min(times[1]).max(0.0), times[0].max(times[1]).min(h)];
+                let [from, to] = [
+                    times[0].min(times[1]).max(0.0),
+                    times[0].max(times[1]).min(h),
+                ];
                 if from > to {
                     continue;
                 }
                 for side in [SectionSide::Before, SectionSide::Behind] {
-                    let count = if side == SectionSide::Before { j } else { j + 1 };
+                    let count = if side == SectionSide::Before {
+                        j
+                    } else {
+                        j + 1
+                    };
                     let place = Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
                     let of = |k: usize| state.quantity(k, &place, from, count);
                     let live = of(target.k);
                     let dead = target.dead.along(target.k, &place);
-                    let total = Polynomial::default().plus(&live, target.sign).plus(&dead, target.sign);
+                    let total = Polynomial::default()
+                        .plus(&live, target.sign)
+                        .plus(&dead, target.sign);
                     let limit = limit_of(&best, floor);
                     if let Some((t, signed)) = total.largest_above(to - from, limit)
                         && signed > limit
@@ -104,20 +119,39 @@ impl Passage {
         let mut out = PiecewiseFunction::default();
         for (index, piece) in self.pieces.list.iter().enumerate() {
             let wheels = self.wheels(index);
-            let Some(j) = wheels.iter().position(|on| on.wheel == wheel) else { continue };
-            let times = target.window.map(|s| (s - wheels[j].start) / wheels[j].rate);
+            let Some(j) = wheels.iter().position(|on| on.wheel == wheel) else {
+                continue;
+            };
+            let times = target
+                .window
+                .map(|s| (s - wheels[j].start) / wheels[j].rate);
             let from = times[0].min(times[1]).max(0.0);
             let to = times[0].max(times[1]).min(piece.length());
             if from > to {
                 continue;
             }
-            let state = State { base: &piece.cubics, wheels, on: &self.on };
+            let state = State {
+                base: &piece.cubics,
+                wheels,
+                on: &self.on,
+            };
             let place = Polynomial::new(&[wheels[j].start + wheels[j].rate * from, wheels[j].rate]);
-            let live = state.quantity(target.k, &place, from, j + usize::from(side == SectionSide::Behind));
+            let live = state.quantity(
+                target.k,
+                &place,
+                from,
+                j + usize::from(side == SectionSide::Behind),
+            );
             let dead = target.dead.along(target.k, &place);
-            let total = Polynomial::default().plus(&live, target.sign).plus(&dead, target.sign);
+            let total = Polynomial::default()
+                .plus(&live, target.sign)
+                .plus(&dead, target.sign);
             let first = piece.position[0];
-            let last = if to >= piece.length() { piece.position[1] } else { first + to };
+            let last = if to >= piece.length() {
+                piece.position[1]
+            } else {
+                first + to
+            };
             out.push([first + from, last], total, stance);
         }
         out
@@ -132,7 +166,9 @@ impl Passage {
         floor: f64,
         best: &mut Option<Peak>,
     ) {
-        let Some(shear) = slope_index(target.k) else { return };
+        let Some(shear) = slope_index(target.k) else {
+            return;
+        };
         let [a, b, c, _] = target.dead.cubic(target.k);
         if target.sign * c >= 0.0 || self.on.bent().is_some() {
             return;
@@ -140,8 +176,12 @@ impl Passage {
         for count in 0..=state.wheels.len() {
             // moment = value + slope s + c s^2 between wheel `count` and the next.
             let start = Polynomial::new(&[0.0]);
-            let value = state.quantity(target.k, &start, 0.0, count).plus(&Polynomial::new(&[a]), 1.0);
-            let slope = state.quantity(shear, &start, 0.0, count).plus(&Polynomial::new(&[b]), 1.0);
+            let value = state
+                .quantity(target.k, &start, 0.0, count)
+                .plus(&Polynomial::new(&[a]), 1.0);
+            let slope = state
+                .quantity(shear, &start, 0.0, count)
+                .plus(&Polynomial::new(&[b]), 1.0);
             let total = value.plus(&slope.times(&slope), -0.25 / c);
             let signed = Polynomial::default().plus(&total, target.sign);
             let limit = limit_of(best, floor);
@@ -155,7 +195,8 @@ impl Passage {
                 };
                 let from = at(count.checked_sub(1).and_then(|k| state.wheels.get(k)), 0.0);
                 let to = at(state.wheels.get(count), self.on.length());
-                let inside = place >= from.max(target.window[0]) && place <= to.min(target.window[1]);
+                let inside =
+                    place >= from.max(target.window[0]) && place <= to.min(target.window[1]);
                 let limit = limit_of(best, floor);
                 if inside && signed.at(t) > limit {
                     *best = Some(Peak {
@@ -187,7 +228,8 @@ impl State<'_> {
     /// counted as before it.
     fn quantity(&self, k: usize, place: &Polynomial, from: f64, count: usize) -> Polynomial {
         let base = |k: usize| Polynomial::new(&shifted(&self.base[k], from));
-        let own = |wheel: &WheelOnMember| Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
+        let own =
+            |wheel: &WheelOnMember| Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
         if let Some(row) = self.on.bent_row(k) {
             let of_ends = row.fold(Polynomial::default(), |sum, (cubic, of)| {
                 sum.plus(&along(cubic, place).times(&base(of)), 1.0)
@@ -203,7 +245,9 @@ impl State<'_> {
         for wheel in &self.wheels[..count] {
             out = out.plus(&Polynomial::new(&[wheel.jump(k)]), 1.0);
             if let Some(shear) = slope_index(k) {
-                out = out.plus(place, wheel.jump(shear)).plus(&own(wheel), -wheel.jump(shear));
+                out = out
+                    .plus(place, wheel.jump(shear))
+                    .plus(&own(wheel), -wheel.jump(shear));
             }
         }
         out
@@ -214,5 +258,7 @@ impl State<'_> {
 fn along([a, b, c, d]: &[f64; 4], place: &Polynomial) -> Polynomial {
     [c, b, a]
         .into_iter()
-        .fold(Polynomial::new(&[*d]), |sum, next| sum.times(place).plus(&Polynomial::new(&[*next]), 1.0))
+        .fold(Polynomial::new(&[*d]), |sum, next| {
+            sum.times(place).plus(&Polynomial::new(&[*next]), 1.0)
+        })
 }

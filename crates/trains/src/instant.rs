@@ -112,7 +112,11 @@ impl MemberForces {
     /// A model or a rail that cannot be used, or a structure that can move without strain.
     pub fn new(model: &Model, rails: &[Rail]) -> Result<MemberForces, Error> {
         let structure = Structure::new(model, rails, false)?;
-        let all: Vec<Carrier> = structure.carriers.iter().filter_map(Carrier::whole_from_first).collect();
+        let all: Vec<Carrier> = structure
+            .carriers
+            .iter()
+            .filter_map(Carrier::whole_from_first)
+            .collect();
         let mut lines = Vec::with_capacity(all.len());
         let mut elements = Vec::with_capacity(all.len());
         for carriers in all.chunks(BATCH) {
@@ -121,17 +125,29 @@ impl MemberForces {
                 let by_power = |cubics: [[f64; 4]; QUANTITIES]| {
                     std::array::from_fn(|power| cubics.map(|cubic| cubic[power]))
                 };
-                ForceCell { x: cell.x, cubics: [along, up, across].map(by_power) }
+                ForceCell {
+                    x: cell.x,
+                    cubics: [along, up, across].map(by_power),
+                }
             };
             let of_rail = |cells: Vec<LineCell<QUANTITIES>>| cells.into_iter().map(cell).collect();
             let solved = structure.end_lines(carriers, [true, true, true, false, false])?;
             for (carrier, forces) in carriers.iter().zip(solved) {
-                let joined = CarrierLines { forces, deflections: [None, None] }.joined(&structure, carrier);
+                let joined = CarrierLines {
+                    forces,
+                    deflections: [None, None],
+                }
+                .joined(&structure, carrier);
                 lines.push(joined.forces.rails.into_iter().map(of_rail).collect());
                 elements.push(loaded_elements(&structure, carrier)?);
             }
         }
-        Ok(MemberForces { structure, carriers: all, lines, elements })
+        Ok(MemberForces {
+            structure,
+            carriers: all,
+            lines,
+            elements,
+        })
     }
 
     /// The structure.
@@ -142,7 +158,11 @@ impl MemberForces {
 
     /// The members, rail by rail in the order of the model.
     pub fn members(&self) -> impl ExactSizeIterator<Item = RailMember> + '_ {
-        self.carriers.iter().map(|c| RailMember { rail: c.rail, x: c.x, length: c.length })
+        self.carriers.iter().map(|c| RailMember {
+            rail: c.rail,
+            x: c.x,
+            length: c.length,
+        })
     }
 
     /// Distance of a section from the first end of a member, by its rail coordinate.
@@ -185,11 +205,15 @@ impl MemberForces {
         for k in (0..3).filter(|k| directions[*k]) {
             for cell in self.lines.iter().flatten().flatten() {
                 for coefficients in &cell.cubics[k] {
-                    out.iter_mut().zip(coefficients).for_each(|(out, own)| *out |= *own != 0.0);
+                    out.iter_mut()
+                        .zip(coefficients)
+                        .for_each(|(out, own)| *out |= *own != 0.0);
                 }
             }
             for element in self.elements.iter().flatten() {
-                out.iter_mut().zip(&element.jumps[k]).for_each(|(out, jump)| *out |= *jump != 0.0);
+                out.iter_mut()
+                    .zip(&element.jumps[k])
+                    .for_each(|(out, jump)| *out |= *jump != 0.0);
             }
         }
         let own = out;
@@ -210,8 +234,15 @@ impl MemberForces {
             let felt = |k: &usize| load.force[*k] != 0.0 && self.structure.resists(load.rail, *k);
             let (x, element) = self.inside(member, load);
             let cells = &self.lines[member][load.rail];
-            let at = cells.partition_point(|cell| cell.x[0] <= x).saturating_sub(1);
-            let Some(cell) = cells.get(at).filter(|cell| cell.x[0] <= x && x <= cell.x[1]) else { continue };
+            let at = cells
+                .partition_point(|cell| cell.x[0] <= x)
+                .saturating_sub(1);
+            let Some(cell) = cells
+                .get(at)
+                .filter(|cell| cell.x[0] <= x && x <= cell.x[1])
+            else {
+                continue;
+            };
             let t = x - cell.x[0];
             let mut jump = [0.0; QUANTITIES];
             let mut is_felt = false;
@@ -222,7 +253,9 @@ impl MemberForces {
                     *sum += force * value_of_cubic(&[a[n], b[n], c[n], d[n]], t);
                 }
                 if let Some(element) = element {
-                    jump.iter_mut().zip(&element.jumps[k]).for_each(|(sum, a)| *sum += force * a);
+                    jump.iter_mut()
+                        .zip(&element.jumps[k])
+                        .for_each(|(sum, a)| *sum += force * a);
                 }
             }
             if let (Some(element), true) = (element, is_felt) {
@@ -231,15 +264,24 @@ impl MemberForces {
             }
         }
         out.base = own;
-        out.planes = self.carriers[member].bent.as_ref().map(|bent| *bent.planes());
+        out.planes = self.carriers[member]
+            .bent
+            .as_ref()
+            .map(|bent| *bent.planes());
     }
 
     /// The coordinate at which a load counts, and the rail element of the member on which it stands.
     fn inside(&self, member: usize, load: &RailLoad) -> (f64, Option<&LoadedElement>) {
-        for element in self.elements[member].iter().filter(|element| element.rail == load.rail) {
+        for element in self.elements[member]
+            .iter()
+            .filter(|element| element.rail == load.rail)
+        {
             let near = INSIDE * (element.x[1] - element.x[0]);
             if load.x >= element.x[0] - near && load.x <= element.x[1] + near {
-                return (load.x.clamp(element.x[0] + near, element.x[1] - near), Some(element));
+                return (
+                    load.x.clamp(element.x[0] + near, element.x[1] - near),
+                    Some(element),
+                );
             }
         }
         (load.x, None)
@@ -249,13 +291,25 @@ impl MemberForces {
 /// The rail elements on the member of a carrier.
 fn loaded_elements(structure: &Structure, carrier: &Carrier) -> Result<Vec<LoadedElement>, Error> {
     let mut out = Vec::new();
-    for OnMember { other, stretch, start, rate } in structure.on_member(carrier) {
+    for OnMember {
+        other,
+        stretch,
+        start,
+        rate,
+    } in structure.on_member(carrier)
+    {
         let mut jumps = [[0.0; QUANTITIES]; 3];
         for (component, jump) in jumps.iter_mut().enumerate() {
             let [force, couple] = structure.load(stretch, component)?;
             *jump = carrier.jump_of_load(&force, &couple);
         }
-        out.push(LoadedElement { rail: other.rail, x: other.x, start, rate, jumps });
+        out.push(LoadedElement {
+            rail: other.rail,
+            x: other.x,
+            start,
+            rate,
+            jumps,
+        });
     }
     Ok(out)
 }
@@ -278,7 +332,9 @@ impl PassedLoads {
             };
             if is_passed {
                 let behind = self.moved(&load.jump, place - load.place);
-                out.iter_mut().zip(behind).for_each(|(value, more)| *value += more);
+                out.iter_mut()
+                    .zip(behind)
+                    .for_each(|(value, more)| *value += more);
             }
         }
         out
@@ -288,14 +344,18 @@ impl PassedLoads {
     /// [`PassedLoads::quantities`] where no load stands at the sections.
     pub fn fill(&self, k: usize, places: &[f64], out: &mut [f64]) {
         if self.planes.is_some() {
-            out.iter_mut().zip(places).for_each(|(out, place)| *out = self.quantities(*place, None)[k]);
+            out.iter_mut()
+                .zip(places)
+                .for_each(|(out, place)| *out = self.quantities(*place, None)[k]);
             return;
         }
         let shear = slope_index(k);
         let slope = |of: &[f64; QUANTITIES]| shear.map_or(0.0, |shear| of[shear]);
         let of_lever = |slope: f64, lever: f64| if shear.is_some() { slope * lever } else { 0.0 };
         let (own, by_place) = (self.base[k], slope(&self.base));
-        out.iter_mut().zip(places).for_each(|(out, place)| *out = own + of_lever(by_place, *place));
+        out.iter_mut()
+            .zip(places)
+            .for_each(|(out, place)| *out = own + of_lever(by_place, *place));
         for load in &self.passed {
             let (jump, by_place) = (load.jump[k], slope(&load.jump));
             for (out, place) in out.iter_mut().zip(places) {
@@ -309,7 +369,9 @@ impl PassedLoads {
     fn moved(&self, from: &[f64; QUANTITIES], lever: f64) -> [f64; QUANTITIES] {
         let mut out = *from;
         if let Some(planes) = &self.planes {
-            let ends: &[f64; BENT] = from[FIRST..].first_chunk().expect("all quantities but two are bent");
+            let ends: &[f64; BENT] = from[FIRST..]
+                .first_chunk()
+                .expect("all quantities but two are bent");
             out[FIRST..].copy_from_slice(&moved(planes, ends, lever));
             return out;
         }
@@ -337,20 +399,33 @@ mod tests {
             ..Girder::default()
         };
         let (mut model, rail) = girder.model_and_rail().expect("the girder is valid");
-        let loads = [(1.3, [0.5, -3.0, 0.2]), (4.0, [0.0, -2.0, 0.0]), (7.5, [0.1, -1.0, -0.4])];
+        let loads = [
+            (1.3, [0.5, -3.0, 0.2]),
+            (4.0, [0.0, -2.0, 0.0]),
+            (7.5, [0.1, -1.0, -0.4]),
+        ];
         let loads = loads.map(|(x, force)| RailLoad { rail: 0, x, force });
         for tension in [0.0, 0.05] {
-            model.members.iter_mut().for_each(|member| member.tension = tension);
-            let members = MemberForces::new(&model, std::slice::from_ref(&rail)).expect("it is stable");
+            model
+                .members
+                .iter_mut()
+                .for_each(|member| member.tension = tension);
+            let members =
+                MemberForces::new(&model, std::slice::from_ref(&rail)).expect("it is stable");
             let mut at = PassedLoads::default();
             for (index, member) in members.members().enumerate() {
                 members.load(index, &loads, &mut at);
-                let places: Vec<f64> = (0..=20).map(|k| f64::from(k) / 20.0 * member.length).collect();
+                let places: Vec<f64> = (0..=20)
+                    .map(|k| f64::from(k) / 20.0 * member.length)
+                    .collect();
                 let mut found = vec![f64::NAN; places.len()];
                 for k in 0..QUANTITIES {
                     at.fill(k, &places, &mut found);
                     let each = places.iter().map(|place| at.quantities(*place, None)[k]);
-                    assert!(found.iter().copied().eq(each), "quantity {k} of member {index}");
+                    assert!(
+                        found.iter().copied().eq(each),
+                        "quantity {k} of member {index}"
+                    );
                 }
             }
         }

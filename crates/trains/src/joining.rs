@@ -37,7 +37,11 @@ impl<const N: usize> Lines<N> {
                     *size = f64::max(*size, size_of_cubic(cubic, cell.x));
                 }
             }
-            let all = limits.iter().zip(units).map(|(size, unit)| size / unit).fold(0.0, f64::max);
+            let all = limits
+                .iter()
+                .zip(units)
+                .map(|(size, unit)| size / unit)
+                .fold(0.0, f64::max);
             for (limit, unit) in limits.iter_mut().zip(units) {
                 *limit = (ROUNDING * *limit).max(NEGLIGIBLE * all * unit);
             }
@@ -48,7 +52,10 @@ impl<const N: usize> Lines<N> {
 
 /// A bound of the size of a cubic over a cell.
 fn size_of_cubic(cubic: &[f64; 4], x: [f64; 2]) -> f64 {
-    cubic.iter().rev().fold(0.0, |sum, c| sum * (x[1] - x[0]) + c.abs())
+    cubic
+        .iter()
+        .rev()
+        .fold(0.0, |sum, c| sum * (x[1] - x[0]) + c.abs())
 }
 
 /// Neighbouring cells of N responses that can be joined.
@@ -77,7 +84,11 @@ impl<const N: usize> Run<N> {
         let mut run = self.clone();
         let h = cell.x[1] - cell.x[0];
         let cubics = cell.cubics.iter().flatten().zip(limits.iter().flatten());
-        let lines = run.values.iter().flatten().zip(run.slopes.iter_mut().flatten());
+        let lines = run
+            .values
+            .iter()
+            .flatten()
+            .zip(run.slopes.iter_mut().flatten());
         for ((cubic, limit), (first, [least, most])) in cubics.zip(lines) {
             // The cubic less its chord is t (t - h) (c + d (t + h)).
             let [_, _, c, d] = *cubic;
@@ -105,7 +116,12 @@ impl<const N: usize> Run<N> {
         let cubics = std::array::from_fn(|component| {
             std::array::from_fn(|k| line(self.values[component][k], self.slopes[component][k]))
         });
-        LineCell { x: [self.start, end], stretch: None, begins_inside: false, cubics }
+        LineCell {
+            x: [self.start, end],
+            stretch: None,
+            begins_inside: false,
+            cubics,
+        }
     }
 }
 
@@ -153,7 +169,9 @@ impl Lines<1> {
             let runs = runs(cells.len(), begin, |run, i| run.with(&cells[i], &limits));
             replaced(cells, &runs, |run| run)
         });
-        Lines { rails: rails.collect() }
+        Lines {
+            rails: rails.collect(),
+        }
     }
 }
 
@@ -161,31 +179,43 @@ impl CarrierLines {
     /// The lines with their straight runs joined, the same ones of forces and deflections. Cells on the member of the
     /// carrier are kept, because loads that have been passed are added there.
     pub fn joined(mut self, structure: &Structure, carrier: &Carrier) -> CarrierLines {
-        let own: Vec<usize> = structure.on_member(carrier).map(|on| on.other.stretch).collect();
-        let is_moment =
-            |k: usize| k == GirderResponse::Torsion as usize || GirderResponse::ALL[k].slope().is_some();
+        let own: Vec<usize> = structure
+            .on_member(carrier)
+            .map(|on| on.other.stretch)
+            .collect();
+        let is_moment = |k: usize| {
+            k == GirderResponse::Torsion as usize || GirderResponse::ALL[k].slope().is_some()
+        };
         let units = std::array::from_fn(|k| if is_moment(k) { carrier.length } else { 1.0 });
         let limits = self.forces.limits(units);
-        let of_deflections =
-            self.deflections.each_ref().map(|lines| lines.as_ref().map(|l| l.limits([1.0; POWERS])));
+        let of_deflections = self
+            .deflections
+            .each_ref()
+            .map(|lines| lines.as_ref().map(|l| l.limits([1.0; POWERS])));
         for rail in 0..self.forces.rails.len() {
             let forces = &self.forces.rails[rail];
-            let deflections: Vec<_> =
-                self.deflections.iter().flatten().zip(of_deflections.iter().flatten()).collect();
+            let deflections: Vec<_> = self
+                .deflections
+                .iter()
+                .flatten()
+                .zip(of_deflections.iter().flatten())
+                .collect();
             let other = |i: usize| {
                 let cell = &forces[i];
                 (!cell.stretch.is_some_and(|stretch| own.contains(&stretch))).then_some(cell)
             };
             let begin = |i: usize| {
                 let first = Run::from(other(i)?, &limits)?;
-                let others =
-                    deflections.iter().map(|(lines, limits)| Run::from(&lines.rails[rail][i], limits));
+                let others = deflections
+                    .iter()
+                    .map(|(lines, limits)| Run::from(&lines.rails[rail][i], limits));
                 Some((first, others.collect::<Option<Vec<_>>>()?))
             };
             let extend = |(first, others): &(Run<QUANTITIES>, Vec<Run<POWERS>>), i: usize| {
                 let first = first.with(other(i)?, &limits)?;
                 let others = others.iter().zip(&deflections);
-                let others = others.map(|(run, (lines, limits))| run.with(&lines.rails[rail][i], limits));
+                let others =
+                    others.map(|(run, (lines, limits))| run.with(&lines.rails[rail][i], limits));
                 Some((first, others.collect::<Option<Vec<_>>>()?))
             };
             let runs = runs(forces.len(), begin, extend);
@@ -207,9 +237,16 @@ mod tests {
         let cell = |(index, (x, cubic)): (usize, &([f64; 2], [f64; 4]))| {
             let mut cubics = [[[0.0; 4]; 1]; COMPONENTS];
             cubics[1][0] = *cubic;
-            LineCell { x: *x, stretch: Some(index), begins_inside: false, cubics }
+            LineCell {
+                x: *x,
+                stretch: Some(index),
+                begins_inside: false,
+                cubics,
+            }
         };
-        Lines { rails: vec![pieces.iter().enumerate().map(cell).collect()] }
+        Lines {
+            rails: vec![pieces.iter().enumerate().map(cell).collect()],
+        }
     }
 
     #[test]
@@ -223,15 +260,25 @@ mod tests {
         ])
         .joined();
         let cells = &found.rails[0];
-        assert_eq!(cells.iter().map(|cell| cell.x).collect::<Vec<_>>(), [[0.0, 3.0], [3.0, 4.0], [4.0, 7.0]]);
-        assert_eq!(cells.iter().map(|cell| cell.stretch).collect::<Vec<_>>(), [None, Some(2), None]);
+        assert_eq!(
+            cells.iter().map(|cell| cell.x).collect::<Vec<_>>(),
+            [[0.0, 3.0], [3.0, 4.0], [4.0, 7.0]]
+        );
+        assert_eq!(
+            cells.iter().map(|cell| cell.stretch).collect::<Vec<_>>(),
+            [None, Some(2), None]
+        );
         assert!((value_of_cubic(&cells[0].cubics[1][0], 2.0) - 2.0).abs() < 1e-15);
         assert!(value_of_cubic(&cells[2].cubics[1][0], 2.0).abs() < 1e-15);
     }
 
     #[test]
     fn a_jump_or_a_kink_ends_a_run() {
-        for second in [[1.0 + 1e-13, 0.0, 0.0, 0.0], [1.0, 1e-13, 0.0, 0.0], [1.0, 0.0, 1e-13, 0.0]] {
+        for second in [
+            [1.0 + 1e-13, 0.0, 0.0, 0.0],
+            [1.0, 1e-13, 0.0, 0.0],
+            [1.0, 0.0, 1e-13, 0.0],
+        ] {
             let cells = line(&[([0.0, 1.0], [1.0, 0.0, 0.0, 0.0]), ([1.0, 2.0], second)]).joined();
             assert_eq!(cells.rails[0].len(), 2, "{second:?}");
         }

@@ -53,7 +53,12 @@ impl Kernel {
     pub fn passing(&self, d: f64, rate: f64) -> [f64; 4] {
         let [a, b, c] = self.0;
         let [slope, bend] = [a + d * (2.0 * b + d * 3.0 * c), b + 3.0 * c * d];
-        [self.at(d), -rate * slope, rate * rate * bend, -rate * rate * rate * c]
+        [
+            self.at(d),
+            -rate * slope,
+            rate * rate * bend,
+            -rate * rate * rate * c,
+        ]
     }
 }
 
@@ -86,8 +91,11 @@ impl RailPoint {
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
         let axes = &structure.rails[carrier.rail].axes;
         let shear = [given.axial, given.shear_y, given.shear_z].map(finite);
-        let tension =
-            if carrier.bent.is_some() { structure.model.members[carrier.member].tension } else { 0.0 };
+        let tension = if carrier.bent.is_some() {
+            structure.model.members[carrier.member].tension
+        } else {
+            0.0
+        };
         let stiffening = [1.0, 1.0 + shear[1] * tension, 1.0 + shear[2] * tension];
         let bending = [given.torsion, given.bending_y, given.bending_z].map(finite);
         let offset = structure.frame.line()?.elements()[carrier.element].offset;
@@ -96,7 +104,11 @@ impl RailPoint {
             bending,
             shear,
             stiffening,
-            squares: [0.0, bending[1] * tension / stiffening[2], bending[2] * tension / stiffening[1]],
+            squares: [
+                0.0,
+                bending[1] * tension / stiffening[2],
+                bending[2] * tension / stiffening[1],
+            ],
             part: carrier.bent.is_some().then_some(carrier.length),
             arm: axes[0] * offset[0] + axes[1] * offset[1] + axes[2] * offset[2],
             directions: DEFLECTIONS.map(|quantity| {
@@ -108,7 +120,11 @@ impl RailPoint {
 
     /// A vector whose components along the axes are multiplied by three flexibilities.
     fn scaled(&self, by: [f64; 3], v: &Vector3<f64>) -> Vector3<f64> {
-        self.axes.iter().zip(by).map(|(axis, by)| axis * (by * axis.dot(v))).sum()
+        self.axes
+            .iter()
+            .zip(by)
+            .map(|(axis, by)| axis * (by * axis.dot(v)))
+            .sum()
     }
 
     /// The kernels of both deflections for a force and a couple about the axis of the member.
@@ -119,7 +135,10 @@ impl RailPoint {
         let bent = self.scaled(self.bending, &t.cross(force));
         let first = turned.cross(&self.arm) - self.scaled(shear, force);
         let [second, third] = match self.part {
-            None => [turned.cross(&t) * 0.5 + bent.cross(&self.arm) * 0.5, bent.cross(&t) / 6.0],
+            None => [
+                turned.cross(&t) * 0.5 + bent.cross(&self.arm) * 0.5,
+                bent.cross(&t) / 6.0,
+            ],
             Some(length) => {
                 let [low, high] = NODES_OF_TWO.map(|node| node * length);
                 let [at_low, at_high] = [low, high].map(|d| self.curved(&turned, &bent, d));
@@ -131,7 +150,15 @@ impl RailPoint {
         let size = force.norm() * self.shear.iter().sum::<f64>() + turned.norm() * self.arm.norm();
         self.directions.map(|direction| {
             let [slope, second, third] = [first, second, third].map(|power| power.dot(&direction));
-            Kernel([if slope.abs() > ROUNDING * size { slope } else { 0.0 }, second, third])
+            Kernel([
+                if slope.abs() > ROUNDING * size {
+                    slope
+                } else {
+                    0.0
+                },
+                second,
+                third,
+            ])
         })
     }
 

@@ -4,8 +4,12 @@ use crate::train::COMPONENTS;
 
 /// Places in a cell at which a function is sampled to find its cubic: the nodes of Chebyshev, which keep away from the
 /// ends, where a line may jump.
-pub(crate) const NODES: [f64; 4] =
-    [0.038_060_233_744_356_62, 0.308_658_283_817_455_1, 0.691_341_716_182_544_9, 0.961_939_766_255_643_4];
+pub(crate) const NODES: [f64; 4] = [
+    0.038_060_233_744_356_62,
+    0.308_658_283_817_455_1,
+    0.691_341_716_182_544_9,
+    0.961_939_766_255_643_4,
+];
 
 /// Influence lines of N responses over one stretch of rail.
 #[derive(Clone, Debug)]
@@ -35,7 +39,13 @@ impl<const N: usize> Lines<N> {
             begins_inside: cell.begins_inside,
             cubics: [[[0.0; 4]; N]; COMPONENTS],
         };
-        Lines { rails: other.rails.iter().map(|cells| cells.iter().map(zero).collect()).collect() }
+        Lines {
+            rails: other
+                .rails
+                .iter()
+                .map(|cells| cells.iter().map(zero).collect())
+                .collect(),
+        }
     }
 }
 
@@ -47,7 +57,11 @@ pub(crate) fn cell_at<const N: usize>(cells: &[LineCell<N>], x: f64) -> Option<u
     if x < first.x[0] - slack || x > last.x[1] + slack {
         return None;
     }
-    Some(cells.partition_point(|cell| cell.x[0] <= x).saturating_sub(1))
+    Some(
+        cells
+            .partition_point(|cell| cell.x[0] <= x)
+            .saturating_sub(1),
+    )
 }
 
 /// A stretch of rail on one side of every jump: a rail element, or a part of one on a member under axial force.
@@ -94,7 +108,9 @@ pub(crate) fn cubics<E>(
     Ok((0..count)
         .map(|k| {
             let mut out = [0.0; 4];
-            out.iter_mut().zip(cubic(k)).for_each(|(out, (c, power))| *out = c / power);
+            out.iter_mut()
+                .zip(cubic(k))
+                .for_each(|(out, (c, power))| *out = c / power);
             out
         })
         .collect())
@@ -114,19 +130,36 @@ pub(crate) fn value_of_cubic([a, b, c, d]: &[f64; 4], t: f64) -> f64 {
 
 /// The cubic c(x + t).
 pub(crate) fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
-    [a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)), c + 3.0 * t * d, *d]
+    [
+        a + t * (b + t * (c + t * d)),
+        b + t * (2.0 * c + t * (3.0 * d)),
+        c + 3.0 * t * d,
+        *d,
+    ]
 }
 
 /// Coefficients of the cubic with the values f at the nodes.
 pub(crate) fn in_powers(f: [f64; 4]) -> [f64; 4] {
     let [a, b, c, d] = NODES;
-    let first = [(f[1] - f[0]) / (b - a), (f[2] - f[1]) / (c - b), (f[3] - f[2]) / (d - c)];
-    let second = [(first[1] - first[0]) / (c - a), (first[2] - first[1]) / (d - b)];
+    let first = [
+        (f[1] - f[0]) / (b - a),
+        (f[2] - f[1]) / (c - b),
+        (f[3] - f[2]) / (d - c),
+    ];
+    let second = [
+        (first[1] - first[0]) / (c - a),
+        (first[2] - first[1]) / (d - b),
+    ];
     let third = (second[1] - second[0]) / (d - a);
     // f0 + (r - a) (f01 + (r - b) (f012 + (r - c) f0123))
     let inner = [second[0] - c * third, third];
     let middle = [first[0] - b * inner[0], inner[0] - b * inner[1], inner[1]];
-    [f[0] - a * middle[0], middle[0] - a * middle[1], middle[1] - a * middle[2], middle[2]]
+    [
+        f[0] - a * middle[0],
+        middle[0] - a * middle[1],
+        middle[1] - a * middle[2],
+        middle[2],
+    ]
 }
 
 #[cfg(test)]

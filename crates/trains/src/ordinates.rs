@@ -29,7 +29,9 @@ impl InfluenceLine {
     /// itself counts as just behind. 0 beyond the ends of the rail.
     #[must_use]
     pub fn value(&self, x: f64, side: SectionSide) -> f64 {
-        let Some([from, to]) = self.range() else { return 0.0 };
+        let Some([from, to]) = self.range() else {
+            return 0.0;
+        };
         let near = ROUNDING * (to - from);
         if x < from - near || x > to + near {
             return 0.0;
@@ -53,7 +55,11 @@ impl InfluenceLine {
     /// the line jumps.
     #[must_use]
     pub fn points(&self, step: f64) -> Vec<[f64; 2]> {
-        let size = self.pieces.iter().map(|(_, cubic)| cubic[0].abs()).fold(0.0, f64::max);
+        let size = self
+            .pieces
+            .iter()
+            .map(|(_, cubic)| cubic[0].abs())
+            .fold(0.0, f64::max);
         let mut out: Vec<[f64; 2]> = Vec::new();
         for ([from, to], cubic) in &self.pieces {
             let parts = ((to - from) / step).ceil().clamp(1.0, 1e4) as usize;
@@ -61,7 +67,8 @@ impl InfluenceLine {
                 let t = (to - from) * k as f64 / parts as f64;
                 let value = value_of_cubic(cubic, t);
                 let point = [if k == parts { *to } else { from + t }, value];
-                let is_repeated = |last: &[f64; 2]| k == 0 && (last[1] - value).abs() <= ROUNDING * size;
+                let is_repeated =
+                    |last: &[f64; 2]| k == 0 && (last[1] - value).abs() <= ROUNDING * size;
                 if !out.last().is_some_and(is_repeated) {
                     out.push(point);
                 }
@@ -73,12 +80,19 @@ impl InfluenceLine {
     /// Largest magnitude at the ends of the pieces and at a few places within each.
     #[must_use]
     pub fn size(&self) -> f64 {
-        self.points(f64::INFINITY).iter().map(|point| point[1].abs()).fold(0.0, f64::max)
+        self.points(f64::INFINITY)
+            .iter()
+            .map(|point| point[1].abs())
+            .fold(0.0, f64::max)
     }
 
     fn of(cells: &[LineCell<1>]) -> InfluenceLine {
-        let own = cells.iter().map(|cell| (cell.x, cell.cubics[1][0].map(|c| -c)));
-        InfluenceLine { pieces: own.collect() }
+        let own = cells
+            .iter()
+            .map(|cell| (cell.x, cell.cubics[1][0].map(|c| -c)));
+        InfluenceLine {
+            pieces: own.collect(),
+        }
     }
 }
 
@@ -112,13 +126,20 @@ impl Structure {
         let index = quantity as usize;
         if index >= QUANTITIES {
             let lines = self.deflection_line(rail, x, quantity, VERTICAL)?;
-            return Ok(lines.rails.iter().map(|cells| InfluenceLine::of(cells)).collect());
+            return Ok(lines
+                .rails
+                .iter()
+                .map(|cells| InfluenceLine::of(cells))
+                .collect());
         }
         let [from, to] = self.range(rail);
         let near = ROUNDING * (to - from);
         let is_on = |ends: [f64; 2]| x >= ends[0] - near && x <= ends[1] + near;
         // Where two members meet, the later one begins and the earlier one ends.
-        let mut on = self.carriers.iter().filter(|carrier| carrier.rail == rail && is_on(carrier.x));
+        let mut on = self
+            .carriers
+            .iter()
+            .filter(|carrier| carrier.rail == rail && is_on(carrier.x));
         let found = match side {
             SectionSide::Behind => on.max_by(|a, b| a.x[0].total_cmp(&b.x[0])),
             SectionSide::Before => on.min_by(|a, b| a.x[0].total_cmp(&b.x[0])),
@@ -127,7 +148,11 @@ impl Structure {
         let carrier = found.ok_or(splines::Error::OffRail { rail, x })?;
         let place = carrier.fraction(carrier.place(x));
         let parts = ForceComponent::ALL.map(|component| {
-            let effect = Effect::InternalForce { member: carrier.member, place, component };
+            let effect = Effect::InternalForce {
+                member: carrier.member,
+                place,
+                component,
+            };
             self.effect_line(&[effect], VERTICAL)
         });
         let mut lines: Vec<Lines<1>> = Vec::with_capacity(QUANTITIES);
@@ -152,14 +177,23 @@ impl Structure {
     /// An effect that does not exist, and the errors of the structural solver.
     pub fn effect_lines(&self, effects: &[Effect]) -> Result<Vec<InfluenceLine>, Error> {
         let lines = self.effect_line(effects, VERTICAL)?;
-        Ok(lines.rails.iter().map(|cells| InfluenceLine::of(cells)).collect())
+        Ok(lines
+            .rails
+            .iter()
+            .map(|cells| InfluenceLine::of(cells))
+            .collect())
     }
 
     /// Rail and coordinate of each wheel of a train at a position; also beyond the end of a rail.
     #[must_use]
     pub fn wheel_coordinates(&self, train: &Train, at: &TrainPosition) -> Vec<(usize, f64)> {
-        let Some(first) = train.wheels.first() else { return Vec::new() };
+        let Some(first) = train.wheels.first() else {
+            return Vec::new();
+        };
         let wheels = train.placed(at.stance, &self.shifts(first.rail));
-        wheels.iter().map(|wheel| (wheel.rail, at.position + wheel.offset)).collect()
+        wheels
+            .iter()
+            .map(|wheel| (wheel.rail, at.position + wheel.offset))
+            .collect()
     }
 }

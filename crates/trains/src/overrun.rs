@@ -44,16 +44,31 @@ impl Overrun {
         first: usize,
     ) -> Result<Overrun, Error> {
         let of = |train| Passage::new(structure, carrier, train, lines);
-        let passages = plan.trains.iter().map(|stances| stances.iter().map(of).collect());
+        let passages = plan
+            .trains
+            .iter()
+            .map(|stances| stances.iter().map(of).collect());
         let passages: Vec<Vec<Passage>> = passages.collect::<Result<_, _>>()?;
         let distinct = |k: usize| match k >= first {
-            true => passages.iter().map(|stances| distinct_stances(stances, k)).collect(),
+            true => passages
+                .iter()
+                .map(|stances| distinct_stances(stances, k))
+                .collect(),
             false => vec![Vec::new(); passages.len()],
         };
         let distinct = (0..GirderResponse::ALL.len()).map(distinct).collect();
-        let of = |stances: &Vec<Passage>| stances.iter().map(|passage| Bounds::new(passage, first)).collect();
+        let of = |stances: &Vec<Passage>| {
+            stances
+                .iter()
+                .map(|passage| Bounds::new(passage, first))
+                .collect()
+        };
         let bounds = passages.iter().map(of).collect();
-        Ok(Overrun { passages, distinct, bounds })
+        Ok(Overrun {
+            passages,
+            distinct,
+            bounds,
+        })
     }
 
     /// Deflections alone, with other influence lines of them.
@@ -66,7 +81,11 @@ impl Overrun {
         let Some(forces) = deflections.iter().flatten().next().map(Lines::zeros_like) else {
             return Ok(None);
         };
-        let lines = CarrierLines { forces, deflections }.joined(structure, carrier);
+        let lines = CarrierLines {
+            forces,
+            deflections,
+        }
+        .joined(structure, carrier);
         Overrun::from_response(structure, plan, carrier, &lines, QUANTITIES).map(Some)
     }
 
@@ -93,8 +112,10 @@ impl Overrun {
         at: (usize, f64, f64),
         hints: &[Hint<'_>],
     ) -> Option<Arrangement> {
-        let moved =
-            |hint: &Hint<'_>| self.value_at(at, hint.at, 0.0).max(self.value_at(at, hint.at, hint.by));
+        let moved = |hint: &Hint<'_>| {
+            self.value_at(at, hint.at, 0.0)
+                .max(self.value_at(at, hint.at, hint.by))
+        };
         let reached = hints.iter().map(moved).fold(f64::NEG_INFINITY, f64::max);
         let found = |floor: f64| self.best_in(plan, at, self.pieces_reaching(at, floor), floor);
         found(reached - 2.0 * TIE * reached.abs()).or_else(|| found(f64::NEG_INFINITY))
@@ -116,7 +137,11 @@ impl Overrun {
                     }
                 });
             }
-            if value.is_finite() { value } else { f64::NEG_INFINITY }
+            if value.is_finite() {
+                value
+            } else {
+                f64::NEG_INFINITY
+            }
         };
         each.map(of).sum()
     }
@@ -125,15 +150,24 @@ impl Overrun {
     /// `floor` with the best of the other trains, wherever these stand.
     fn pieces_reaching(&self, (k, sign, s): (usize, f64, f64), floor: f64) -> Vec<BoundedPieces> {
         let most = |(train, distinct): (usize, &Vec<usize>)| {
-            let all = distinct.iter().map(|&stance| self.bounds[train][stance].most_near(k, sign, s));
+            let all = distinct
+                .iter()
+                .map(|&stance| self.bounds[train][stance].most_near(k, sign, s));
             all.fold(f64::NEG_INFINITY, f64::max)
         };
         let most: Vec<f64> = self.distinct[k].iter().enumerate().map(most).collect();
         let sum: f64 = most.iter().sum();
         let of_train = |(train, distinct): (usize, &Vec<usize>)| {
-            let least = if floor == f64::NEG_INFINITY { floor } else { floor - (sum - most[train]) };
+            let least = if floor == f64::NEG_INFINITY {
+                floor
+            } else {
+                floor - (sum - most[train])
+            };
             let of = |&stance: &usize| {
-                let bounds = self.bounds[train][stance].near(k, sign, s).iter().enumerate();
+                let bounds = self.bounds[train][stance]
+                    .near(k, sign, s)
+                    .iter()
+                    .enumerate();
                 let pieces = &self.passages[train][stance].pieces.list;
                 let kept = bounds.filter(|(_, bound)| **bound >= least);
                 let piece = |(index, bound): (usize, &f64)| BoundedPiece {
@@ -163,7 +197,9 @@ impl Overrun {
             for (stance, pieces) in kept.iter_mut() {
                 let passage = &self.passages[train][*stance];
                 let mut list = Vec::with_capacity(2 * pieces.len());
-                pieces.iter().for_each(|piece| passage.parts(piece.index, k, s, |part| list.push(part)));
+                pieces
+                    .iter()
+                    .for_each(|piece| passage.parts(piece.index, k, s, |part| list.push(part)));
                 // now by the largest value in each part
                 let bounded = |(index, part): (usize, &ResponsePiece)| BoundedPiece {
                     position: part.position,
@@ -199,14 +235,18 @@ impl Overrun {
             return self.best_of_several(plan, (k, sign, s), hints);
         };
         // The pieces of the hints, or the one with the largest bound, show what is reached at least.
-        let mut known: SmallVec<[(usize, usize); 2]> =
-            hints.iter().map(|hint| (hint.at.trains[0].stance, hint.at.trains[0].origin[0])).collect();
+        let mut known: SmallVec<[(usize, usize); 2]> = hints
+            .iter()
+            .map(|hint| (hint.at.trains[0].stance, hint.at.trains[0].origin[0]))
+            .collect();
         if known.is_empty() {
             known.extend(self.most_promising(k, sign, s));
         }
         let mut floor = f64::NEG_INFINITY;
         for (stance, piece) in known {
-            stances[stance].parts(piece, k, s, |part| floor = floor.max(lower(part.largest(sign).1)));
+            stances[stance].parts(piece, k, s, |part| {
+                floor = floor.max(lower(part.largest(sign).1))
+            });
         }
         let search = |floor: f64| {
             let mut best: Option<(f64, Standing)> = None;
@@ -224,7 +264,10 @@ impl Overrun {
         };
         // Rounding of a bound can leave out even what has the floor.
         let best = search(floor).or_else(|| search(f64::NEG_INFINITY));
-        best.map(|(signed, standing)| Arrangement { signed, trains: vec![standing] })
+        best.map(|(signed, standing)| Arrangement {
+            signed,
+            trains: vec![standing],
+        })
     }
 
     /// The stance and the piece with the largest bound of sign times response k around place s under a single train.
@@ -244,9 +287,11 @@ impl Overrun {
     /// piece.
     pub fn pieces_above(&self, k: usize, sign: f64, floor: f64) -> Vec<[usize; 2]> {
         let stances = self.distinct[k][0].iter();
-        let all = stances
-            .flat_map(|&stance| (0..self.passages[0][stance].pieces.list.len()).map(move |p| [stance, p]));
-        all.filter(|[stance, piece]| self.bounds[0][*stance].over_all(k, sign, *piece) > floor).collect()
+        let all = stances.flat_map(|&stance| {
+            (0..self.passages[0][stance].pieces.list.len()).map(move |p| [stance, p])
+        });
+        all.filter(|[stance, piece]| self.bounds[0][*stance].over_all(k, sign, *piece) > floor)
+            .collect()
     }
 
     /// Response k at place s in an arrangement, without dead load.
@@ -263,7 +308,10 @@ impl Overrun {
 fn distinct_stances(stances: &[Passage], k: usize) -> Vec<usize> {
     let mut out: Vec<usize> = Vec::new();
     for (stance, passage) in stances.iter().enumerate() {
-        if !out.iter().any(|&known| stances[known].is_same(passage, k, EQUAL)) {
+        if !out
+            .iter()
+            .any(|&known| stances[known].is_same(passage, k, EQUAL))
+        {
             out.push(stance);
         }
     }

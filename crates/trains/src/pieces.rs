@@ -115,15 +115,23 @@ impl<const N: usize> Pieces<N> {
             .iter()
             .map(|wheel| {
                 let kind = (wheel.rail, wheel.load);
-                kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
-                    kinds.push(kind);
-                    kinds.len() - 1
-                })
+                kinds
+                    .iter()
+                    .position(|known| *known == kind)
+                    .unwrap_or_else(|| {
+                        kinds.push(kind);
+                        kinds.len() - 1
+                    })
             })
             .collect();
         let loaded: Vec<Vec<[[f64; 4]; N]>> = kinds
             .iter()
-            .map(|(rail, load)| lines.rails[*rail].iter().map(|cell| under(cell, load)).collect())
+            .map(|(rail, load)| {
+                lines.rails[*rail]
+                    .iter()
+                    .map(|cell| under(cell, load))
+                    .collect()
+            })
             .collect();
         let mut list = Vec::with_capacity(breaks.len() - 1);
         let mut stretches = Vec::with_capacity((breaks.len() - 1) * train.wheels.len());
@@ -142,18 +150,32 @@ impl<const N: usize> Pieces<N> {
                     }
                 }
             }
-            list.push(Piece { position: ends, cubics, begins_inside: pair[0].1 });
+            list.push(Piece {
+                position: ends,
+                cubics,
+                begins_inside: pair[0].1,
+            });
         }
-        Pieces { list, stretches, wheels: train.wheels.len() }
+        Pieces {
+            list,
+            stretches,
+            wheels: train.wheels.len(),
+        }
     }
 }
 
 /// The cubics of a cell under a load.
 fn under<const N: usize>(cell: &LineCell<N>, load: &[f64; COMPONENTS]) -> [[f64; 4]; N] {
     let mut out = [[0.0; 4]; N];
-    for (force, cubics) in load.iter().zip(&cell.cubics).filter(|(force, _)| **force != 0.0) {
+    for (force, cubics) in load
+        .iter()
+        .zip(&cell.cubics)
+        .filter(|(force, _)| **force != 0.0)
+    {
         for (out, cubic) in out.iter_mut().zip(cubics) {
-            out.iter_mut().zip(cubic).for_each(|(out, c)| *out += force * c);
+            out.iter_mut()
+                .zip(cubic)
+                .for_each(|(out, c)| *out += force * c);
         }
     }
     out
@@ -161,5 +183,7 @@ fn under<const N: usize>(cell: &LineCell<N>, load: &[f64; COMPONENTS]) -> [[f64;
 
 /// Adds the cubic c(x + t) to a cubic in x.
 fn add_shifted(sum: &mut [f64; 4], cubic: &[f64; 4], t: f64) {
-    sum.iter_mut().zip(shifted(cubic, t)).for_each(|(sum, c)| *sum += c);
+    sum.iter_mut()
+        .zip(shifted(cubic, t))
+        .for_each(|(sum, c)| *sum += c);
 }

@@ -96,13 +96,24 @@ impl CasePlan {
         for (number, train) in case.trains.iter().enumerate() {
             let rails = structure.rail_count();
             for (wheel, given) in train.wheels.iter().enumerate() {
-                let numbers =
-                    [given.x, given.vertical, given.lateral, given.longitudinal, given.eccentricity];
+                let numbers = [
+                    given.x,
+                    given.vertical,
+                    given.lateral,
+                    given.longitudinal,
+                    given.eccentricity,
+                ];
                 if given.rail >= rails || !numbers.iter().all(|value| value.is_finite()) {
-                    return Err(Error::Wheel { train: number, wheel });
+                    return Err(Error::Wheel {
+                        train: number,
+                        wheel,
+                    });
                 }
             }
-            let first = train.wheels.first().ok_or(Error::Wheel { train: number, wheel: 0 })?;
+            let first = train.wheels.first().ok_or(Error::Wheel {
+                train: number,
+                wheel: 0,
+            })?;
             let shifts = structure.shifts(first.rail);
             let mut placed = Vec::new();
             let mut reach = Vec::new();
@@ -111,19 +122,32 @@ impl CasePlan {
                 for (wheel, of) in wheels.iter().enumerate() {
                     let stiff = |k: usize| of.load[k] == 0.0 || structure.resists(of.rail, k);
                     if let Some(k) = (0..COMPONENTS).find(|&k| !stiff(k)) {
-                        return Err(Error::NoStiffness { train: number, wheel, axis: crate::train::axis(k) });
+                        return Err(Error::NoStiffness {
+                            train: number,
+                            wheel,
+                            axis: crate::train::axis(k),
+                        });
                     }
                 }
-                let ends =
-                    |wheel: &crate::train::PlacedWheel| structure.range(wheel.rail).map(|x| x - wheel.offset);
+                let ends = |wheel: &crate::train::PlacedWheel| {
+                    structure.range(wheel.rail).map(|x| x - wheel.offset)
+                };
                 let all = wheels.iter().map(ends);
                 let mut range = if train.enters {
-                    all.fold([f64::INFINITY, f64::NEG_INFINITY], |r, [a, b]| [r[0].min(a), r[1].max(b)])
+                    all.fold([f64::INFINITY, f64::NEG_INFINITY], |r, [a, b]| {
+                        [r[0].min(a), r[1].max(b)]
+                    })
                 } else {
-                    all.fold([f64::NEG_INFINITY, f64::INFINITY], |r, [a, b]| [r[0].max(a), r[1].min(b)])
+                    all.fold([f64::NEG_INFINITY, f64::INFINITY], |r, [a, b]| {
+                        [r[0].max(a), r[1].min(b)]
+                    })
                 };
                 if range[0] > range[1] + structure.slack() {
-                    return Err(Error::TooLong { train: number, lowest: range[0], highest: range[1] });
+                    return Err(Error::TooLong {
+                        train: number,
+                        lowest: range[0],
+                        highest: range[1],
+                    });
                 }
                 if train.enters {
                     // A little beyond, where nothing is loaded.
@@ -132,20 +156,32 @@ impl CasePlan {
                 }
                 range[1] = range[1].max(range[0]);
                 reach.push(train.extents(stance, &shifts));
-                placed.push(PlacedTrain { stance, wheels, range });
+                placed.push(PlacedTrain {
+                    stance,
+                    wheels,
+                    range,
+                });
             }
             trains.push(placed);
             extents.push(reach);
         }
         let distance = |a: &[Option<[f64; 2]>], b: &[Option<[f64; 2]>]| {
-            let shared = a.iter().zip(b).filter_map(|(a, b)| Some((*a)?[1] - (*b)?[0]));
+            let shared = a
+                .iter()
+                .zip(b)
+                .filter_map(|(a, b)| Some((*a)?[1] - (*b)?[0]));
             shared.fold(f64::NEG_INFINITY, f64::max) + case.gap
         };
         let distances: Vec<Vec<Vec<Vec<f64>>>> = extents
             .iter()
             .map(|a| {
                 a.iter()
-                    .map(|a| extents.iter().map(|b| b.iter().map(|b| distance(a, b)).collect()).collect())
+                    .map(|a| {
+                        extents
+                            .iter()
+                            .map(|b| b.iter().map(|b| distance(a, b)).collect())
+                            .collect()
+                    })
                     .collect()
             })
             .collect();
@@ -158,37 +194,60 @@ impl CasePlan {
                 && distances[j].iter().all(|from| {
                     (0..distances[m].len()).all(|way| {
                         let onward = distances[m][way][k].iter();
-                        let both =
-                            onward.zip(&from[k]).map(|(onward, direct)| (from[m][way] + onward, direct));
-                        both.into_iter().all(|(sum, direct)| sum >= direct - structure.slack())
+                        let both = onward
+                            .zip(&from[k])
+                            .map(|(onward, direct)| (from[m][way] + onward, direct));
+                        both.into_iter()
+                            .all(|(sum, direct)| sum >= direct - structure.slack())
                     })
                 })
         };
         let orders = groups(trains.len(), share, equal, case.ordered);
         let mut groups = Vec::with_capacity(orders.len());
         for group in orders {
-            let orders: Option<Vec<Order>> =
-                group.into_iter().map(|order| Order::new(order, &share, &implied)).collect();
-            groups.push(Group { orders: orders.ok_or(Error::Ring { case: index })? });
+            let orders: Option<Vec<Order>> = group
+                .into_iter()
+                .map(|order| Order::new(order, &share, &implied))
+                .collect();
+            groups.push(Group {
+                orders: orders.ok_or(Error::Ring { case: index })?,
+            });
         }
-        let plan = CasePlan { trains, groups, distances, dead: case.dead };
-        let room = plan
-            .groups
-            .iter()
-            .all(|group| group.orders.iter().any(|order| plan.fits(order, structure.slack())));
-        if room { Ok(plan) } else { Err(Error::NoRoom { case: index }) }
+        let plan = CasePlan {
+            trains,
+            groups,
+            distances,
+            dead: case.dead,
+        };
+        let room = plan.groups.iter().all(|group| {
+            group
+                .orders
+                .iter()
+                .any(|order| plan.fits(order, structure.slack()))
+        });
+        if room {
+            Ok(plan)
+        } else {
+            Err(Error::NoRoom { case: index })
+        }
     }
 
     /// Whether the trains fit in an order in some stances.
     fn fits(&self, order: &Order, slack: f64) -> bool {
         let mut ok = false;
-        let all: Vec<Vec<usize>> = self.trains.iter().map(|stances| (0..stances.len()).collect()).collect();
+        let all: Vec<Vec<usize>> = self
+            .trains
+            .iter()
+            .map(|stances| (0..stances.len()).collect())
+            .collect();
         choices(&order.trains, &all, &mut |stances| {
             let mut lowest: Vec<f64> = Vec::with_capacity(stances.len());
             ok |= order.trains.iter().enumerate().all(|(k, &train)| {
                 let [a, b] = self.trains[train][stances[k]].range;
                 let [first, last] = if order.mirrored { [-b, -a] } else { [a, b] };
-                let before = order.before[k].iter().map(|&j| lowest[j] + self.step(order, stances, j, k));
+                let before = order.before[k]
+                    .iter()
+                    .map(|&j| lowest[j] + self.step(order, stances, j, k));
                 let least = before.fold(first, f64::max);
                 lowest.push(least);
                 least <= last + slack
@@ -199,7 +258,11 @@ impl CasePlan {
 
     /// Calls `each` with every order of the trains of each group, by increasing position, and every choice among their
     /// listed stances.
-    pub fn for_each_arrangement(&self, listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize], &[usize])) {
+    pub fn for_each_arrangement(
+        &self,
+        listed: &[Vec<usize>],
+        each: &mut dyn FnMut(&[usize], &[usize]),
+    ) {
         for order in self.groups.iter().flat_map(|group| &group.orders) {
             let mut trains = order.trains.clone();
             if order.mirrored {
@@ -217,7 +280,11 @@ impl CasePlan {
     /// Least distance from the train at place j of an order to the one at place k that follows it.
     fn step(&self, order: &Order, stances: &[usize], j: usize, k: usize) -> f64 {
         let [first, second] = [j, k].map(|at| (order.trains[at], stances[at]));
-        if order.mirrored { self.distance(second, first) } else { self.distance(first, second) }
+        if order.mirrored {
+            self.distance(second, first)
+        } else {
+            self.distance(first, second)
+        }
     }
 
     /// The arrangement with the largest value of sign times a response. It is known to reach `floor`: what cannot is left
@@ -225,12 +292,21 @@ impl CasePlan {
     pub fn best(&self, responses: &Responses, sign: f64, floor: f64) -> Option<Arrangement> {
         if let [own] = &responses[..] {
             let (signed, standing) = best_of_one(own, sign)?;
-            return Some(Arrangement { signed, trains: vec![standing] });
+            return Some(Arrangement {
+                signed,
+                trains: vec![standing],
+            });
         }
-        let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); responses.len()] };
+        let mut out = Arrangement {
+            signed: 0.0,
+            trains: vec![Standing::default(); responses.len()],
+        };
         let mut ways: Vec<Vec<Way>> = responses.iter().map(|_| Vec::new()).collect();
         let bound = |own: &Vec<(usize, Vec<ResponsePiece>)>| {
-            own.iter().flat_map(|(_, pieces)| pieces).map(|p| p.bound(sign)).fold(f64::NEG_INFINITY, f64::max)
+            own.iter()
+                .flat_map(|(_, pieces)| pieces)
+                .map(|p| p.bound(sign))
+                .fold(f64::NEG_INFINITY, f64::max)
         };
         let bounds: Vec<f64> = responses.iter().map(bound).collect();
         let all: f64 = bounds.iter().sum();
@@ -244,20 +320,29 @@ impl CasePlan {
             }
             for &train in &group.orders[0].trains {
                 let least = floor - (all - bounds[train]);
-                let own = responses[train]
-                    .iter()
-                    .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance, least)));
+                let own = responses[train].iter().map(|(stance, pieces)| {
+                    (*stance, PiecewiseFunction::of(pieces, sign, *stance, least))
+                });
                 ways[train] = self.ways(train, own);
             }
-            if group.orders[0].trains.iter().any(|&train| ways[train].is_empty()) {
+            if group.orders[0]
+                .trains
+                .iter()
+                .any(|&train| ways[train].is_empty())
+            {
                 return None;
             }
-            let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
+            let listed: Vec<Vec<usize>> =
+                ways.iter().map(|ways| (0..ways.len()).collect()).collect();
             let mut best: Option<Chain> = None;
             for order in &group.orders {
                 choices(&order.trains, &listed, &mut |chosen| {
-                    let of: Vec<&Way> =
-                        order.trains.iter().zip(chosen).map(|(&train, &way)| &ways[train][way]).collect();
+                    let of: Vec<&Way> = order
+                        .trains
+                        .iter()
+                        .zip(chosen)
+                        .map(|(&train, &way)| &ways[train][way])
+                        .collect();
                     self.improve(order, &of, &mut best);
                 });
             }
@@ -266,7 +351,11 @@ impl CasePlan {
             for (train, stance, position) in trains {
                 let own = responses[train].iter().find(|(known, _)| *known == stance);
                 let (_, list) = own.expect("the stance is one of those that were given");
-                out.trains[train] = Standing { stance, position, origin: piece_at(list, position).origin };
+                out.trains[train] = Standing {
+                    stance,
+                    position,
+                    origin: piece_at(list, position).origin,
+                };
             }
         }
         Some(out)
@@ -285,10 +374,17 @@ impl CasePlan {
         if following.is_empty() {
             return None;
         }
-        let group = self.groups.iter().find(|group| group.orders[0].trains.contains(&train))?;
+        let group = self
+            .groups
+            .iter()
+            .find(|group| group.orders[0].trains.contains(&train))?;
         let listed: Vec<Vec<usize>> = (0..passed.len())
             .map(|other| {
-                let count = if other == train { following.len() } else { passed[other].len() };
+                let count = if other == train {
+                    following.len()
+                } else {
+                    passed[other].len()
+                };
                 (0..count).collect()
             })
             .collect();
@@ -304,14 +400,24 @@ impl CasePlan {
                         false => &ahead[other][way],
                     }
                 };
-                let ways: Vec<&Way> = order.trains.iter().zip(chosen).enumerate().map(of).collect();
+                let ways: Vec<&Way> = order
+                    .trains
+                    .iter()
+                    .zip(chosen)
+                    .enumerate()
+                    .map(of)
+                    .collect();
                 self.improve(order, &ways, &mut best);
             });
         }
         let (signed, found) = best?;
         let mut trains = vec![Standing::default(); self.trains.len()];
         for (train, stance, position) in found {
-            trains[train] = Standing { stance, position, origin: [0; 2] };
+            trains[train] = Standing {
+                stance,
+                position,
+                origin: [0; 2],
+            };
         }
         Some(Arrangement { signed, trains })
     }
@@ -319,17 +425,23 @@ impl CasePlan {
     /// Whether all trains are of one group, in which each shares a rail with each other.
     pub fn is_one_queue(&self) -> bool {
         self.groups.len() == 1
-            && self.groups[0].orders.iter().all(|order| order.before.iter().all(|b| b.len() < 2))
-            && self
-                .distances
+            && self.groups[0]
+                .orders
                 .iter()
-                .enumerate()
-                .all(|(a, from)| from[0].iter().enumerate().all(|(b, to)| a == b || to[0].is_finite()))
+                .all(|order| order.before.iter().all(|b| b.len() < 2))
+            && self.distances.iter().enumerate().all(|(a, from)| {
+                from[0]
+                    .iter()
+                    .enumerate()
+                    .all(|(b, to)| a == b || to[0].is_finite())
+            })
     }
 
     /// Takes the best positions in one order and in given ways if they are better.
     fn improve(&self, order: &Order, ways: &[&Way], best: &mut Option<Chain>) {
-        let limit = best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
+        let limit = best
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
         // trains that stood where each likes best would not reach more than the sum
         if ways.iter().map(|way| way.most).sum::<f64>() <= limit {
             return;
@@ -353,13 +465,25 @@ impl CasePlan {
                 None => out.push((turned, stance, own)),
             }
         }
-        let backwards = self.groups.iter().flat_map(|group| &group.orders).any(|order| order.mirrored);
+        let backwards = self
+            .groups
+            .iter()
+            .flat_map(|group| &group.orders)
+            .any(|order| order.mirrored);
         let way = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
             let mirrored = backwards.then(|| function.mirrored());
             let most = function.bound();
-            Way { stance, function, mirrored, most }
+            Way {
+                stance,
+                function,
+                mirrored,
+                most,
+            }
         };
-        out.into_iter().map(way).filter(|way| !way.function.is_empty()).collect()
+        out.into_iter()
+            .map(way)
+            .filter(|way| !way.function.is_empty())
+            .collect()
     }
 
     /// The best positions of trains in one order and one way round each, if the value is above `limit`: train, stance and
@@ -368,8 +492,13 @@ impl CasePlan {
         let stances: Vec<usize> = ways.iter().map(|way| way.stance).collect();
         let mut sums: Vec<Cow<'_, PiecewiseFunction>> = Vec::with_capacity(ways.len());
         for (at, way) in ways.iter().enumerate() {
-            let own = if order.mirrored { way.mirrored.as_ref() } else { Some(&way.function) };
-            let mut sum = Cow::Borrowed(own.expect("a plan with mirrored orders mirrors every way"));
+            let own = if order.mirrored {
+                way.mirrored.as_ref()
+            } else {
+                Some(&way.function)
+            };
+            let mut sum =
+                Cow::Borrowed(own.expect("a plan with mirrored orders mirrors every way"));
             for &j in &order.before[at] {
                 let before = running_maximum(&sums[j], self.step(order, &stances, j, at));
                 sum = Cow::Owned(sum_of(&sum, &before)?);
@@ -385,7 +514,11 @@ impl CasePlan {
             let mut open = vec![(last, largest.part, largest.position)];
             while let Some((at, part, position)) = open.pop() {
                 let (stance, sources) = sums[at].sources(part);
-                found.push((order.trains[at], stance, if order.mirrored { -position } else { position }));
+                found.push((
+                    order.trains[at],
+                    stance,
+                    if order.mirrored { -position } else { position },
+                ));
                 for (&j, source) in order.before[at].iter().zip(sources) {
                     let along = || position - self.step(order, &stances, j, at);
                     open.push((j, source.part, source.position.unwrap_or_else(along)));
@@ -419,7 +552,9 @@ impl Order {
                 share(trains[j], trains[k])
                     && !(j + 1..k).any(|m| implied(trains[from], trains[m], trains[to]))
             };
-            (0..trains.len()).map(|k| (0..k).filter(|&j| follows(k, j)).collect()).collect()
+            (0..trains.len())
+                .map(|k| (0..k).filter(|&j| follows(k, j)).collect())
+                .collect()
         };
         let once = |before: &Vec<Vec<usize>>| {
             let mut all: Vec<usize> = before.iter().flatten().copied().collect();
@@ -430,11 +565,19 @@ impl Order {
         };
         let before = direct(&trains, false);
         if once(&before) {
-            return Some(Order { trains, before, mirrored: false });
+            return Some(Order {
+                trains,
+                before,
+                mirrored: false,
+            });
         }
         let trains: Vec<usize> = trains.into_iter().rev().collect();
         let before = direct(&trains, true);
-        once(&before).then_some(Order { trains, before, mirrored: true })
+        once(&before).then_some(Order {
+            trains,
+            before,
+            mirrored: true,
+        })
     }
 }
 
@@ -442,9 +585,18 @@ impl Order {
 fn choices(order: &[usize], listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize])) {
     let mut at = vec![0; order.len()];
     loop {
-        let chosen: Vec<usize> = order.iter().zip(&at).map(|(&train, &k)| listed[train][k]).collect();
+        let chosen: Vec<usize> = order
+            .iter()
+            .zip(&at)
+            .map(|(&train, &k)| listed[train][k])
+            .collect();
         each(&chosen);
-        let Some(k) = (0..order.len()).rev().find(|&k| at[k] + 1 < listed[order[k]].len()) else { return };
+        let Some(k) = (0..order.len())
+            .rev()
+            .find(|&k| at[k] + 1 < listed[order[k]].len())
+        else {
+            return;
+        };
         at[k] += 1;
         at[k + 1..].fill(0);
     }
@@ -457,15 +609,21 @@ fn piece_at(list: &[ResponsePiece], position: f64) -> &ResponsePiece {
         (first - position).max(position - last).max(0.0)
     };
     let next = list.partition_point(|piece| piece.position[1] < position);
-    let near = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|k| list.get(k));
-    near.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a train stands in one of its pieces")
+    let near = [next.checked_sub(1), Some(next)]
+        .into_iter()
+        .flatten()
+        .filter_map(|k| list.get(k));
+    near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .expect("a train stands in one of its pieces")
 }
 
 /// The largest value for one train in some stances.
 fn best_of_one(stances: &[(usize, Vec<ResponsePiece>)], sign: f64) -> Option<(f64, Standing)> {
     let mut best = None;
     for (stance, pieces) in stances {
-        pieces.iter().for_each(|piece| offer_part(&mut best, piece, *stance, sign, f64::NEG_INFINITY));
+        pieces
+            .iter()
+            .for_each(|piece| offer_part(&mut best, piece, *stance, sign, f64::NEG_INFINITY));
     }
     best
 }
@@ -484,13 +642,22 @@ pub(crate) fn offer_part(
     let (position, value) = part.largest(sign);
     let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
     if value > limit || best.is_none() && value >= floor {
-        *best = Some((value, Standing { stance, position, origin: part.origin }));
+        *best = Some((
+            value,
+            Standing {
+                stance,
+                position,
+                origin: part.origin,
+            },
+        ));
     }
 }
 
 /// Whether something with a bound can be better than the best, or the first to reach the floor.
 pub(crate) fn can_exceed(best: &Option<(f64, Standing)>, bound: f64, floor: f64) -> bool {
-    best.map_or(bound >= floor, |(value, _)| bound > value + TIE * value.abs())
+    best.map_or(bound >= floor, |(value, _)| {
+        bound > value + TIE * value.abs()
+    })
 }
 
 /// Groups of trains that share rails, directly or through others, with their orders.
@@ -502,8 +669,9 @@ fn groups(
 ) -> Vec<Vec<Vec<usize>>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for train in 0..count {
-        let (met, apart): (Vec<_>, Vec<_>) =
-            groups.into_iter().partition(|group: &Vec<usize>| group.iter().any(|&other| share(train, other)));
+        let (met, apart): (Vec<_>, Vec<_>) = groups
+            .into_iter()
+            .partition(|group: &Vec<usize>| group.iter().any(|&other| share(train, other)));
         groups = apart;
         let mut joined: Vec<usize> = met.into_iter().flatten().chain([train]).collect();
         joined.sort_unstable();
@@ -515,8 +683,14 @@ fn groups(
         (0..order.len()).all(|i| (0..i).all(|j| order[j] < order[i] || !equal(order[i], order[j])))
     };
     let orders = |group: Vec<usize>| -> Vec<Vec<usize>> {
-        let all = if ordered { vec![group] } else { permutations(&group) };
-        all.into_iter().filter(|order| ordered || increasing(order)).collect()
+        let all = if ordered {
+            vec![group]
+        } else {
+            permutations(&group)
+        };
+        all.into_iter()
+            .filter(|order| ordered || increasing(order))
+            .collect()
     };
     groups.into_iter().map(orders).collect()
 }
@@ -528,9 +702,17 @@ fn permutations(list: &[usize]) -> Vec<Vec<usize>> {
     }
     let mut out = Vec::new();
     for first in 0..list.len() {
-        let rest: Vec<usize> =
-            list.iter().enumerate().filter(|(k, _)| *k != first).map(|(_, v)| *v).collect();
-        out.extend(permutations(&rest).into_iter().map(|rest| [vec![list[first]], rest].concat()));
+        let rest: Vec<usize> = list
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != first)
+            .map(|(_, v)| *v)
+            .collect();
+        out.extend(
+            permutations(&rest)
+                .into_iter()
+                .map(|rest| [vec![list[first]], rest].concat()),
+        );
     }
     out
 }

@@ -21,7 +21,10 @@ impl Polynomial {
         let mut coefficients = [0.0; MOST + 1];
         coefficients[..given.len()].copy_from_slice(given);
         let degree = given.iter().rposition(|c| *c != 0.0).unwrap_or(0);
-        Polynomial { coefficients, degree }
+        Polynomial {
+            coefficients,
+            degree,
+        }
     }
 
     /// The coefficients up to the degree.
@@ -36,7 +39,9 @@ impl Polynomial {
     /// self + factor * other.
     pub fn plus(&self, other: &Polynomial, factor: f64) -> Polynomial {
         let mut sum = self.coefficients;
-        sum.iter_mut().zip(other.coefficients).for_each(|(a, b)| *a += factor * b);
+        sum.iter_mut()
+            .zip(other.coefficients)
+            .for_each(|(a, b)| *a += factor * b);
         Polynomial::new(&sum)
     }
 
@@ -65,7 +70,11 @@ impl Polynomial {
     /// The polynomial p(-t).
     pub fn reversed(&self) -> Polynomial {
         let mut out = *self;
-        out.coefficients.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+        out.coefficients
+            .iter_mut()
+            .skip(1)
+            .step_by(2)
+            .for_each(|c| *c = -*c);
         out
     }
 
@@ -137,7 +146,11 @@ impl Polynomial {
                 b = t
             }
             let newton = t - value / slope.at(t);
-            let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+            let next = if newton > a && newton < b {
+                newton
+            } else {
+                0.5 * (a + b)
+            };
             if (next - t).abs() <= f64::EPSILON * t.abs() {
                 return next;
             }
@@ -164,7 +177,11 @@ impl Polynomial {
     pub fn candidates(&self, h: f64) -> Roots {
         let mut out = Roots::default();
         out.add(0.0);
-        self.derivative().roots(h).list().iter().for_each(|&t| out.add(t));
+        self.derivative()
+            .roots(h)
+            .list()
+            .iter()
+            .for_each(|&t| out.add(t));
         out.add(h);
         out
     }
@@ -190,7 +207,9 @@ pub(crate) struct Roots {
 impl Roots {
     fn of(all: impl IntoIterator<Item = f64>, h: f64) -> Roots {
         let mut out = Roots::default();
-        all.into_iter().filter(|t| (0.0..=h).contains(t)).for_each(|t| out.add(t));
+        all.into_iter()
+            .filter(|t| (0.0..=h).contains(t))
+            .for_each(|t| out.add(t));
         out
     }
 
@@ -211,8 +230,16 @@ pub(crate) fn largest_of_cubic(c: &[f64; 4], h: f64) -> (f64, f64) {
     let at = |t: f64| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
     let mut best = (0.0, c[0]);
     let slope = [c[1], 2.0 * c[2], 3.0 * c[3]];
-    let turns = if slope[2] != 0.0 { quadratic(&slope) } else { [-slope[0] / slope[1], f64::NAN] };
-    for t in turns.into_iter().filter(|t| (0.0..=h).contains(t)).chain([h]) {
+    let turns = if slope[2] != 0.0 {
+        quadratic(&slope)
+    } else {
+        [-slope[0] / slope[1], f64::NAN]
+    };
+    for t in turns
+        .into_iter()
+        .filter(|t| (0.0..=h).contains(t))
+        .chain([h])
+    {
         let value = at(t);
         if value > best.1 {
             best = (t, value);
@@ -225,9 +252,20 @@ pub(crate) fn largest_of_cubic(c: &[f64; 4], h: f64) -> (f64, f64) {
 fn quadratic(c: &[f64]) -> [f64; 2] {
     let half = -0.5 * c[1];
     let root = (half * half - c[0] * c[2]).sqrt();
-    let larger = if half >= 0.0 { half + root } else { half - root };
-    let (first, second) = (larger / c[2], if larger == 0.0 { 0.0 } else { c[0] / larger });
-    if first <= second { [first, second] } else { [second, first] }
+    let larger = if half >= 0.0 {
+        half + root
+    } else {
+        half - root
+    };
+    let (first, second) = (
+        larger / c[2],
+        if larger == 0.0 { 0.0 } else { c[0] / larger },
+    );
+    if first <= second {
+        [first, second]
+    } else {
+        [second, first]
+    }
 }
 
 /// Binomial coefficients up to 6.
@@ -252,7 +290,10 @@ mod tests {
     #[test]
     fn roots_of_a_quartic() {
         let linear = |root: f64| Polynomial::new(&[-root, 1.0]);
-        let quartic = linear(1.0).times(&linear(2.0)).times(&linear(3.0)).times(&linear(4.0));
+        let quartic = linear(1.0)
+            .times(&linear(2.0))
+            .times(&linear(3.0))
+            .times(&linear(4.0));
         let roots = quartic.roots(3.5);
         assert_eq!(roots.list().len(), 3);
         for (root, known) in roots.list().iter().zip([1.0, 2.0, 3.0]) {
@@ -268,12 +309,18 @@ mod tests {
             let c: [f64; 7] = std::array::from_fn(|_| 2.0 * random.f64() - 1.0);
             let sextic = Polynomial::new(&c);
             let h = 0.1 + 3.0 * random.f64();
-            let (place, value) = sextic.largest_above(h, f64::NEG_INFINITY).expect("there is no floor");
+            let (place, value) = sextic
+                .largest_above(h, f64::NEG_INFINITY)
+                .expect("there is no floor");
             assert!((0.0..=h).contains(&place) && value <= sextic.bound(h) + 1e-12);
-            let sampled =
-                (0..=10_000).map(|k| sextic.at(h * f64::from(k) / 1e4)).fold(f64::NEG_INFINITY, f64::max);
+            let sampled = (0..=10_000)
+                .map(|k| sextic.at(h * f64::from(k) / 1e4))
+                .fold(f64::NEG_INFINITY, f64::max);
             let scale = c.iter().rev().fold(0.0, |sum, c| sum * h + c.abs());
-            assert!(value >= sampled - 1e-14 * scale && value - sampled < 1e-6 * scale, "{value} {sampled}");
+            assert!(
+                value >= sampled - 1e-14 * scale && value - sampled < 1e-6 * scale,
+                "{value} {sampled}"
+            );
         }
     }
 }

@@ -38,11 +38,19 @@ impl CasePlan {
             if group.orders[0].trains.len() < 2 || !group.orders.iter().all(Order::is_queue) {
                 continue;
             }
-            let own: f64 = group.orders[0].trains.iter().map(|&train| most[train]).sum();
+            let own: f64 = group.orders[0]
+                .trains
+                .iter()
+                .map(|&train| most[train])
+                .sum();
             let least = floor - (sum - own);
             let mut kept: Vec<Vec<Vec<bool>>> = all
                 .iter()
-                .map(|own| own.iter().map(|(_, pieces)| vec![false; pieces.len()]).collect())
+                .map(|own| {
+                    own.iter()
+                        .map(|(_, pieces)| vec![false; pieces.len()])
+                        .collect()
+                })
                 .collect();
             for order in &group.orders {
                 self.mark(order, all, least, &mut kept);
@@ -69,7 +77,9 @@ impl CasePlan {
                         let distance = self.distance((last, *other), (train, *stance));
                         best_ahead(pieces, others, values, distance, &mut most);
                     }
-                    sums.iter_mut().zip(most).for_each(|(sum, more)| *sum += more);
+                    sums.iter_mut()
+                        .zip(most)
+                        .for_each(|(sum, more)| *sum += more);
                 }
                 sums
             });
@@ -85,12 +95,17 @@ impl CasePlan {
                         let distance = self.distance((train, *stance), (next, *other));
                         best_behind(pieces, others, values, distance, &mut most);
                     }
-                    sums.iter_mut().zip(most).for_each(|(sum, more)| *sum += more);
+                    sums.iter_mut()
+                        .zip(most)
+                        .for_each(|(sum, more)| *sum += more);
                 }
                 sums
             });
             let values: Vec<Vec<f64>> = values.collect();
-            let lists = all[train].iter().zip(kept[train].iter_mut()).zip(before[k].iter().zip(&values));
+            let lists = all[train]
+                .iter()
+                .zip(kept[train].iter_mut())
+                .zip(before[k].iter().zip(&values));
             for (((_, pieces), kept), (before, behind)) in lists {
                 for (k, piece) in pieces.iter().enumerate() {
                     kept[k] |= before[k] + behind[k] - piece.bound >= least;
@@ -103,7 +118,10 @@ impl CasePlan {
 
 /// The largest bound of the pieces of a train.
 fn most_of(own: &BoundedPieces) -> f64 {
-    own.iter().flat_map(|(_, pieces)| pieces).map(|piece| piece.bound).fold(f64::NEG_INFINITY, f64::max)
+    own.iter()
+        .flat_map(|(_, pieces)| pieces)
+        .map(|piece| piece.bound)
+        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 fn bounds(pieces: &[BoundedPiece]) -> Vec<f64> {

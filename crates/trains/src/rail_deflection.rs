@@ -46,8 +46,15 @@ impl Structure {
         let loads = self.unit_kernels(carrier, direction)?;
         let places = NODES.map(|node| carrier.x[0] + node * (carrier.x[1] - carrier.x[0]));
         let ends = chord.as_ref().map_or(&[][..], |chord| &chord[..]);
-        let probes: Vec<Probe> =
-            places.iter().chain(ends).map(|&x| Probe { rail: carrier.rail, x, axis }).collect();
+        let probes: Vec<Probe> = places
+            .iter()
+            .chain(ends)
+            .map(|&x| Probe {
+                rail: carrier.rail,
+                x,
+                axis,
+            })
+            .collect();
         let displacements = surface.displacement_lines(&probes)?;
         let mut moved = vec![0.0; probes.len()];
         let value = |probe: Probe, out: &mut [f64]| {
@@ -65,7 +72,12 @@ impl Structure {
         };
         let split = |stretch: &Stretch| self.opposite(carrier.rail, ends, stretch);
         let mut lines: Lines<POWERS> = self.lines(used, 1, split, value)?.remove(0);
-        for cubics in lines.rails.iter_mut().flatten().flat_map(|cell| &mut cell.cubics) {
+        for cubics in lines
+            .rails
+            .iter_mut()
+            .flatten()
+            .flat_map(|cell| &mut cell.cubics)
+        {
             let in_place: [[f64; POWERS]; 4] =
                 std::array::from_fn(|p| in_powers(cubics.map(|cubic| cubic[p])));
             *cubics = std::array::from_fn(|j| std::array::from_fn(|p| in_place[p][j]));
@@ -93,16 +105,26 @@ impl Structure {
 
     /// The kernel of a unit load at a probe, if it stands on the member of a carrier before the section at place s.
     fn passed(&self, loads: &[(OnMember<'_>, [Kernel; COMPONENTS])], probe: Probe, s: f64) -> f64 {
-        let (rail, is_twin) = (probe.rail % self.rails.len(), probe.rail >= self.rails.len());
-        let within =
-            |on: &OnMember<'_>| on.other.rail == rail && on.other.x[0] <= probe.x && probe.x <= on.other.x[1];
-        let Some((on, kernels)) = loads.iter().find(|(on, _)| within(on)) else { return 0.0 };
+        let (rail, is_twin) = (
+            probe.rail % self.rails.len(),
+            probe.rail >= self.rails.len(),
+        );
+        let within = |on: &OnMember<'_>| {
+            on.other.rail == rail && on.other.x[0] <= probe.x && probe.x <= on.other.x[1]
+        };
+        let Some((on, kernels)) = loads.iter().find(|(on, _)| within(on)) else {
+            return 0.0;
+        };
         let d = s - (on.start + on.rate * (probe.x - on.other.x[0]));
         if d <= 0.0 {
             return 0.0;
         }
         let component = probe.axis.component();
-        let beside = if is_twin && component < 2 { kernels[component + 3].at(d) } else { 0.0 };
+        let beside = if is_twin && component < 2 {
+            kernels[component + 3].at(d)
+        } else {
+            0.0
+        };
         kernels[component].at(d) + beside
     }
 }

@@ -50,7 +50,13 @@ pub(crate) struct Largest {
 
 impl Part {
     fn new(position: [f64; 2], cubic: Polynomial, stance: usize) -> Part {
-        Part { position, cubic, stance, sources: Default::default(), count: 0 }
+        Part {
+            position,
+            cubic,
+            stance,
+            sources: Default::default(),
+            count: 0,
+        }
     }
 
     fn with_source(mut self, source: Source) -> Part {
@@ -68,15 +74,25 @@ impl Part {
     /// The part between two positions.
     fn between(&self, [from, to]: [f64; 2]) -> Part {
         let by = from - self.position[0];
-        let cubic = if by.is_finite() && by != 0.0 { self.cubic.shifted(by) } else { self.cubic };
-        Part { position: [from, to], cubic, ..*self }
+        let cubic = if by.is_finite() && by != 0.0 {
+            self.cubic.shifted(by)
+        } else {
+            self.cubic
+        };
+        Part {
+            position: [from, to],
+            cubic,
+            ..*self
+        }
     }
 }
 
 impl PiecewiseFunction {
     /// A function without pieces, with memory for some.
     fn with_room(pieces: usize) -> PiecewiseFunction {
-        PiecewiseFunction { pieces: Vec::with_capacity(pieces) }
+        PiecewiseFunction {
+            pieces: Vec::with_capacity(pieces),
+        }
     }
 
     /// Adds a piece behind the others.
@@ -91,13 +107,20 @@ impl PiecewiseFunction {
     /// Sign times a response in a stance, without the pieces that do not reach `floor`.
     pub fn of(pieces: &[ResponsePiece], sign: f64, stance: usize, floor: f64) -> PiecewiseFunction {
         let part = |piece: &ResponsePiece| Part::new(piece.position, piece.times(sign), stance);
-        let kept = pieces.iter().filter(|piece| floor == f64::NEG_INFINITY || piece.bound(sign) >= floor);
-        PiecewiseFunction { pieces: kept.map(part).collect() }
+        let kept = pieces
+            .iter()
+            .filter(|piece| floor == f64::NEG_INFINITY || piece.bound(sign) >= floor);
+        PiecewiseFunction {
+            pieces: kept.map(part).collect(),
+        }
     }
 
     /// What the function nowhere exceeds: the largest of the bounds of its pieces.
     pub fn bound(&self) -> f64 {
-        self.pieces.iter().map(|part| part.cubic.bound(part.length())).fold(f64::NEG_INFINITY, f64::max)
+        self.pieces
+            .iter()
+            .map(|part| part.cubic.bound(part.length()))
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The largest value, at the first position that has it.
@@ -108,7 +131,11 @@ impl PiecewiseFunction {
             if let Some((t, value)) = part.cubic.largest_above(part.length(), floor)
                 && value > floor
             {
-                best = Some(Largest { position: part.position[0] + t, value, part: index });
+                best = Some(Largest {
+                    position: part.position[0] + t,
+                    value,
+                    part: index,
+                });
             }
         }
         best
@@ -126,7 +153,9 @@ impl PiecewiseFunction {
             let back = part.cubic.shifted(part.length()).reversed();
             Part::new([-part.position[1], -part.position[0]], back, part.stance)
         };
-        PiecewiseFunction { pieces: self.pieces.iter().rev().map(turn).collect() }
+        PiecewiseFunction {
+            pieces: self.pieces.iter().rev().map(turn).collect(),
+        }
     }
 }
 
@@ -135,11 +164,21 @@ impl PiecewiseFunction {
 fn overlaps(f: &PiecewiseFunction, g: &PiecewiseFunction, mut each: impl FnMut(Part, Part)) {
     let mut first = 0;
     for a in &f.pieces {
-        first += g.pieces[first..].iter().take_while(|b| b.position[1] < a.position[0]).count();
-        for b in g.pieces[first..].iter().take_while(|b| b.position[0] <= a.position[1]) {
-            let both = [a.position[0].max(b.position[0]), a.position[1].min(b.position[1])];
+        first += g.pieces[first..]
+            .iter()
+            .take_while(|b| b.position[1] < a.position[0])
+            .count();
+        for b in g.pieces[first..]
+            .iter()
+            .take_while(|b| b.position[0] <= a.position[1])
+        {
+            let both = [
+                a.position[0].max(b.position[0]),
+                a.position[1].min(b.position[1]),
+            ];
             let rounding = ROUNDING * both[0].abs().max(both[1].abs());
-            let touch = both[1] - both[0] <= rounding && a.length() > rounding && b.length() > rounding;
+            let touch =
+                both[1] - both[0] <= rounding && a.length() > rounding && b.length() > rounding;
             if both[0] <= both[1] && !touch {
                 each(a.between(both), b.between(both));
             }
@@ -152,10 +191,16 @@ fn outside(f: &PiecewiseFunction, g: &PiecewiseFunction, out: &mut Vec<Part>) {
     let mut first = 0;
     for a in &f.pieces {
         let [start, end] = a.position;
-        first += g.pieces[first..].iter().take_while(|b| b.position[1] < start).count();
+        first += g.pieces[first..]
+            .iter()
+            .take_while(|b| b.position[1] < start)
+            .count();
         let mut from = start;
         let mut is_covered = false;
-        for b in g.pieces[first..].iter().take_while(|b| b.position[0] <= end) {
+        for b in g.pieces[first..]
+            .iter()
+            .take_while(|b| b.position[0] <= end)
+        {
             if b.position[0] > from {
                 out.push(a.between([from, b.position[0]]));
             }
@@ -177,8 +222,16 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
         let mut from = 0.0;
         for &to in roots.list().iter().chain(&[a.length()]) {
             if to > from || a.length() == 0.0 {
-                let more = if difference.at(0.5 * (from + to)) >= 0.0 { &a } else { &b };
-                let end = if to >= a.length() { a.position[1] } else { a.position[0] + to };
+                let more = if difference.at(0.5 * (from + to)) >= 0.0 {
+                    &a
+                } else {
+                    &b
+                };
+                let end = if to >= a.length() {
+                    a.position[1]
+                } else {
+                    a.position[0] + to
+                };
                 out.pieces.push(more.between([a.position[0] + from, end]));
                 from = to;
             }
@@ -187,7 +240,9 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
     outside(f, g, &mut out.pieces);
     outside(g, f, &mut out.pieces);
     out.pieces.sort_by(|a, b| {
-        a.position[0].total_cmp(&b.position[0]).then(a.position[1].total_cmp(&b.position[1]))
+        a.position[0]
+            .total_cmp(&b.position[0])
+            .then(a.position[1].total_cmp(&b.position[1]))
     });
     out
 }
@@ -199,10 +254,19 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
     let mut most = f64::NEG_INFINITY;
     let mut source = Source::default();
     let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
-        out.pieces.push(Part::new(ends.map(|x| x + distance), cubic, 0).with_source(source));
+        out.pieces
+            .push(Part::new(ends.map(|x| x + distance), cubic, 0).with_source(source));
     };
     let mut reached_to = f64::INFINITY;
-    for (part, Part { position: [start, end], cubic, .. }) in f.pieces.iter().enumerate() {
+    for (
+        part,
+        Part {
+            position: [start, end],
+            cubic,
+            ..
+        },
+    ) in f.pieces.iter().enumerate()
+    {
         if *start > reached_to {
             add([reached_to, *start], Polynomial::new(&[most]), source);
         }
@@ -210,7 +274,10 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
         let places = cubic.candidates(end - start);
         if cubic.at(0.0) > most {
             most = cubic.at(0.0);
-            source = Source { part, position: Some(*start) };
+            source = Source {
+                part,
+                position: Some(*start),
+            };
         }
         for ends in places.list().windows(2) {
             let (from, to) = (start + ends[0], start + ends[1]);
@@ -219,19 +286,37 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
                 add([from, to], Polynomial::new(&[most]), source);
                 continue;
             }
-            let reached = if cubic.at(ends[0]) >= most { ends[0] } else { crossing(cubic, most, ends) };
+            let reached = if cubic.at(ends[0]) >= most {
+                ends[0]
+            } else {
+                crossing(cubic, most, ends)
+            };
             if reached > ends[0] {
                 add([from, start + reached], Polynomial::new(&[most]), source);
             }
-            add([start + reached, to], cubic.shifted(reached), Source { part, position: None });
+            add(
+                [start + reached, to],
+                cubic.shifted(reached),
+                Source {
+                    part,
+                    position: None,
+                },
+            );
             most = value;
-            source = Source { part, position: Some(to) };
+            source = Source {
+                part,
+                position: Some(to),
+            };
         }
         if places.list().len() < 2 {
             add([*start, *end], Polynomial::new(&[most]), source);
         }
     }
-    add([reached_to, f64::INFINITY], Polynomial::new(&[most]), source);
+    add(
+        [reached_to, f64::INFINITY],
+        Polynomial::new(&[most]),
+        source,
+    );
     out
 }
 
@@ -245,7 +330,11 @@ fn crossing(cubic: &Polynomial, level: f64, ends: &[f64]) -> f64 {
         if middle <= a || middle >= b {
             break;
         }
-        if above.at(middle) < 0.0 { a = middle } else { b = middle }
+        if above.at(middle) < 0.0 {
+            a = middle
+        } else {
+            b = middle
+        }
     }
     b
 }
@@ -256,7 +345,8 @@ fn around(function: &Polynomial, ends: [f64; 2]) -> [f64; 2] {
     let near = function.root_from(0.5 * (ends[0] + ends[1]));
     let width = NARROW * (ends[1].abs() + ends[0].abs());
     let narrow = [(near - width).max(ends[0]), (near + width).min(ends[1])];
-    let holds = narrow[0] < narrow[1] && function.at(narrow[0]) < 0.0 && function.at(narrow[1]) >= 0.0;
+    let holds =
+        narrow[0] < narrow[1] && function.at(narrow[0]) < 0.0 && function.at(narrow[1]) >= 0.0;
     if holds { narrow } else { ends }
 }
 
@@ -265,7 +355,10 @@ fn around(function: &Polynomial, ends: [f64; 2]) -> [f64; 2] {
 pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<PiecewiseFunction> {
     let mut out = PiecewiseFunction::with_room(f.pieces.len() + g.pieces.len());
     overlaps(f, g, |a, b| {
-        let sum = Part { cubic: a.cubic.plus(&b.cubic, 1.0), ..a };
+        let sum = Part {
+            cubic: a.cubic.plus(&b.cubic, 1.0),
+            ..a
+        };
         out.pieces.push(sum.with_source(b.sources[0]));
     });
     (!out.pieces.is_empty()).then_some(out)
@@ -276,7 +369,10 @@ mod tests {
     use super::*;
 
     fn value_of(f: &PiecewiseFunction, at: f64) -> f64 {
-        let part = f.pieces.iter().find(|part| part.position[0] <= at && at <= part.position[1]);
+        let part = f
+            .pieces
+            .iter()
+            .find(|part| part.position[0] <= at && at <= part.position[1]);
         let part = part.expect("the function is defined there");
         part.cubic.at(at - part.position[0])
     }
@@ -285,7 +381,8 @@ mod tests {
         let mut f = PiecewiseFunction::default();
         for ends in breaks.windows(2) {
             let c: [f64; 4] = std::array::from_fn(|_| 2.0 * random.f64() - 1.0);
-            f.pieces.push(Part::new([ends[0], ends[1]], Polynomial::new(&c), 0));
+            f.pieces
+                .push(Part::new([ends[0], ends[1]], Polynomial::new(&c), 0));
         }
         f
     }
@@ -297,8 +394,11 @@ mod tests {
         for _ in 0..50 {
             let f = random(&mut dice, &[0.0, 1.0, 2.5, 4.0]);
             let g = random(&mut dice, &[0.0, 0.7, 2.5, 3.0, 4.0]);
-            let (larger, sum, mirrored) =
-                (larger_of(&f, &g), sum_of(&f, &g).expect("both are defined"), f.mirrored());
+            let (larger, sum, mirrored) = (
+                larger_of(&f, &g),
+                sum_of(&f, &g).expect("both are defined"),
+                f.mirrored(),
+            );
             for k in 0..400 {
                 let p = f64::from(k) / 100.0 + 0.003;
                 let (a, b) = (value_of(&f, p), value_of(&g, p));
@@ -327,7 +427,10 @@ mod tests {
                         .collect(),
                 };
                 let known = before.largest().expect("p is within f").value;
-                assert!((value_of(&running, p + 0.5) - known).abs() < 1e-13, "at {p}");
+                assert!(
+                    (value_of(&running, p + 0.5) - known).abs() < 1e-13,
+                    "at {p}"
+                );
             }
         }
     }

@@ -83,15 +83,22 @@ impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
     /// Sign times the envelope at x; its state is offered as the best.
     fn at(&mut self, x: f64) -> Result<f64, Error> {
         let found = (self.value)(x)?;
-        let signed = found.as_ref().map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
+        let signed = found
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
         self.offer(found);
         Ok(signed)
     }
 
     /// Improves the best value by golden sections within a distance of its place.
     pub fn polish(&mut self, distance: f64) -> Result<(), Error> {
-        let Some(x) = self.best.as_ref().map(|best| best.x) else { return Ok(()) };
-        let (mut a, mut b) = ((x - distance).max(self.window[0]), (x + distance).min(self.window[1]));
+        let Some(x) = self.best.as_ref().map(|best| best.x) else {
+            return Ok(());
+        };
+        let (mut a, mut b) = (
+            (x - distance).max(self.window[0]),
+            (x + distance).min(self.window[1]),
+        );
         let mut inner = [b - GOLDEN * (b - a), a + GOLDEN * (b - a)];
         let mut values = [self.at(inner[0])?, self.at(inner[1])?];
         for _ in 0..45 {
@@ -111,26 +118,43 @@ impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
     }
 
     fn interval(&self, x: [f64; 2], values: [f64; 2]) -> Interval {
-        Interval { x, values, bound: values[0].max(values[1]) + (self.margin)(x) }
+        Interval {
+            x,
+            values,
+            bound: values[0].max(values[1]) + (self.margin)(x),
+        }
     }
 
     /// Divides the intervals that may hold more than the best, widest bound first.
     pub fn run(&mut self) -> Result<(), Error> {
         let [from, to] = self.window;
-        let place = |k: usize| if k == PARTS { to } else { from + (to - from) * k as f64 / PARTS as f64 };
+        let place = |k: usize| {
+            if k == PARTS {
+                to
+            } else {
+                from + (to - from) * k as f64 / PARTS as f64
+            }
+        };
         let mut values = Vec::with_capacity(PARTS + 1);
         for k in 0..=PARTS {
             values.push(self.at(place(k))?);
         }
-        let mut open: Vec<Interval> =
-            (0..PARTS).map(|k| self.interval([place(k), place(k + 1)], [values[k], values[k + 1]])).collect();
+        let mut open: Vec<Interval> = (0..PARTS)
+            .map(|k| self.interval([place(k), place(k + 1)], [values[k], values[k + 1]]))
+            .collect();
         let mut evaluations = PARTS + 1;
-        let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let largest = values
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
         loop {
-            let best = self.best.as_ref().map_or(self.known, |g| self.known.max(self.sign * g.value));
+            let best = self
+                .best
+                .as_ref()
+                .map_or(self.known, |g| self.known.max(self.sign * g.value));
             let limit = best + self.gap * largest.max(self.size);
             open.retain(|interval| interval.bound > limit);
-            let Some(widest) = (0..open.len()).max_by(|&a, &b| open[a].bound.total_cmp(&open[b].bound))
+            let Some(widest) =
+                (0..open.len()).max_by(|&a, &b| open[a].bound.total_cmp(&open[b].bound))
             else {
                 self.bound = limit;
                 self.is_closed = true;

@@ -47,9 +47,18 @@ impl Change {
     fn new(carrier: &Carrier, jump: [f64; QUANTITIES], kernels: [Kernel; 2]) -> Change {
         let of = |k: usize| {
             let bent = carrier.bent.as_ref().and_then(|bent| bent.passed(k, &jump));
-            bent.unwrap_or([jump[k], slope_index(k).map_or(0.0, |shear| jump[shear]), 0.0, 0.0])
+            bent.unwrap_or([
+                jump[k],
+                slope_index(k).map_or(0.0, |shear| jump[shear]),
+                0.0,
+                0.0,
+            ])
         };
-        Change { jump, passed: std::array::from_fn(of), kernels }
+        Change {
+            jump,
+            passed: std::array::from_fn(of),
+            kernels,
+        }
     }
 }
 
@@ -103,7 +112,12 @@ impl WheelOnMember {
         let rate = self.rate;
         let [slope, bend] = [b + lever * (2.0 * c + lever * 3.0 * d), c + 3.0 * d * lever];
         let value = a + lever * (b + lever * (c + lever * d));
-        [value, -rate * slope, rate * rate * bend, -rate * rate * rate * d]
+        [
+            value,
+            -rate * slope,
+            rate * rate * bend,
+            -rate * rate * rate * d,
+        ]
     }
 }
 
@@ -113,20 +127,39 @@ pub(crate) fn slope_index(k: usize) -> Option<usize> {
 }
 
 impl TrainOnCarrier {
-    fn new(structure: &Structure, carrier: &Carrier, train: &PlacedTrain) -> Result<TrainOnCarrier, Error> {
+    fn new(
+        structure: &Structure,
+        carrier: &Carrier,
+        train: &PlacedTrain,
+    ) -> Result<TrainOnCarrier, Error> {
         let mut mappings = Vec::new();
         let point = RailPoint::new(structure, carrier)?;
-        for OnMember { other, stretch, start, rate } in structure.on_member(carrier) {
+        for OnMember {
+            other,
+            stretch,
+            start,
+            rate,
+        } in structure.on_member(carrier)
+        {
             let mut units = [[Vector3::zeros(); 2]; COMPONENTS];
             for (component, unit) in units.iter_mut().enumerate() {
                 *unit = structure.load(stretch, component)?;
             }
             let change = |wheel: &crate::train::PlacedWheel| {
                 let total = |part: usize| -> Vector3<f64> {
-                    wheel.load.iter().zip(&units).map(|(load, unit)| unit[part] * *load).sum()
+                    wheel
+                        .load
+                        .iter()
+                        .zip(&units)
+                        .map(|(load, unit)| unit[part] * *load)
+                        .sum()
                 };
                 let (force, couple) = (total(0), total(1));
-                Change::new(carrier, carrier.jump_of_load(&force, &couple), point.kernels(&force, &couple))
+                Change::new(
+                    carrier,
+                    carrier.jump_of_load(&force, &couple),
+                    point.kernels(&force, &couple),
+                )
             };
             mappings.push(Mapping {
                 rail: other.rail,
@@ -140,25 +173,39 @@ impl TrainOnCarrier {
         let offsets = train.wheels.iter().map(|wheel| wheel.offset).collect();
         let rails = train.wheels.iter().map(|wheel| wheel.rail).collect();
         let bent = carrier.bent.clone();
-        Ok(TrainOnCarrier { mappings, offsets, rails, length: carrier.length, bent })
+        Ok(TrainOnCarrier {
+            mappings,
+            offsets,
+            rails,
+            length: carrier.length,
+            bent,
+        })
     }
 
     /// The rail elements of the member with the wheels that can stand on them.
     fn reaching(&self) -> impl Iterator<Item = (&Mapping, usize)> {
         let wheels = self.rails.iter().enumerate();
-        let pairs =
-            wheels.flat_map(|(wheel, rail)| self.mappings.iter().map(move |mapping| (mapping, wheel, *rail)));
-        pairs.filter(|(mapping, _, rail)| mapping.rail == *rail).map(|(mapping, wheel, _)| (mapping, wheel))
+        let pairs = wheels.flat_map(|(wheel, rail)| {
+            self.mappings
+                .iter()
+                .map(move |mapping| (mapping, wheel, *rail))
+        });
+        pairs
+            .filter(|(mapping, _, rail)| mapping.rail == *rail)
+            .map(|(mapping, wheel, _)| (mapping, wheel))
     }
 
     /// By how much quantity k changes where each wheel that can stand on the member has been passed.
     pub fn jumps(&self, k: usize) -> impl Iterator<Item = f64> {
-        self.reaching().map(move |(mapping, wheel)| mapping.changes[wheel].jump[k])
+        self.reaching()
+            .map(move |(mapping, wheel)| mapping.changes[wheel].jump[k])
     }
 
     /// Sum of the jumps of the slope of a deflection under all wheels that can stand on the member.
     pub fn kinks(&self, direction: usize) -> f64 {
-        self.reaching().map(|(mapping, wheel)| mapping.changes[wheel].kernels[direction].slope().abs()).sum()
+        self.reaching()
+            .map(|(mapping, wheel)| mapping.changes[wheel].kernels[direction].slope().abs())
+            .sum()
     }
 
     /// The rails of the member on which wheels of the train can stand.
@@ -177,8 +224,18 @@ impl TrainOnCarrier {
     }
 
     /// Adds the rail coordinates of the carrier opposite to a wheel that stands on the member.
-    pub fn coordinate_of(&self, carrier: &Carrier, position: f64, wheel: usize, out: &mut Vec<f64>) {
-        for mapping in self.mappings.iter().filter(|mapping| mapping.rail == self.rails[wheel]) {
+    pub fn coordinate_of(
+        &self,
+        carrier: &Carrier,
+        position: f64,
+        wheel: usize,
+        out: &mut Vec<f64>,
+    ) {
+        for mapping in self
+            .mappings
+            .iter()
+            .filter(|mapping| mapping.rail == self.rails[wheel])
+        {
             let s = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
             if (-1e-9 * self.length..=(1.0 + 1e-9) * self.length).contains(&s) {
                 out.push(carrier.coordinate(s.clamp(0.0, self.length)));
@@ -197,7 +254,9 @@ impl TrainOnCarrier {
         let mut places: Vec<f64> = self.reaching().map(place).collect();
         places.sort_by(f64::total_cmp);
         let distances = places.windows(2).map(|pair| pair[1] - pair[0]);
-        distances.filter(|distance| *distance > 1e-12 * self.length).fold(f64::INFINITY, f64::min)
+        distances
+            .filter(|distance| *distance > 1e-12 * self.length)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Length of the member.
@@ -221,11 +280,20 @@ impl TrainOnCarrier {
         let mut out = Vec::new();
         let position = pieces.list[piece].position[0];
         for (wheel, stretch) in pieces.stretches(piece).iter().enumerate() {
-            let Some(mapping) = self.mappings.iter().find(|mapping| Some(mapping.stretch) == *stretch) else {
+            let Some(mapping) = self
+                .mappings
+                .iter()
+                .find(|mapping| Some(mapping.stretch) == *stretch)
+            else {
                 continue;
             };
             let start = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
-            out.push(WheelOnMember { wheel, start, rate: mapping.rate, change: mapping.changes[wheel] });
+            out.push(WheelOnMember {
+                wheel,
+                start,
+                rate: mapping.rate,
+                change: mapping.changes[wheel],
+            });
         }
         out.sort_by(|a, b| a.start.total_cmp(&b.start));
         out
@@ -254,11 +322,20 @@ impl Passage {
     ) -> Result<Passage, Error> {
         let slack = structure.slack();
         let pieces = Pieces::sum(&lines.forces, train, slack);
-        let of = |lines: &Option<Lines<POWERS>>| lines.as_ref().map(|lines| Pieces::sum(lines, train, slack));
+        let of = |lines: &Option<Lines<POWERS>>| {
+            lines.as_ref().map(|lines| Pieces::sum(lines, train, slack))
+        };
         let deflections = [of(&lines.deflections[0]), of(&lines.deflections[1])];
         let on = TrainOnCarrier::new(structure, carrier, train)?;
-        let wheels = (0..pieces.list.len()).map(|piece| on.wheels(&pieces, piece)).collect();
-        Ok(Passage { on, pieces, deflections, wheels })
+        let wheels = (0..pieces.list.len())
+            .map(|piece| on.wheels(&pieces, piece))
+            .collect();
+        Ok(Passage {
+            on,
+            pieces,
+            deflections,
+            wheels,
+        })
     }
 
     /// The wheels on the member in a piece, by increasing place.
@@ -269,7 +346,9 @@ impl Passage {
     /// Response k at place s in a piece, with no wheel passed.
     fn base(&self, piece: usize, k: usize, s: f64) -> [f64; 4] {
         if let Some(direction) = k.checked_sub(QUANTITIES) {
-            let Some(pieces) = &self.deflections[direction] else { return [0.0; 4] };
+            let Some(pieces) = &self.deflections[direction] else {
+                return [0.0; 4];
+            };
             let [a, b, c, d] = &pieces.list[piece].cubics;
             let u = s / self.on.length;
             return std::array::from_fn(|p| a[p] + u * (b[p] + u * (c[p] + u * d[p])));
@@ -278,11 +357,15 @@ impl Passage {
         if let Some(row) = self.on.bent_row(k) {
             let mut sum = [0.0; 4];
             for (factor, of) in row.map(|(cubic, of)| (value_of_cubic(cubic, s), of)) {
-                sum.iter_mut().zip(&cubics[of]).for_each(|(sum, c)| *sum += factor * c);
+                sum.iter_mut()
+                    .zip(&cubics[of])
+                    .for_each(|(sum, c)| *sum += factor * c);
             }
             return sum;
         }
-        let Some(shear) = slope_index(k) else { return cubics[k] };
+        let Some(shear) = slope_index(k) else {
+            return cubics[k];
+        };
         std::array::from_fn(|p| cubics[k][p] + s * cubics[shear][p])
     }
 
@@ -293,7 +376,11 @@ impl Passage {
         let base = self.base(piece, k, s);
         let wheels = &self.wheels[piece];
         let whole = &self.pieces.list[piece];
-        let part = |position, cubic, part| ResponsePiece { position, cubic, origin: [piece, part] };
+        let part = |position, cubic, part| ResponsePiece {
+            position,
+            cubic,
+            origin: [piece, part],
+        };
         let h = whole.length();
         let slack = 1e-12 * self.on.length;
         let passage = |wheel: &WheelOnMember| (s - wheel.start) / wheel.rate;
@@ -303,9 +390,14 @@ impl Passage {
         };
         if !wheels.iter().any(is_near) {
             let mut cubic = base;
-            let passed = wheels.iter().filter(|wheel| (0.5 * h > passage(wheel)) != (wheel.rate > 0.0));
+            let passed = wheels
+                .iter()
+                .filter(|wheel| (0.5 * h > passage(wheel)) != (wheel.rate > 0.0));
             for wheel in passed {
-                cubic.iter_mut().zip(wheel.passed(k, s)).for_each(|(sum, c)| *sum += c);
+                cubic
+                    .iter_mut()
+                    .zip(wheel.passed(k, s))
+                    .for_each(|(sum, c)| *sum += c);
             }
             each(part(whole.position, cubic, 0));
             return;
@@ -327,18 +419,32 @@ impl Passage {
                     Side::After => *passage <= h + slack,
                 };
                 if later != (wheel.rate > 0.0) {
-                    cubic.iter_mut().zip(wheel.passed(k, s)).for_each(|(sum, c)| *sum += c);
+                    cubic
+                        .iter_mut()
+                        .zip(wheel.passed(k, s))
+                        .for_each(|(sum, c)| *sum += c);
                 }
             }
-            let at = |t: f64| if t >= h { whole.position[1] } else { whole.position[0] + t };
-            each(part([at(ends[0]), at(ends[1])], shifted(&cubic, ends[0]), index));
+            let at = |t: f64| {
+                if t >= h {
+                    whole.position[1]
+                } else {
+                    whole.position[0] + t
+                }
+            };
+            each(part(
+                [at(ends[0]), at(ends[1])],
+                shifted(&cubic, ends[0]),
+                index,
+            ));
         }
     }
 
     /// Response k of the section at place s, in all positions.
     pub fn response(&self, k: usize, s: f64) -> Vec<ResponsePiece> {
         let mut out = Vec::with_capacity(self.pieces.list.len() + 2 * self.on.offsets.len());
-        (0..self.pieces.list.len()).for_each(|piece| self.parts(piece, k, s, |part| out.push(part)));
+        (0..self.pieces.list.len())
+            .for_each(|piece| self.parts(piece, k, s, |part| out.push(part)));
         out
     }
 
@@ -367,7 +473,10 @@ impl Passage {
             let powers = [1.0, h, h * h, h * h * h];
             // Cubic in the place: equal where it is equal at four sections.
             let same_base = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].into_iter().all(|u| {
-                let (a, b) = (self.base(piece, k, u * length), other.base(piece, k, u * length));
+                let (a, b) = (
+                    self.base(piece, k, u * length),
+                    other.base(piece, k, u * length),
+                );
                 (0..4).all(|p| near(a[p] * powers[p], b[p] * powers[p]))
             });
             let (wheels, others) = (&self.wheels[piece], &other.wheels[piece]);
@@ -391,7 +500,8 @@ impl Passage {
             let [a, b, c, d] = self.base(piece, k, s).map(f64::abs);
             a + h * (b + h * (c + h * d))
         };
-        let ends = (0..self.pieces.list.len()).map(|piece| of(piece, 0.0).max(of(piece, self.on.length)));
+        let ends =
+            (0..self.pieces.list.len()).map(|piece| of(piece, 0.0).max(of(piece, self.on.length)));
         ends.fold(0.0, f64::max)
     }
 }

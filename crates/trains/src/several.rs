@@ -42,7 +42,9 @@ pub(crate) fn enclosed(
         && has_one_rail(over)
     {
         let found = beside_wheels(plan, over, carrier, target);
-        let value = found.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
+        let value = found
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
         return Ok(Some((found, value)));
     }
     let quantity = GirderResponse::ALL[target.k];
@@ -68,16 +70,26 @@ pub(crate) fn enclosed(
             }
         }))
     });
-    let lever = if slope_index(target.k).is_some() { carrier.length } else { 1.0 };
+    let lever = if slope_index(target.k).is_some() {
+        carrier.length
+    } else {
+        1.0
+    };
     search.size = ZERO * forces(plan) * lever;
     search.known = known;
     search.run()?;
-    let is_larger = search.best.as_ref().is_some_and(|best| target.sign * best.value > known);
+    let is_larger = search
+        .best
+        .as_ref()
+        .is_some_and(|best| target.sign * best.value > known);
     if is_larger && !search.is_closed() {
         search.polish((window[1] - window[0]) / 40.0)?;
     }
     let bound = search.bound;
-    let value = search.best.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
+    let value = search
+        .best
+        .as_ref()
+        .map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
     Ok(Some((search.best, bound.max(value))))
 }
 
@@ -85,7 +97,8 @@ pub(crate) fn enclosed(
 fn has_one_rail(over: &Overrun) -> bool {
     let mut rails = over.all().flat_map(|passage| passage.on.reached_rails());
     let first = rails.next();
-    rails.all(|rail| Some(rail) == first) && !over.all().any(|passage| passage.on.has_opposed_wheels())
+    rails.all(|rail| Some(rail) == first)
+        && !over.all().any(|passage| passage.on.has_opposed_wheels())
 }
 
 /// The largest value of a force beside any wheel within the window.
@@ -118,20 +131,38 @@ fn beside_wheels(
         for wheel in 0..stances[0].wheels.len() {
             for side in [SectionSide::Before, SectionSide::Behind] {
                 let beside = |stance: usize| {
-                    (stance, over.passages[train][stance].beside(target, wheel, side, stance))
+                    (
+                        stance,
+                        over.passages[train][stance].beside(target, wheel, side, stance),
+                    )
                 };
-                let within = (0..stances.len()).map(beside).filter(|(_, function)| !function.is_empty());
+                let within = (0..stances.len())
+                    .map(beside)
+                    .filter(|(_, function)| !function.is_empty());
                 let following = plan.ways(train, within);
-                let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
+                let Some(found) = plan.best_around(train, &following, &passed, &ahead) else {
+                    continue;
+                };
                 let standing = found.trains[train];
                 let mut at = Vec::new();
                 let on = &over.passages[train][standing.stance].on;
                 on.coordinate_of(carrier, standing.position, wheel, &mut at);
-                let Some(x) = at.first().copied() else { continue };
-                let dead = target.dead.at(GirderResponse::ALL[target.k], carrier.place(x));
+                let Some(x) = at.first().copied() else {
+                    continue;
+                };
+                let dead = target
+                    .dead
+                    .at(GirderResponse::ALL[target.k], carrier.place(x));
                 let value = target.sign * found.signed;
                 let trains = standings(plan, &found);
-                let governing = Governing { value, dead, x, side, trains, coincident: [0.0; 3] };
+                let governing = Governing {
+                    value,
+                    dead,
+                    x,
+                    side,
+                    trains,
+                    coincident: [0.0; 3],
+                };
                 offer(&mut best, Some(governing), target.sign);
             }
         }
@@ -147,7 +178,9 @@ fn is_bent(over: &Overrun, k: usize) -> bool {
 /// Sum of the forces of all wheels.
 fn forces(plan: &CasePlan) -> f64 {
     let wheels = plan.trains.iter().flat_map(|stances| &stances[0].wheels);
-    wheels.map(|wheel| wheel.load[..3].iter().map(|f| f * f).sum::<f64>().sqrt()).sum()
+    wheels
+        .map(|wheel| wheel.load[..3].iter().map(|f| f * f).sum::<f64>().sqrt())
+        .sum()
 }
 
 /// Whether sign times the quantity changes along the member in one direction only or, for a moment, is convex.
@@ -155,12 +188,17 @@ fn is_extreme_at_ends(over: &Overrun, target: &Target<'_>) -> bool {
     if is_bent(over, target.k) {
         return false;
     }
-    let steps =
-        |k: usize| over.all().flat_map(move |passage| passage.on.jumps(k)).map(|jump| target.sign * jump);
+    let steps = |k: usize| {
+        over.all()
+            .flat_map(move |passage| passage.on.jumps(k))
+            .map(|jump| target.sign * jump)
+    };
     let [_, slope, bend, _] = target.dead.cubic(target.k).map(|c| target.sign * c);
     match slope_index(target.k) {
         Some(shear) => {
-            steps(shear).all(|jump| jump >= 0.0) && steps(target.k).all(|jump| jump == 0.0) && bend >= 0.0
+            steps(shear).all(|jump| jump >= 0.0)
+                && steps(target.k).all(|jump| jump == 0.0)
+                && bend >= 0.0
         }
         None => {
             let all_of = |sign: f64| {

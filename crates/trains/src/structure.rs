@@ -26,8 +26,10 @@ const CHEBYSHEV: f64 = 3072.0;
 pub(crate) const QUANTITIES: usize = 6;
 
 /// The deflections, downwards and along +z.
-pub(crate) const DEFLECTIONS: [GirderResponse; 2] =
-    [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection];
+pub(crate) const DEFLECTIONS: [GirderResponse; 2] = [
+    GirderResponse::VerticalDeflection,
+    GirderResponse::LateralDeflection,
+];
 
 /// An internal force of a member that carries a rail, or the deflection of the rail.
 ///
@@ -132,19 +134,35 @@ impl Carrier {
 
     /// Rail coordinate of a place.
     pub fn coordinate(&self, s: f64) -> f64 {
-        if s >= self.length { self.x[1] } else { self.x[0] + s / self.rate() }
+        if s >= self.length {
+            self.x[1]
+        } else {
+            self.x[0] + s / self.rate()
+        }
     }
 
     /// The whole member, if this is its first part.
     pub fn whole_from_first(&self) -> Option<Carrier> {
         let is_whole = self.length == self.whole;
-        let x = if is_whole { self.x } else { [self.x[0], self.x[0] + self.whole / self.rate()] };
-        (self.start == 0.0).then(|| Carrier { x, length: self.whole, ..self.clone() })
+        let x = if is_whole {
+            self.x
+        } else {
+            [self.x[0], self.x[0] + self.whole / self.rate()]
+        };
+        (self.start == 0.0).then(|| Carrier {
+            x,
+            length: self.whole,
+            ..self.clone()
+        })
     }
 
     /// The fraction of the whole member, in the direction of its own local x, at a place.
     pub fn fraction(&self, s: f64) -> f64 {
-        let along = if self.start == 0.0 { s / self.whole } else { (self.start + s) / self.whole };
+        let along = if self.start == 0.0 {
+            s / self.whole
+        } else {
+            (self.start + s) / self.whole
+        };
         if self.reversed { 1.0 - along } else { along }
     }
 
@@ -152,7 +170,11 @@ impl Carrier {
     fn coordinate_on_whole(&self, s: f64) -> f64 {
         let own = s - self.start;
         // beyond this part, for which the end would be taken
-        if own > self.length { self.x[0] + own / self.rate() } else { self.coordinate(own) }
+        if own > self.length {
+            self.x[0] + own / self.rate()
+        } else {
+            self.coordinate(own)
+        }
     }
 
     /// Length of the member per length of rail.
@@ -183,7 +205,8 @@ impl Carrier {
     /// The quantities by the six components of the internal force of the member in its own axes, as the structural
     /// solver gives them for the face that looks along its local x.
     pub fn quantities(&self, own: [f64; 6]) -> [f64; QUANTITIES] {
-        let vector = |k: usize| -> Vector3<f64> { (0..3).map(|i| self.local[i] * own[k + i]).sum() };
+        let vector =
+            |k: usize| -> Vector3<f64> { (0..3).map(|i| self.local[i] * own[k + i]).sum() };
         // The part before the section feels minus jump: the force on its face balances what it carries.
         let sign = if self.reversed { 1.0 } else { -1.0 };
         self.jump(&(sign * vector(0)), &(sign * vector(3)))
@@ -246,7 +269,13 @@ impl Structure {
     /// # Errors
     /// A model or a rail that cannot be used, or a structure that can move without strain.
     pub fn new(model: &Model, rails: &[Rail], eccentric: bool) -> Result<Structure, Error> {
-        let own: Vec<Rail> = rails.iter().map(|rail| Rail { stations: Vec::new(), ..rail.clone() }).collect();
+        let own: Vec<Rail> = rails
+            .iter()
+            .map(|rail| Rail {
+                stations: Vec::new(),
+                ..rail.clone()
+            })
+            .collect();
         let up = Vector3::from(model.up);
         let mut all = own.clone();
         if eccentric {
@@ -259,26 +288,36 @@ impl Structure {
             .map(|(index, rail)| rail_frame(index, rail, &up, &frame))
             .collect::<Result<_, _>>()?;
         let all = frames.iter_mut().flat_map(|rail| &mut rail.stretches);
-        all.enumerate().for_each(|(number, stretch)| stretch.number = number);
+        all.enumerate()
+            .for_each(|(number, stretch)| stretch.number = number);
         let mut carriers = Vec::new();
         for stretch in frames.iter().flat_map(|rail| &rail.stretches) {
             let element = &frame.line()?.elements()[stretch.element];
-            let Some(member) = element.member.filter(|_| element.ends[0] != element.ends[1]) else {
+            let Some(member) = element
+                .member
+                .filter(|_| element.ends[0] != element.ends[1])
+            else {
                 continue;
             };
             let axes = &frames[stretch.rail].axes;
             let global = |v: [f64; 3]| axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2];
             let t = global(element.frame[0]);
             let across = up - t * t.dot(&up);
-            let u =
-                if across.norm() > 1e-9 * up.norm() { across.normalize() } else { global(element.frame[1]) };
+            let u = if across.norm() > 1e-9 * up.norm() {
+                across.normalize()
+            } else {
+                global(element.frame[1])
+            };
             let triad = [t, u, t.cross(&u)];
             let local = element.member_axes().map(global);
             let [start, length] = if stretch.is_whole() {
                 [0.0, element.length]
             } else {
                 let rate = element.length / (element.x[1] - element.x[0]);
-                [(stretch.x[0] - element.x[0]) * rate, (stretch.x[1] - stretch.x[0]) * rate]
+                [
+                    (stretch.x[0] - element.x[0]) * rate,
+                    (stretch.x[1] - stretch.x[0]) * rate,
+                ]
             };
             carriers.push(Carrier {
                 rail: stretch.rail,
@@ -321,7 +360,11 @@ impl Structure {
         let elements = self.frame.line()?.elements();
         let of = |element: &RailElement| {
             let count = bent_parts(element);
-            if count == 0 { 0.0 } else { bent_error(bend_square(element), count as f64) }
+            if count == 0 {
+                0.0
+            } else {
+                bent_error(bend_square(element), count as f64)
+            }
         };
         Ok(elements.iter().map(of).fold(0.0, f64::max))
     }
@@ -358,25 +401,44 @@ impl Structure {
     /// Rail coordinate of the place on each rail that is opposite to coordinate 0 of `first`.
     pub(crate) fn shifts(&self, first: usize) -> Vec<f64> {
         let origin = self.rails[first].origin;
-        self.rails.iter().map(|rail| (origin - rail.origin).dot(&rail.axes[0])).collect()
+        self.rails
+            .iter()
+            .map(|rail| (origin - rail.origin).dot(&rail.axes[0]))
+            .collect()
     }
 
     /// The rail elements on the member of a carrier, its own included.
-    pub(crate) fn on_member<'s>(&'s self, carrier: &'s Carrier) -> impl Iterator<Item = OnMember<'s>> + 's {
-        let others = self.carriers.iter().filter(|other| other.member == carrier.member);
+    pub(crate) fn on_member<'s>(
+        &'s self,
+        carrier: &'s Carrier,
+    ) -> impl Iterator<Item = OnMember<'s>> + 's {
+        let others = self
+            .carriers
+            .iter()
+            .filter(|other| other.member == carrier.member);
         others.filter_map(|other| {
             let same = other.reversed == carrier.reversed;
-            let first = if same { other.start } else { other.whole - other.start - other.length };
+            let first = if same {
+                other.start
+            } else {
+                other.whole - other.start - other.length
+            };
             let middle = first + 0.5 * other.length - carrier.start;
             if middle < 0.0 || middle > carrier.length {
                 return None;
             }
             let stretches = &self.rails[other.rail].stretches;
-            let stretch = stretches.iter().find(|stretch| stretch.number == other.stretch);
+            let stretch = stretches
+                .iter()
+                .find(|stretch| stretch.number == other.stretch);
             Some(OnMember {
                 other,
                 stretch: stretch.expect("a carrier is made from a stretch of its rail"),
-                start: if same { other.start } else { other.whole - other.start } - carrier.start,
+                start: if same {
+                    other.start
+                } else {
+                    other.whole - other.start
+                } - carrier.start,
                 rate: if same { other.rate() } else { -other.rate() },
             })
         })
@@ -388,10 +450,15 @@ impl Structure {
     }
 
     /// Force and couple about the axis of a carrier per unit of a component of load at a rail of its member, global.
-    pub(crate) fn load(&self, stretch: &Stretch, component: usize) -> Result<[Vector3<f64>; 2], Error> {
+    pub(crate) fn load(
+        &self,
+        stretch: &Stretch,
+        component: usize,
+    ) -> Result<[Vector3<f64>; 2], Error> {
         let axes = &self.rails[stretch.rail].axes;
         let element = &self.frame.line()?.elements()[stretch.element];
-        let offset = axes[0] * element.offset[0] + axes[1] * element.offset[1] + axes[2] * element.offset[2];
+        let offset =
+            axes[0] * element.offset[0] + axes[1] * element.offset[1] + axes[2] * element.offset[2];
         let zero = Vector3::zeros();
         Ok(match component {
             3 => [zero, axes[2].cross(&axes[0])],
@@ -403,12 +470,15 @@ impl Structure {
     /// The forces of a unit acceleration upwards.
     pub(crate) fn unit_weight(&self) -> &Weight {
         let up = Vector3::from(self.model.up).normalize();
-        self.unit_weight.get_or_init(|| self.frame.weight(&self.model, up.into()))
+        self.unit_weight
+            .get_or_init(|| self.frame.weight(&self.model, up.into()))
     }
 
     /// The exact influence surface of the rails and their twins.
     pub(crate) fn surface(&self) -> Result<&ExactSurface, Error> {
-        let made = self.surface.get_or_init(|| self.frame.surface().map(|certified| certified.surface));
+        let made = self
+            .surface
+            .get_or_init(|| self.frame.surface().map(|certified| certified.surface));
         made.as_ref().map_err(|error| Error::Frame(error.clone()))
     }
 
@@ -421,11 +491,17 @@ impl Structure {
         split: impl Fn(&Stretch) -> Vec<f64>,
         mut value: impl FnMut(Probe, &mut [f64]) -> Result<(), splines::Error>,
     ) -> Result<Vec<Lines<N>>, Error> {
-        let mut out = vec![Lines { rails: vec![Vec::new(); self.rails.len()] }; groups];
+        let mut out = vec![
+            Lines {
+                rails: vec![Vec::new(); self.rails.len()]
+            };
+            groups
+        ];
         let mut twin = vec![0.0; groups * N];
         for (index, rail) in self.rails.iter().enumerate() {
-            let components: Vec<usize> =
-                (0..COMPONENTS).filter(|&k| used[k] && self.resists(index, k)).collect();
+            let components: Vec<usize> = (0..COMPONENTS)
+                .filter(|&k| used[k] && self.resists(index, k))
+                .collect();
             for stretch in &rail.stretches {
                 for x in parts(stretch.x, split(stretch), self.slack()) {
                     let empty = LineCell {
@@ -434,14 +510,27 @@ impl Structure {
                         begins_inside: stretch.inner[0] && x[0] == stretch.x[0],
                         cubics: [[[0.0; 4]; N]; COMPONENTS],
                     };
-                    out.iter_mut().for_each(|lines| lines.rails[index].push(empty.clone()));
+                    out.iter_mut()
+                        .for_each(|lines| lines.rails[index].push(empty.clone()));
                     for &component in &components {
                         let found = cubics(x, groups * N, |x, out| {
-                            let probe = Probe { rail: index, x, axis: axis(component) };
+                            let probe = Probe {
+                                rail: index,
+                                x,
+                                axis: axis(component),
+                            };
                             value(probe, out)?;
                             if component >= 3 {
-                                value(Probe { rail: index + self.rails.len(), ..probe }, &mut twin)?;
-                                out.iter_mut().zip(&twin).for_each(|(own, twin)| *own = twin - *own);
+                                value(
+                                    Probe {
+                                        rail: index + self.rails.len(),
+                                        ..probe
+                                    },
+                                    &mut twin,
+                                )?;
+                                out.iter_mut()
+                                    .zip(&twin)
+                                    .for_each(|(own, twin)| *own = twin - *own);
                             }
                             Ok::<(), splines::Error>(())
                         })?;
@@ -464,15 +553,22 @@ impl Structure {
     ) -> Result<Vec<Lines<QUANTITIES>>, Error> {
         let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
         let lines = self.frame.influence_lines(&self.model, &effects)?;
-        let mut all =
-            self.lines(used, carriers.len(), |_| Vec::new(), |probe, out| lines.fill(probe, out))?;
+        let mut all = self.lines(
+            used,
+            carriers.len(),
+            |_| Vec::new(),
+            |probe, out| lines.fill(probe, out),
+        )?;
         for (carrier, lines) in carriers.iter().zip(&mut all) {
             let cells = lines.rails.iter_mut().flatten();
             for component in cells.flat_map(|cell| &mut cell.cubics) {
                 let own: [[f64; 4]; QUANTITIES] = *component;
                 for p in 0..4 {
                     let moved = carrier.quantities(own.map(|cubic| cubic[p]));
-                    component.iter_mut().zip(moved).for_each(|(cubic, value)| cubic[p] = value);
+                    component
+                        .iter_mut()
+                        .zip(moved)
+                        .for_each(|(cubic, value)| cubic[p] = value);
                 }
             }
         }
@@ -494,7 +590,9 @@ impl Structure {
         let mut parts = vec![0.0; lines.len()];
         let split = |stretch: &Stretch| {
             let carrier = self.carriers.iter().find(|c| c.stretch == stretch.number);
-            let here = carrier.zip(cut).filter(|(carrier, (member, _))| carrier.member == *member);
+            let here = carrier
+                .zip(cut)
+                .filter(|(carrier, (member, _))| carrier.member == *member);
             let place = here.map(|(carrier, (_, place))| {
                 let s = if carrier.reversed { 1.0 - place } else { place };
                 carrier.coordinate_on_whole(s * carrier.whole)
@@ -538,7 +636,9 @@ impl Structure {
             out[0] *= sign;
             Ok(())
         };
-        Ok(self.lines(used, 1, |stretch| self.opposite(rail, &[x], stretch), value)?.remove(0))
+        Ok(self
+            .lines(used, 1, |stretch| self.opposite(rail, &[x], stretch), value)?
+            .remove(0))
     }
 
     /// The coordinates on a stretch that are opposite to places of a rail on the same member.
@@ -548,16 +648,21 @@ impl Structure {
         };
         let on = |x: f64| {
             let here = |c: &&Carrier| c.rail == rail && c.x[0] <= x && x <= c.x[1];
-            self.carriers.iter().find(here).filter(|here| here.member == carrier.member)
+            self.carriers
+                .iter()
+                .find(here)
+                .filter(|here| here.member == carrier.member)
         };
         let place = |&x: &f64| {
             let here = on(x)?;
             let s = here.start + here.place(x);
-            Some(carrier.coordinate_on_whole(if here.reversed == carrier.reversed {
-                s
-            } else {
-                carrier.whole - s
-            }))
+            Some(
+                carrier.coordinate_on_whole(if here.reversed == carrier.reversed {
+                    s
+                } else {
+                    carrier.whole - s
+                }),
+            )
         };
         places.iter().filter_map(place).collect()
     }
@@ -565,7 +670,11 @@ impl Structure {
 
 /// Axis of a deflection, and the sign with which it counts.
 pub(crate) fn deflection_axis(quantity: GirderResponse) -> (Axis, f64) {
-    if quantity == GirderResponse::LateralDeflection { (Axis::Lateral, 1.0) } else { (Axis::Vertical, -1.0) }
+    if quantity == GirderResponse::LateralDeflection {
+        (Axis::Lateral, 1.0)
+    } else {
+        (Axis::Vertical, -1.0)
+    }
 }
 
 /// The section of the internal forces in a sum of effects: its member and place.
@@ -579,7 +688,11 @@ pub(crate) fn section_of(effects: &[Effect]) -> Option<(usize, f64)> {
 /// The six components of the internal force just inside the end of a carrier at its smaller coordinate.
 pub(crate) fn end_effects(carrier: &Carrier) -> [Effect; 6] {
     let place = carrier.fraction(0.0);
-    ForceComponent::ALL.map(|component| Effect::InternalForce { member: carrier.member, place, component })
+    ForceComponent::ALL.map(|component| Effect::InternalForce {
+        member: carrier.member,
+        place,
+        component,
+    })
 }
 
 /// The larger |lambda^2| L^2 of the planes of an element that an axial force bends; 0 where none does.
@@ -587,7 +700,12 @@ fn bend_square(element: &RailElement) -> f64 {
     if element.flexibility.tension == 0.0 || element.ends[0] == element.ends[1] {
         return 0.0;
     }
-    planes_of(element).map(f64::abs).into_iter().fold(0.0, f64::max) * element.length * element.length
+    planes_of(element)
+        .map(f64::abs)
+        .into_iter()
+        .fold(0.0, f64::max)
+        * element.length
+        * element.length
 }
 
 /// lambda^2 of the planes in which `bending_z` and `bending_y` act.
@@ -614,7 +732,10 @@ fn bent_parts(element: &RailElement) -> usize {
     if square == 0.0 {
         return 0;
     }
-    (bent_error(square, 1.0) / BENT_ERROR).powf(0.25).ceil().clamp(1.0, MOST_BENT_PARTS) as usize
+    (bent_error(square, 1.0) / BENT_ERROR)
+        .powf(0.25)
+        .ceil()
+        .clamp(1.0, MOST_BENT_PARTS) as usize
 }
 
 /// What the axial force of an element does to moments along a part of it.
@@ -633,9 +754,16 @@ fn bent(
     let plane = |axis: &Vector3<f64>, square: f64, shear: f64| BentPlane {
         direction: [z.dot(axis), u.dot(axis)],
         square,
-        stiffening: if square == 0.0 { 1.0 } else { 1.0 + shear * f.tension },
+        stiffening: if square == 0.0 {
+            1.0
+        } else {
+            1.0 + shear * f.tension
+        },
     };
-    let planes = [plane(&local[2], about_z, f.shear_y), plane(&local[1], about_y, f.shear_z)];
+    let planes = [
+        plane(&local[2], about_z, f.shear_y),
+        plane(&local[1], about_y, f.shear_z),
+    ];
     Some(Box::new(Bent::new(planes, length)))
 }
 
@@ -646,13 +774,19 @@ fn parts(x: [f64; 2], mut split: Vec<f64>, slack: f64) -> Vec<[f64; 2]> {
     split.sort_by(f64::total_cmp);
     split.dedup_by(|b, a| *b - *a <= slack);
     let mut from = x[0];
-    split.into_iter().map(|to| [std::mem::replace(&mut from, to), to]).collect()
+    split
+        .into_iter()
+        .map(|to| [std::mem::replace(&mut from, to), to])
+        .collect()
 }
 
 /// The rail displaced by one unit of length along its +z.
 fn beside(rail: &Rail, up: &Vector3<f64>) -> Rail {
     let mut twin = rail.clone();
-    let z = Vector3::from(rail.axis).cross(up).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+    let z = Vector3::from(rail.axis)
+        .cross(up)
+        .try_normalize(0.0)
+        .unwrap_or_else(Vector3::zeros);
     for segment in &mut twin.segments {
         segment.offset = (Vector3::from(segment.offset) + z).into();
     }
@@ -689,5 +823,11 @@ fn rail_frame(
     stretches.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
     let range = [stretches[0].x[0], stretches[stretches.len() - 1].x[1]];
     let resists = [0, 1, 2].map(|component| frame.resists(index, axis(component)));
-    Ok(RailFrame { axes: [x, y, x.cross(&y)], origin: Vector3::from(rail.origin), range, stretches, resists })
+    Ok(RailFrame {
+        axes: [x, y, x.cross(&y)],
+        origin: Vector3::from(rail.origin),
+        range,
+        stretches,
+        resists,
+    })
 }

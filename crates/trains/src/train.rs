@@ -83,15 +83,17 @@ impl Train {
     /// The stances to try: unturned first, all signs positive first. A sign is tried only where it changes a load, and
     /// a train is turned only where that changes it.
     pub(crate) fn stances(&self) -> Vec<Stance> {
-        let any =
-            |of: fn(&TrainWheel) -> f64| self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0);
+        let any = |of: fn(&TrainWheel) -> f64| {
+            self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0)
+        };
         let both = |varies: bool| if varies { &[1.0, -1.0][..] } else { &[1.0] };
-        let eccentric =
-            any(
-                |wheel| {
-                    if wheel.vertical == 0.0 && wheel.longitudinal == 0.0 { 0.0 } else { wheel.eccentricity }
-                },
-            );
+        let eccentric = any(|wheel| {
+            if wheel.vertical == 0.0 && wheel.longitudinal == 0.0 {
+                0.0
+            } else {
+                wheel.eccentricity
+            }
+        });
         let mut out = Vec::new();
         for turned in [false, true] {
             if turned && !self.turned {
@@ -100,7 +102,10 @@ impl Train {
             for &lateral in both(any(|wheel| wheel.lateral)) {
                 for &longitudinal in both(any(|wheel| wheel.longitudinal)) {
                     for &eccentricity in both(eccentric) {
-                        out.push(Stance { turned, signs: [lateral, longitudinal, eccentricity] });
+                        out.push(Stance {
+                            turned,
+                            signs: [lateral, longitudinal, eccentricity],
+                        });
                     }
                 }
             }
@@ -137,7 +142,11 @@ impl Train {
             let known = out[wheel.rail].unwrap_or([wheel.offset; 2]);
             out[wheel.rail] = Some([known[0].min(wheel.offset), known[1].max(wheel.offset)]);
         }
-        let [before, behind] = if stance.turned { [self.ends[1], self.ends[0]] } else { self.ends };
+        let [before, behind] = if stance.turned {
+            [self.ends[1], self.ends[0]]
+        } else {
+            self.ends
+        };
         for extent in out.iter_mut().flatten() {
             *extent = [extent[0] - before, extent[1] + behind];
         }

@@ -29,10 +29,13 @@ impl UnderWheels<'_> {
         let k = DEFLECTIONS[self.direction] as usize;
         for &stance in over.distinct(k, 0) {
             let passage = &over.passages[0][stance];
-            let more =
-                self.dead.map_or(0.0, |dead| dead.bound(DEFLECTIONS[self.direction], self.sign, self.window));
+            let more = self.dead.map_or(0.0, |dead| {
+                dead.bound(DEFLECTIONS[self.direction], self.sign, self.window)
+            });
             for (index, piece) in passage.pieces.list.iter().enumerate() {
-                let floor = best.as_ref().map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
+                let floor = best
+                    .as_ref()
+                    .map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
                 if over.bounds(stance).over_all(k, self.sign, index) + more <= floor {
                     continue;
                 }
@@ -50,9 +53,15 @@ impl UnderWheels<'_> {
                         let dead = self.dead.map_or(Polynomial::default(), |dead| {
                             dead.deflection_along(self.direction, &place)
                         });
-                        let total = Polynomial::default().plus(&live, self.sign).plus(&dead, self.sign);
-                        let floor = best.as_ref().map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
-                        let Some((t, signed)) = total.largest_above(to - from, floor) else { continue };
+                        let total = Polynomial::default()
+                            .plus(&live, self.sign)
+                            .plus(&dead, self.sign);
+                        let floor = best
+                            .as_ref()
+                            .map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
+                        let Some((t, signed)) = total.largest_above(to - from, floor) else {
+                            continue;
+                        };
                         let found = Governing {
                             value: self.sign * signed,
                             dead: dead.at(t),
@@ -81,12 +90,16 @@ impl UnderWheels<'_> {
         [from, to]: [f64; 2],
         place: &Polynomial,
     ) -> Polynomial {
-        let Some(pieces) = &passage.deflections[self.direction] else { return Polynomial::default() };
+        let Some(pieces) = &passage.deflections[self.direction] else {
+            return Polynomial::default();
+        };
         let length = passage.on.length();
         let u = Polynomial::default().plus(place, 1.0 / length);
         let mut sum = Polynomial::default();
         for cubic in pieces.list[piece].cubics.iter().rev() {
-            sum = sum.times(&u).plus(&Polynomial::new(&shifted(cubic, from)), 1.0);
+            sum = sum
+                .times(&u)
+                .plus(&Polynomial::new(&shifted(cubic, from)), 1.0);
         }
         let wheels = passage.wheels(piece);
         let at = |wheel: &WheelOnMember, t: f64| wheel.start + wheel.rate * t;
@@ -96,7 +109,10 @@ impl UnderWheels<'_> {
             if index != own && distance > 0.0 {
                 let first = at(&wheels[own], from) - at(wheel, from);
                 let rate = wheel.rate - wheels[own].rate;
-                sum = sum.plus(&Polynomial::new(&wheel.kernel(self.direction).passing(first, rate)), 1.0);
+                sum = sum.plus(
+                    &Polynomial::new(&wheel.kernel(self.direction).passing(first, rate)),
+                    1.0,
+                );
             }
         }
         sum
@@ -110,9 +126,15 @@ fn between_meetings(wheels: &[WheelOnMember], own: usize, from: f64, to: f64) ->
         let rate = other.rate - wheel.rate;
         (rate != 0.0).then(|| (wheel.start - other.start) / rate)
     };
-    let mut ends: Vec<f64> = wheels.iter().filter_map(meeting).filter(|t| *t > from && *t < to).collect();
+    let mut ends: Vec<f64> = wheels
+        .iter()
+        .filter_map(meeting)
+        .filter(|t| *t > from && *t < to)
+        .collect();
     ends.push(to);
     ends.sort_by(f64::total_cmp);
     let mut first = from;
-    ends.into_iter().map(|end| [std::mem::replace(&mut first, end), end]).collect()
+    ends.into_iter()
+        .map(|end| [std::mem::replace(&mut first, end), end])
+        .collect()
 }

@@ -2,7 +2,8 @@
 
 use fea::Girder;
 use trains::{
-    CaseEnvelopes, DeadLoads, GirderResponse, Request, Structure, Train, TrainCase, TrainWheel, envelopes,
+    CaseEnvelopes, DeadLoads, GirderResponse, Request, Structure, Train, TrainCase, TrainWheel,
+    envelopes,
 };
 
 /// Extremes over one span of a girder of equal spans under one or two trains, in four spans around `middle`.
@@ -35,26 +36,46 @@ fn found(spans: usize, middle: usize, trains: usize) -> CaseEnvelopes {
         reverses: true,
         enters: false,
     };
-    let case = TrainCase { trains: vec![train; trains], gap: 0.5, ..TrainCase::default() };
-    let ends = (middle - 1..=middle + 1).map(|span| 6.0 * span as f64).collect();
-    let request = Request { spans: vec![ends], ..Request::default() };
-    envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("envelopes").remove(0)
+    let case = TrainCase {
+        trains: vec![train; trains],
+        gap: 0.5,
+        ..TrainCase::default()
+    };
+    let ends = (middle - 1..=middle + 1)
+        .map(|span| 6.0 * span as f64)
+        .collect();
+    let request = Request {
+        spans: vec![ends],
+        ..Request::default()
+    };
+    envelopes(&structure, &DeadLoads::default(), &[case], &request)
+        .expect("envelopes")
+        .remove(0)
 }
 
 /// Physical identity: a girder feels nothing of supports many spans away. 31 spans are too few for anything to be joined. Normal forces do not die out and are left out.
 #[test]
 fn a_span_in_the_middle_does_not_feel_how_long_the_girder_is() {
     for trains in [1, 2] {
-        let [short, long] = [(31, 15), (63, 31)].map(|(spans, middle)| found(spans, middle, trains));
+        let [short, long] =
+            [(31, 15), (63, 31)].map(|(spans, middle)| found(spans, middle, trains));
         assert_eq!(short.extremes.len(), long.extremes.len());
         let mut compared = 0;
         for (a, b) in short.extremes.iter().zip(&long.extremes) {
-            assert_eq!((a.span, a.quantity, a.is_max), (b.span, b.quantity, b.is_max));
+            assert_eq!(
+                (a.span, a.quantity, a.is_max),
+                (b.span, b.quantity, b.is_max)
+            );
             if a.quantity == GirderResponse::Normal {
                 continue;
             }
-            let same = short.extremes.iter().filter(|other| other.quantity == a.quantity);
-            let size = same.map(|other| other.governing.value.abs()).fold(0.0, f64::max);
+            let same = short
+                .extremes
+                .iter()
+                .filter(|other| other.quantity == a.quantity);
+            let size = same
+                .map(|other| other.governing.value.abs())
+                .fold(0.0, f64::max);
             // Fifteen spans of the shorter girder die out by 0.27^15 = 3e-9 at the rails' ends, squared on the way back.
             let gap = (a.governing.value - b.governing.value).abs();
             assert!(
@@ -65,8 +86,17 @@ fn a_span_in_the_middle_does_not_feel_how_long_the_girder_is() {
                 a.governing.value,
                 b.governing.value
             );
-            let beyond = if b.is_max { b.governing.value - b.bound } else { b.bound - b.governing.value };
-            assert!(beyond <= 1e-12 * size, "{:?} of span {} is beyond its bound", b.quantity, b.span);
+            let beyond = if b.is_max {
+                b.governing.value - b.bound
+            } else {
+                b.bound - b.governing.value
+            };
+            assert!(
+                beyond <= 1e-12 * size,
+                "{:?} of span {} is beyond its bound",
+                b.quantity,
+                b.span
+            );
             compared += 1;
         }
         assert!(compared >= 28, "{compared}");

@@ -2,39 +2,78 @@
 
 use fea::{BeamTheory, Effect, Girder};
 use trains::{
-    CaseEnvelopes, DeadLoads, GirderResponse, Request, SpanExtreme, Structure, Train, TrainCase, TrainWheel,
-    envelopes,
+    CaseEnvelopes, DeadLoads, GirderResponse, Request, SpanExtreme, Structure, Train, TrainCase,
+    TrainWheel, envelopes,
 };
 
 fn wheel(x: f64, vertical: f64) -> TrainWheel {
-    TrainWheel { rail: 0, x, vertical, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 }
+    TrainWheel {
+        rail: 0,
+        x,
+        vertical,
+        lateral: 0.0,
+        longitudinal: 0.0,
+        eccentricity: 0.0,
+    }
 }
 
 fn train(wheels: &[(f64, f64)]) -> Train {
     let wheels = wheels.iter().map(|&(x, force)| wheel(x, force)).collect();
-    Train { wheels, ends: [0.0; 2], turned: true, reverses: true, enters: false }
+    Train {
+        wheels,
+        ends: [0.0; 2],
+        turned: true,
+        reverses: true,
+        enters: false,
+    }
 }
 
 fn supports(girder: &Girder) -> Vec<f64> {
     let mut x = vec![0.0];
-    girder.spans.iter().for_each(|span| x.push(x[x.len() - 1] + span));
+    girder
+        .spans
+        .iter()
+        .for_each(|span| x.push(x[x.len() - 1] + span));
     x
 }
 
 fn solve(girder: &Girder, trains: Vec<Train>, dead: &DeadLoads, places: Vec<f64>) -> CaseEnvelopes {
     let (model, rail) = girder.model_and_rail().expect("the girder is valid");
     let structure = Structure::new(&model, &[rail], false).expect("the girder is stable");
-    let effects =
-        structure.frame().restraints(&model).into_iter().map(|hold| vec![Effect::Reaction(hold)]).collect();
-    let request = Request { spans: vec![supports(girder)], places: vec![places], effects };
+    let effects = structure
+        .frame()
+        .restraints(&model)
+        .into_iter()
+        .map(|hold| vec![Effect::Reaction(hold)])
+        .collect();
+    let request = Request {
+        spans: vec![supports(girder)],
+        places: vec![places],
+        effects,
+    };
     let factor = if dead.is_empty() { 0.0 } else { 1.0 };
-    let case = TrainCase { trains, dead: factor, ..TrainCase::default() };
-    envelopes(&structure, dead, &[case], &request).expect("the train fits").remove(0)
+    let case = TrainCase {
+        trains,
+        dead: factor,
+        ..TrainCase::default()
+    };
+    envelopes(&structure, dead, &[case], &request)
+        .expect("the train fits")
+        .remove(0)
 }
 
-fn extreme(found: &CaseEnvelopes, span: usize, quantity: GirderResponse, is_max: bool) -> &SpanExtreme {
+fn extreme(
+    found: &CaseEnvelopes,
+    span: usize,
+    quantity: GirderResponse,
+    is_max: bool,
+) -> &SpanExtreme {
     let same = |e: &&SpanExtreme| (e.span, e.quantity, e.is_max) == (span, quantity, is_max);
-    found.extremes.iter().find(same).expect("there is an extreme for every span")
+    found
+        .extremes
+        .iter()
+        .find(same)
+        .expect("there is an extreme for every span")
 }
 
 /// HEB 400 over 6, 7.5 and 6 m, two wheels of 180 kN, 3.6 m apart. Numbers of an independent Timoshenko model of
@@ -51,23 +90,41 @@ fn runway_over_three_spans() {
         theory: BeamTheory::Timoshenko,
         ..Girder::default()
     };
-    let found =
-        solve(&girder, vec![train(&[(0.0, 180.0), (3.6, 180.0)])], &DeadLoads::default(), vec![6.0, 9.75]);
+    let found = solve(
+        &girder,
+        vec![train(&[(0.0, 180.0), (3.6, 180.0)])],
+        &DeadLoads::default(),
+        vec![6.0, 9.75],
+    );
     let largest = extreme(&found, 2, GirderResponse::VerticalMoment, true);
-    assert!((largest.governing.value - 241.2377).abs() < 5e-5, "{largest:?}");
+    assert!(
+        (largest.governing.value - 241.2377).abs() < 5e-5,
+        "{largest:?}"
+    );
     assert!((largest.governing.x - 9.2442).abs() < 5e-5);
     let at = |x: f64, is_max: bool| {
         let same = |e: &&trains::EnvelopeValue| {
             e.governing.x == x && e.quantity == GirderResponse::VerticalMoment && e.is_max == is_max
         };
-        found.envelopes.iter().find(same).expect("the place was asked for").governing.value
+        found
+            .envelopes
+            .iter()
+            .find(same)
+            .expect("the place was asked for")
+            .governing
+            .value
     };
     assert!((at(9.75, true) - 233.048).abs() < 5e-4);
     assert!((at(6.0, false) + 195.174).abs() < 5e-4);
     // Reactions: longitudinal, vertical, lateral and twist of the first support, then three of each other.
-    let vertical: Vec<[f64; 2]> =
-        [1, 4].map(|k: usize| [&found.effects[k][0], &found.effects[k][1]].map(|g| g.value)).to_vec();
-    for (found, known) in vertical.iter().flatten().zip([235.687, -28.335, 317.259, -26.143]) {
+    let vertical: Vec<[f64; 2]> = [1, 4]
+        .map(|k: usize| [&found.effects[k][0], &found.effects[k][1]].map(|g| g.value))
+        .to_vec();
+    for (found, known) in vertical
+        .iter()
+        .flatten()
+        .zip([235.687, -28.335, 317.259, -26.143])
+    {
         assert!((found - known).abs() < 1e-3, "{found}, not {known}");
     }
     let sag = extreme(&found, 2, GirderResponse::VerticalDeflection, true);
@@ -78,13 +135,29 @@ fn runway_over_three_spans() {
 /// The largest moment of a simple beam under two equal wheels is P (L - a/2)^2/(2 L), at L/2 - a/4.
 #[test]
 fn two_wheels_on_a_simple_beam() {
-    let girder = Girder { spans: vec![10.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
-    let found = solve(&girder, vec![train(&[(0.0, 90.0), (3.0, 90.0)])], &DeadLoads::default(), Vec::new());
+    let girder = Girder {
+        spans: vec![10.0],
+        e: 2.1e8,
+        i_vertical: 5e-4,
+        ..Girder::default()
+    };
+    let found = solve(
+        &girder,
+        vec![train(&[(0.0, 90.0), (3.0, 90.0)])],
+        &DeadLoads::default(),
+        Vec::new(),
+    );
     let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
-    assert!((largest.value - 90.0 * 8.5 * 8.5 / 20.0).abs() < 1e-11, "{largest:?}");
+    assert!(
+        (largest.value - 90.0 * 8.5 * 8.5 / 20.0).abs() < 1e-11,
+        "{largest:?}"
+    );
     assert!((largest.x - 4.25).abs() < 1e-9, "{largest:?}");
     let shear = &extreme(&found, 1, GirderResponse::VerticalShear, true).governing;
-    assert!((shear.value - 90.0 * (1.0 + 0.7)).abs() < 1e-11, "{shear:?}");
+    assert!(
+        (shear.value - 90.0 * (1.0 + 0.7)).abs() < 1e-11,
+        "{shear:?}"
+    );
 }
 
 /// With a dead load w the largest moment of one wheel P on a simple beam is at midspan: P L/4 + w L^2/8.
@@ -97,15 +170,24 @@ fn dead_load_adds_its_own() {
         mass_per_length: Some(0.2),
         ..Girder::default()
     };
-    let dead = DeadLoads { gravity: 10.0, lines: vec![1.0] };
+    let dead = DeadLoads {
+        gravity: 10.0,
+        lines: vec![1.0],
+    };
     let found = solve(&girder, vec![train(&[(0.0, 100.0)])], &dead, vec![4.0]);
     let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
-    assert!((largest.value - (200.0 + 3.0 * 8.0)).abs() < 1e-10, "{largest:?}");
+    assert!(
+        (largest.value - (200.0 + 3.0 * 8.0)).abs() < 1e-10,
+        "{largest:?}"
+    );
     assert!((largest.dead - 24.0).abs() < 1e-11 && (largest.x - 4.0).abs() < 1e-9);
     let sag = &extreme(&found, 1, GirderResponse::VerticalDeflection, true).governing;
     let stiffness = 2.1e8 * 5e-4;
     let known = 100.0 * 512.0 / (48.0 * stiffness) + 5.0 * 3.0 * 4096.0 / (384.0 * stiffness);
-    assert!((sag.value / known - 1.0).abs() < 1e-9, "{sag:?}, not {known}");
+    assert!(
+        (sag.value / known - 1.0).abs() < 1e-9,
+        "{sag:?}, not {known}"
+    );
     // The smallest moment: wheel at a support, dead load alone.
     let least = &extreme(&found, 1, GirderResponse::VerticalMoment, false).governing;
     assert!(least.value.abs() < 1e-11, "{least:?}");
@@ -124,17 +206,31 @@ fn shear_envelopes_have_both_sides_of_a_support() {
         mass_per_length: Some(0.2),
         ..Girder::default()
     };
-    let loads = DeadLoads { gravity: 10.0, lines: vec![1.0] };
+    let loads = DeadLoads {
+        gravity: 10.0,
+        lines: vec![1.0],
+    };
     let found = solve(&girder, vec![train(&[(0.0, load)])], &loads, vec![length]);
     let of_dead = 0.625 * dead * length;
     for (is_max, sign) in [(true, 1.0), (false, -1.0)] {
         let is_own = |e: &trains::EnvelopeValue| {
             (e.governing.x, e.quantity, e.is_max) == (length, GirderResponse::VerticalShear, is_max)
         };
-        let index = found.envelopes.iter().position(is_own).expect("the place was asked for");
+        let index = found
+            .envelopes
+            .iter()
+            .position(is_own)
+            .expect("the place was asked for");
         let one = &found.envelopes[index].governing;
-        let (_, other) = found.other_sides.iter().find(|(of, _)| *of == index).expect("two members meet");
-        assert!((one.value - sign * (load + of_dead)).abs() < 1e-9, "{one:?}");
+        let (_, other) = found
+            .other_sides
+            .iter()
+            .find(|(of, _)| *of == index)
+            .expect("two members meet");
+        assert!(
+            (one.value - sign * (load + of_dead)).abs() < 1e-9,
+            "{one:?}"
+        );
         assert!((other.value + sign * of_dead).abs() < 1e-9, "{other:?}");
         assert!(one.side != other.side && one.x == other.x);
     }
@@ -146,7 +242,12 @@ fn shear_envelopes_have_both_sides_of_a_support() {
 #[test]
 fn classical_trains_on_a_simple_beam() {
     let length = 20.0;
-    let girder = Girder { spans: vec![length], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
+    let girder = Girder {
+        spans: vec![length],
+        e: 2.1e8,
+        i_vertical: 5e-4,
+        ..Girder::default()
+    };
     let trains: [&[(f64, f64)]; 4] = [
         &[(0.0, 90.0), (3.0, 90.0), (6.0, 90.0)],
         &[(0.0, 90.0), (3.0, 90.0), (6.0, 90.0), (9.0, 90.0)],
@@ -155,24 +256,39 @@ fn classical_trains_on_a_simple_beam() {
         &[(0.0, 210.0), (1.1, 180.0), (5.2, 180.0), (6.3, 210.0)],
     ];
     for wheels in trains {
-        let found = solve(&girder, vec![train(wheels)], &DeadLoads::default(), Vec::new());
+        let found = solve(
+            &girder,
+            vec![train(wheels)],
+            &DeadLoads::default(),
+            Vec::new(),
+        );
         let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
         let total: f64 = wheels.iter().map(|(_, force)| force).sum();
         let centre = wheels.iter().map(|(x, force)| x * force).sum::<f64>() / total;
         let under = |&(x, _): &(f64, f64)| {
             let place = 0.5 * (length + x - centre);
-            let before: f64 =
-                wheels.iter().filter(|(other, _)| *other < x).map(|(other, force)| force * (x - other)).sum();
+            let before: f64 = wheels
+                .iter()
+                .filter(|(other, _)| *other < x)
+                .map(|(other, force)| force * (x - other))
+                .sum();
             total * (length - place + x - centre) / length * place - before
         };
         let known = wheels.iter().map(under).fold(0.0, f64::max);
-        assert!((largest.value / known - 1.0).abs() < 1e-13, "{} instead of {known}", largest.value);
+        assert!(
+            (largest.value / known - 1.0).abs() < 1e-13,
+            "{} instead of {known}",
+            largest.value
+        );
         let equal = wheels.iter().all(|(_, force)| *force == wheels[0].1);
         if let (true, 3) = (equal, wheels.len()) {
             assert!((known - (3.0 * 90.0 * length / 4.0 - 90.0 * 3.0)).abs() < 1e-10);
         }
         if let (true, 4) = (equal, wheels.len()) {
-            assert!((known - (360.0 / length * 9.25 * 9.25 - 270.0)).abs() < 1e-10, "{known}");
+            assert!(
+                (known - (360.0 / length * 9.25 * 9.25 - 270.0)).abs() < 1e-10,
+                "{known}"
+            );
         }
     }
 }

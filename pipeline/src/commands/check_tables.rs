@@ -30,14 +30,19 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         spacing: args.spacing,
         beyond: args.beyond,
         judged: args.tolerance.map(|tolerance| {
-            (args.reading.map_or(TableReadingMethod::Akispl, TableReadingMethod::from), tolerance)
+            (
+                args.reading
+                    .map_or(TableReadingMethod::Akispl, TableReadingMethod::from),
+                tolerance,
+            )
         }),
     };
     let mut all = Vec::with_capacity(subject.items.len());
     let bar = progress.bar("checking", subject.items.len() as u64);
     for index in 0..subject.items.len() {
         all.push(
-            TableQuality::of(&subject, index, &settings).map_err(|error| refuse(&subject, index, &error))?,
+            TableQuality::of(&subject, index, &settings)
+                .map_err(|error| refuse(&subject, index, &error))?,
         );
         bar.set(index as u64 + 1);
     }
@@ -51,7 +56,11 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         files::write(path, body.as_bytes())?;
         progress.say(&format!("wrote {}", path.display()));
     }
-    let text = if global.json { json_text(&json::json(&subject, &all)) } else { text::text(&subject, &all) };
+    let text = if global.json {
+        json_text(&json::json(&subject, &all))
+    } else {
+        text::text(&subject, &all)
+    };
     output::print(&text)?;
     let failed = all.iter().any(|found| !found.verdicts.is_empty());
     Ok(if failed { Exit::Differs } else { Exit::Done })
@@ -65,7 +74,10 @@ enum Form {
 }
 
 fn form(path: &Path) -> Result<Form, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase())
+        .unwrap_or_default();
     match ending.as_str() {
         "svg" => Ok(Form::Picture),
         "html" => Ok(Form::Page),
@@ -100,5 +112,7 @@ fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failur
 fn refuse(subject: &TableSource, index: usize, error: &splines::Error) -> Failure {
     let item = &subject.items[index];
     let wrong = format!("SPLINE/{} cannot be checked: {error}", item.id);
-    Diagnostic::of_file(&subject.file, wrong).hint("does the surface belong to these tables?").into()
+    Diagnostic::of_file(&subject.file, wrong)
+        .hint("does the surface belong to these tables?")
+        .into()
 }

@@ -45,7 +45,10 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     let open = |path| OutputFolder::open(path, "crosscheck", args.force, &planned);
     let folder = args.output.as_deref().map(open).transpose()?;
     let mut check = Check::new(&source, spec)?;
-    let mut result = PeerComparison { rails: check.rails(), ..PeerComparison::default() };
+    let mut result = PeerComparison {
+        rails: check.rails(),
+        ..PeerComparison::default()
+    };
     let bar = progress.bar("comparing", Peer::ALL.len() as u64);
     for (done, peer) in Peer::ALL.into_iter().enumerate() {
         bar.set(done as u64);
@@ -55,7 +58,9 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
             continue;
         }
         if check.spec.preload.is_some() && !peer.takes_preload() {
-            result.absent.push((peer, "it has no axial forces of a preload".to_owned()));
+            result
+                .absent
+                .push((peer, "it has no axial forces of a preload".to_owned()));
             continue;
         }
         bar.name(&format!("comparing with {}", peer.name()));
@@ -65,7 +70,11 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
         }
     }
     drop(bar);
-    let text = if global.json { json_text(&result.json()) } else { result.table() };
+    let text = if global.json {
+        json_text(&result.json())
+    } else {
+        result.table()
+    };
     output::print(&text)?;
     if let Some(mut folder) = folder {
         fill(&mut folder, &result, &check.spec)?;
@@ -73,7 +82,11 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
         let written = folder.commit(Manifest::new("crosscheck", &inputs, settings))?;
         progress.say(&format!("wrote {}", written.display()));
     }
-    Ok(if result.agrees() { Exit::Done } else { Exit::Differs })
+    Ok(if result.agrees() {
+        Exit::Done
+    } else {
+        Exit::Differs
+    })
 }
 
 /// A spec, its source and the environment of the other codes.
@@ -93,28 +106,52 @@ impl<'a> Check<'a> {
         let raw = serde_json::from_str(source.text.trim_start_matches('\u{feff}'))
             .map_err(|error| Diagnostic::of_file(&source.name, error.to_string()))?;
         let raw = crosscheck::in_numbers(raw, &spec);
-        Ok(Check { source, raw, spec, environment: Environment::of_user().map_err(|e| broken(&e))? })
+        Ok(Check {
+            source,
+            raw,
+            spec,
+            environment: Environment::of_user().map_err(|e| broken(&e))?,
+        })
     }
 
     fn rails(&self) -> Vec<String> {
-        self.spec.rails().into_iter().map(|rail| rail.name).collect()
+        self.spec
+            .rails()
+            .into_iter()
+            .map(|rail| rail.name)
+            .collect()
     }
 
     fn stations(&self) -> Vec<Station> {
         let rails = self.spec.rails().into_iter().enumerate();
-        rails.flat_map(|(rail, outline)| outline.stations.into_iter().map(move |x| (rail, x))).collect()
+        rails
+            .flat_map(|(rail, outline)| outline.stations.into_iter().map(move |x| (rail, x)))
+            .collect()
     }
 
     fn solve(&self, spec: &Spec) -> Result<Grids, Failure> {
-        let solved = foundations::solve(spec).map_err(|error| spec.locate_error(self.source, &error))?;
+        let solved =
+            foundations::solve(spec).map_err(|error| spec.locate_error(self.source, &error))?;
         let block = |block: &nalgebra::DMatrix<f64>| {
-            block.row_iter().map(|row| row.iter().copied().collect()).collect::<PlainGrid>()
+            block
+                .row_iter()
+                .map(|row| row.iter().copied().collect())
+                .collect::<PlainGrid>()
         };
-        Ok(solved.grid.blocks.iter().map(|(quantity, values)| (*quantity, block(values))).collect())
+        Ok(solved
+            .grid
+            .blocks
+            .iter()
+            .map(|(quantity, values)| (*quantity, block(values)))
+            .collect())
     }
 
     /// Compares with one code. The inner error is the reason why this code does not support the structure.
-    fn compare(&mut self, peer: Peer, progress: &Progress) -> Result<Result<PeerOutcome, String>, Failure> {
+    fn compare(
+        &mut self,
+        peer: Peer,
+        progress: &Progress,
+    ) -> Result<Result<PeerOutcome, String>, Failure> {
         let theory = peer.theory(self.spec.theory);
         let mut spec = self.spec.clone().with_theory(theory);
         let mut notes = Vec::new();
@@ -138,7 +175,14 @@ impl<'a> Check<'a> {
                     Err(why) => return Ok(Err(why.clone())),
                 };
                 let question = json!({ "spec": raw, "theory": theory_word(theory) });
-                crosscheck::ask(peer, &question, &ours, &stations, &self.environment, &mut say)
+                crosscheck::ask(
+                    peer,
+                    &question,
+                    &ours,
+                    &stations,
+                    &self.environment,
+                    &mut say,
+                )
             }
         };
         let mut outcome = match outcome {
@@ -149,9 +193,10 @@ impl<'a> Check<'a> {
         outcome.theory = Some(theory_word(theory));
         if theory != self.spec.theory {
             let word = theory_word(self.spec.theory);
-            outcome
-                .notes
-                .push(format!("both with {}; the theory of the spec is {word}", theory_word(theory)));
+            outcome.notes.push(format!(
+                "both with {}; the theory of the spec is {word}",
+                theory_word(theory)
+            ));
         }
         if peer == Peer::Solid {
             let plain = self.solve(&self.spec.clone().with_theory(BeamTheory::EulerBernoulli))?;
@@ -160,8 +205,10 @@ impl<'a> Check<'a> {
                 .filter(|d| d.quantity.direct() == [d.quantity; 2])
                 .map(|d| format!("{} {:.1e}", d.quantity, d.relative))
                 .collect();
-            notes
-                .push(format!("Euler-Bernoulli beams differ by {}, no part of the verdict", list.join(", ")));
+            notes.push(format!(
+                "Euler-Bernoulli beams differ by {}, no part of the verdict",
+                list.join(", ")
+            ));
         }
         outcome.notes.extend(notes);
         Ok(Ok(outcome))
@@ -170,7 +217,9 @@ impl<'a> Check<'a> {
 
 /// Sets missing shear areas of a girder to those of a solid rectangle; returns a note if any was missing.
 fn sheared(spec: &mut Spec) -> Option<String> {
-    let Form::Girder(girder) = &mut spec.form else { return None };
+    let Form::Girder(girder) = &mut spec.form else {
+        return None;
+    };
     let (area, _) = girder.area.zip(girder.g)?;
     let absent = girder.ka_vertical.is_none() || girder.ka_lateral.is_none();
     girder.ka_vertical.get_or_insert(RECTANGLE * area);
@@ -181,7 +230,9 @@ fn sheared(spec: &mut Spec) -> Option<String> {
 /// Creates the failure of another code or of its environment.
 fn broken(error: &Error) -> Failure {
     let hint = "the first use needs python3 (3.11 or newer, with venv) and PyPI, later ones no network; all other commands go on without";
-    Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
+    Diagnostic::of_file("python3", format!("nothing compared: {error}"))
+        .hint(hint)
+        .into()
 }
 
 /// Adds the files of the output folder: the result as JSON and as text, and charts of the differences.
@@ -199,7 +250,9 @@ fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Resu
             } else {
                 format!("plots/difference-{name}.svg")
             };
-            let svg = chart.svg().map_err(|error| Failure::Untrusted(error.to_string()))?;
+            let svg = chart
+                .svg()
+                .map_err(|error| Failure::Untrusted(error.to_string()))?;
             folder.add(&file, svg.file());
         }
     }
@@ -209,7 +262,11 @@ fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Resu
 /// Converts a girder to products of moduli and section properties.
 fn stiffnesses(girder: &Girder) -> crosscheck::PlainGirder {
     let sheared = girder.theory == BeamTheory::Timoshenko;
-    let shear = |area: Option<f64>| area.zip(girder.g).filter(|_| sheared).map(|(area, g)| g * area);
+    let shear = |area: Option<f64>| {
+        area.zip(girder.g)
+            .filter(|_| sheared)
+            .map(|(area, g)| g * area)
+    };
     crosscheck::PlainGirder {
         spans: girder.spans.clone(),
         overhangs: girder.overhangs,

@@ -24,7 +24,9 @@ use outputs::files::json as json_text;
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     if let Some(path) = &args.output
-        && !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("adm"))
+        && !path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("adm"))
     {
         let fault = Diagnostic::of_file(path.display().to_string(), "a data set must end in .adm");
         return Err(fault
@@ -38,19 +40,33 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let scene = document.scene();
     let unsupported = deck::unsupported(scene);
     if !unsupported.0.is_empty() {
-        return Err(document.inputs.all()[0].source()?.diagnose(&unsupported).into());
+        return Err(document.inputs.all()[0]
+            .source()?
+            .diagnose(&unsupported)
+            .into());
     }
-    let only =
-        Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone(), changes: None };
+    let only = Document {
+        cases: document.cases[..1].to_vec(),
+        inputs: document.inputs.clone(),
+        changes: None,
+    };
     let only = results::before::prepared(only)?;
     let scene = only.scene();
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
-        DeckForm::of_readings(scene.structures.iter().map(|structure| structure.interpolation))
+        DeckForm::of_readings(
+            scene
+                .structures
+                .iter()
+                .map(|structure| structure.interpolation),
+        )
     });
     let file = args.scene.display().to_string();
     let plan = deck::plan(scene, &known, form, &file)?;
-    let model = args.output.as_deref().map_or_else(|| scene.name.clone(), stem);
+    let model = args
+        .output
+        .as_deref()
+        .map_or_else(|| scene.name.clone(), stem);
     let deck = deck::deck(&plan, &known, &model)?;
     let text = deck.set.write().map_err(Failure::untrusted)?;
     match &args.output {
@@ -78,17 +94,24 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     if report.holds() {
         Ok(Exit::Done)
     } else {
-        Err(Failure::Differs("the deck differs from the simulator".to_owned()))
+        Err(Failure::Differs(
+            "the deck differs from the simulator".to_owned(),
+        ))
     }
 }
 
 fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(
+        || "model".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
 }
 
 /// Checks that a command file that would be replaced has the form that this command writes.
 fn check_owner(path: &Path) -> Result<(), Failure> {
-    let Ok(bytes) = fs::read(path) else { return Ok(()) };
+    let Ok(bytes) = fs::read(path) else {
+        return Ok(());
+    };
     let text = String::from_utf8_lossy(&bytes);
     let lines: Vec<&str> = text.lines().collect();
     let is_ours = matches!(&lines[..], [file, simulate, "stop"]
@@ -100,7 +123,9 @@ fn check_owner(path: &Path) -> Result<(), Failure> {
         path.display().to_string(),
         "would be replaced, but is not as girderway wrote it",
     );
-    Err(fault.hint("move it, name another file with -o, or replace it with --force").into())
+    Err(fault
+        .hint("move it, name another file with -o, or replace it with --force")
+        .into())
 }
 
 /// Path of the command file that belongs to a data set.

@@ -25,21 +25,31 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     let folder = || PathBuf::from("girderway-out").join(format!("{}-design", read.name));
     let path = args.output.clone().unwrap_or_else(folder);
     let SolvedDesign { result, .. } = of_design(&read, inputs, &path, args.force, global)?;
-    let strained = result.stresses.iter().filter(|stress| stress.utilisation() > 1.0);
-    let (limits, stresses) =
-        (result.limits.iter().filter(|limit| !limit.within()).count(), strained.clone().count());
+    let strained = result
+        .stresses
+        .iter()
+        .filter(|stress| stress.utilisation() > 1.0);
+    let (limits, stresses) = (
+        result.limits.iter().filter(|limit| !limit.within()).count(),
+        strained.clone().count(),
+    );
     if !args.fail_on_limit || result.within() {
         return Ok(Exit::Done);
     }
     let mut said = Vec::new();
     if limits > 0 {
-        said.push(format!("{limits} limits are exceeded: {}", worst(&result.limits)));
+        said.push(format!(
+            "{limits} limits are exceeded: {}",
+            worst(&result.limits)
+        ));
     }
     let most = strained.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
     said.extend(most.map(|most| {
         let used = most.utilisation();
         let (quantity, rail) = (most.quantity, &most.rail);
-        format!("{stresses} stresses exceed their strength: {quantity} of rail {rail}, {used:.3} of it")
+        format!(
+            "{stresses} stresses exceed their strength: {quantity} of rail {rail}, {used:.3} of it"
+        )
     }));
     Err(Failure::Differs(said.join("; ")))
 }
@@ -56,7 +66,11 @@ pub(super) fn of_design(
     let folder = open_design_folder(path, force)?;
     let solved = SolvedDesign::of(read, inputs)?;
     let written = solved.write(folder, global.threads)?;
-    let SolvedDesign { design: read, result, .. } = &solved;
+    let SolvedDesign {
+        design: read,
+        result,
+        ..
+    } = &solved;
     for warning in &result.warnings {
         progress.say(&format!("warning: {warning}"));
     }

@@ -29,27 +29,44 @@ pub(super) fn factored(
         (None, None) => Rank::Full,
     };
     let refused = |why: tables::FactorError| {
-        Failure::from(Diagnostic::of_file(&input.display_name, format!("has no factored form: {why}")))
+        Failure::from(Diagnostic::of_file(
+            &input.display_name,
+            format!("has no factored form: {why}"),
+        ))
     };
     let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
     for id in &factoring.skipped {
-        progress.say(&format!("note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"));
+        progress.say(&format!(
+            "note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"
+        ));
     }
-    let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
+    let ranks: Vec<String> = factoring
+        .ranks
+        .iter()
+        .map(|[kept, of]| format!("{kept} of {of}"))
+        .collect();
     progress.say(&format!("factored form: {} products", ranks.join(", ")));
-    progress.say(&format!("  error at the stations: {}", factoring.stations.message()));
+    progress.say(&format!(
+        "  error at the stations: {}",
+        factoring.stations.message()
+    ));
     let between = exact.and_then(|(surface, rails)| factoring.deviation_from(surface, rails));
     match &between {
-        Some(found) => progress.say(&format!("  error against the exact surface: {}", found.message())),
-        None => {
-            progress.say("  error between the stations: not known without the exact surface of a grid file")
-        }
+        Some(found) => progress.say(&format!(
+            "  error against the exact surface: {}",
+            found.message()
+        )),
+        None => progress.say(
+            "  error between the stations: not known without the exact surface of a grid file",
+        ),
     }
-    let ranks: Vec<Value> =
-        factoring.ranks.iter().map(|[kept, of]| json!({ "retained": kept, "of": of })).collect();
+    let ranks: Vec<Value> = factoring
+        .ranks
+        .iter()
+        .map(|[kept, of]| json!({ "retained": kept, "of": of }))
+        .collect();
     let between = between.map(|found| found.json());
-    let object =
-        json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
+    let object = json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
     summary.insert("factored".into(), object);
     Ok(factoring.set)
 }

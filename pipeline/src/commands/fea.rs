@@ -52,7 +52,8 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let mut text = file::write(&solved.grid, solved.surface.as_ref());
     if let Some(count) = args.modes {
         let stage = progress.stage("modes");
-        let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, MESH_TOLERANCE);
+        let found =
+            fea::refined_modes(&solved.model, &solved.rails, count as usize, MESH_TOLERANCE);
         drop(stage);
         let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
         progress.say(&modes_file::summary(&refined.modes));
@@ -74,7 +75,10 @@ fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
     let fault = if spec.girder().is_some() {
         Fault::new(&root.key("girder"), "missing key `mass_per_length`")
     } else {
-        Fault::new(&root.key("materials"), "one of them must have a `density`, or the spec `masses`")
+        Fault::new(
+            &root.key("materials"),
+            "one of them must have a `density`, or the spec `masses`",
+        )
     };
     Failure::Input(source.diagnose(&Faults(vec![fault.hint("modes need mass")])))
 }

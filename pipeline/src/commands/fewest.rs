@@ -30,24 +30,42 @@ pub(super) fn chosen(
     let root = Place::root();
     let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
     let Some(surface) = surface else {
-        let fault =
-            Fault::new(&root, "has no `surface`: the exact values between its stations are not known");
-        return Err(refuse(fault.hint("`girderway fea SPEC -o GRID.json` writes one")));
+        let fault = Fault::new(
+            &root,
+            "has no `surface`: the exact values between its stations are not known",
+        );
+        return Err(refuse(
+            fault.hint("`girderway fea SPEC -o GRID.json` writes one"),
+        ));
     };
-    let mut axes: Vec<Axis> = args.directions.iter().map(|direction| Axis::from(*direction)).collect();
+    let mut axes: Vec<Axis> = args
+        .directions
+        .iter()
+        .map(|direction| Axis::from(*direction))
+        .collect();
     axes.sort_unstable();
     axes.dedup();
     if axes.is_empty() {
-        axes = if manner == TableReadingMethod::Exact { vec![Axis::Vertical] } else { stations::usual(grid) };
+        axes = if manner == TableReadingMethod::Exact {
+            vec![Axis::Vertical]
+        } else {
+            stations::usual(grid)
+        };
     }
     for axis in &axes {
-        let direct = GridBlock::ALL.into_iter().find(|quantity| grid::axes(*quantity) == (*axis, *axis));
+        let direct = GridBlock::ALL
+            .into_iter()
+            .find(|quantity| grid::axes(*quantity) == (*axis, *axis));
         if direct.is_none_or(|quantity| grid.block(quantity).is_none()) {
             let wrong = format!("has no {} grid", stations::word(*axis));
             return Err(refuse(Fault::new(&root.key("influence"), wrong)));
         }
     }
-    let goal = StationGoal { method: manner, tolerance, axes };
+    let goal = StationGoal {
+        method: manner,
+        tolerance,
+        axes,
+    };
     let stage = progress.stage("stations");
     let found = stations::choose(grid, surface, &goal);
     drop(stage);

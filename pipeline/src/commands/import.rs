@@ -18,10 +18,16 @@ use import::{ImportOptions, import};
 pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     // a name mistyped is reported before flags that are missing for the file
-    if args.model.metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound) {
-        return Err(
-            Diagnostic::of_file(args.model.display().to_string(), "cannot be read: no such file").into()
-        );
+    if args
+        .model
+        .metadata()
+        .is_err_and(|error| error.kind() == ErrorKind::NotFound)
+    {
+        return Err(Diagnostic::of_file(
+            args.model.display().to_string(),
+            "cannot be read: no such file",
+        )
+        .into());
     }
     let sections = match &args.sections {
         Some(path) => Some(Inputs::open(path).map_err(|error| Failure::from(*error))?.1),
@@ -35,7 +41,11 @@ pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
         fix: args.fix.clone(),
         sections,
         spc: args.spc,
-        skip: args.skip.iter().map(|name| name.trim().to_ascii_uppercase()).collect(),
+        skip: args
+            .skip
+            .iter()
+            .map(|name| name.trim().to_ascii_uppercase())
+            .collect(),
         skip_unused: args.skip_unused,
         mass: args.mass.map(Into::into),
     };

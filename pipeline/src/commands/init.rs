@@ -27,8 +27,7 @@ macro_rules! files {
 }
 
 const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm", "sweep.json");
-const GIRDERWAY: Files =
-    files!("mill_girderway": "scene.json", "spec.json", "design.json", "scatter.json", "sweep.json");
+const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json", "design.json", "scatter.json", "sweep.json");
 const CRANE: Files = files!(
     "bridge_crane":
     "scene.json", "aisle.json", "girders.json", "emergency.json", "lifting.json", "drop.json", "buffer.json", "skew.json",
@@ -57,7 +56,11 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     check_path(&folder)?;
     let files: Vec<(PathBuf, String)> = (files(args.what).iter())
         .map(|(name, text)| (place(&folder, name), with_schema(text)))
-        .chain(schemas().into_iter().map(|(name, text)| (place(&folder, &format!("{SCHEMAS}/{name}")), text)))
+        .chain(
+            schemas()
+                .into_iter()
+                .map(|(name, text)| (place(&folder, &format!("{SCHEMAS}/{name}")), text)),
+        )
         .collect();
     let taken: Vec<Diagnostic> = files
         .iter()
@@ -76,15 +79,24 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
         progress.say(&format!("wrote {}", path.display()));
     }
     let scene = files[0].0.display().to_string();
-    let other = |name: &str| files.iter().map(|(path, _)| path).find(|path| path.ends_with(name));
+    let other = |name: &str| {
+        files
+            .iter()
+            .map(|(path, _)| path)
+            .find(|path| path.ends_with(name))
+    };
     progress.say(&format!("next: girderway run {scene}"));
     for (command, name) in [("design", "design.json"), ("sweep", "sweep.json")] {
-        if let Some(path) = other(name).filter(|path| !path.ends_with(format!("{SCHEMAS}/{name}"))) {
+        if let Some(path) = other(name).filter(|path| !path.ends_with(format!("{SCHEMAS}/{name}")))
+        {
             progress.say(&format!("      girderway {command} {}", path.display()));
         }
     }
     if global.json {
-        let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        let names: Vec<String> = files
+            .iter()
+            .map(|(path, _)| path.display().to_string())
+            .collect();
         output::print(&json_text(&json!({ "scene": scene, "files": names })))?;
     }
     Ok(Exit::Done)
@@ -98,7 +110,9 @@ fn schemas() -> Vec<(&'static str, String)> {
         ("design.json", schema::design()),
         ("sweep.json", schema::sweep()),
     ];
-    all.into_iter().map(|(name, schema)| (name, json_text(&schema))).collect()
+    all.into_iter()
+        .map(|(name, schema)| (name, json_text(&schema)))
+        .collect()
 }
 
 /// A file with the path of its schema as its first member; a file without a schema as it is.
@@ -109,7 +123,9 @@ fn with_schema(text: &str) -> String {
         ("girderway-design/", "design"),
         ("girderway-sweep/", "sweep"),
     ];
-    let own = formats.iter().find(|(format, _)| text.contains(&format!("\"{format}")));
+    let own = formats
+        .iter()
+        .find(|(format, _)| text.contains(&format!("\"{format}")));
     match (own, text.strip_prefix('{')) {
         (Some((_, name)), Some(rest)) => {
             let space = if rest.starts_with('\n') { "\n  " } else { "" };
@@ -122,5 +138,9 @@ fn with_schema(text: &str) -> String {
 
 /// Path of a file in a folder, without a leading `./`.
 fn place(folder: &Path, name: &str) -> PathBuf {
-    if folder == Path::new(".") { PathBuf::from(name) } else { folder.join(name) }
+    if folder == Path::new(".") {
+        PathBuf::from(name)
+    } else {
+        folder.join(name)
+    }
 }

@@ -43,16 +43,33 @@ pub(super) fn of_document(
     force: bool,
     global: Global,
 ) -> Result<Exit, Failure> {
-    whole("run", document, (path, force), (global, StageClock::new()), solve)
+    whole(
+        "run",
+        document,
+        (path, force),
+        (global, StageClock::new()),
+        solve,
+    )
 }
 
 /// Performs the common part of `run` and `sim` with the solved structures that `structures` returns.
-pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
+pub(super) fn job(
+    name: &str,
+    args: &Arguments,
+    global: Global,
+    structures: Source,
+) -> Result<Exit, Failure> {
     let clock = StageClock::new();
     let document = Document::open(&args.scene)?;
     let folder = || PathBuf::from("girderway-out").join(&document.scene().name);
     let path = args.output.clone().unwrap_or_else(folder);
-    whole(name, document, (&path, args.force), (global, clock), structures)
+    whole(
+        name,
+        document,
+        (&path, args.force),
+        (global, clock),
+        structures,
+    )
 }
 
 /// Checks and simulates a document, and writes its files into a folder.
@@ -73,11 +90,16 @@ fn whole(
     let known = structures(&document, path, &progress)?;
     clock.lap("fea");
     let bar = progress.bar("simulating", 1000);
-    let options = RunOptions { threads: global.threads, ..RunOptions::default() };
+    let options = RunOptions {
+        threads: global.threads,
+        ..RunOptions::default()
+    };
     let run = SceneRun::on(document, known, options, &|now| {
         match now {
             // nobody knows how long an evaluation takes
-            SimulationProgress::Fraction(share) if share >= 1.0 => bar.without_end(": evaluating the run"),
+            SimulationProgress::Fraction(share) if share >= 1.0 => {
+                bar.without_end(": evaluating the run")
+            }
             SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
             SimulationProgress::Trial(foundations) => {
                 bar.name(&format!("simulating, trial on {foundations}"))
@@ -112,10 +134,12 @@ fn finish(
     }
     progress.say(&format!("wrote {}", written.folder.display()));
     if global.json {
-        let result = json!({ "output": written.folder.display().to_string(), "summary": written.summary });
+        let result =
+            json!({ "output": written.folder.display().to_string(), "summary": written.summary });
         output::print(&json_text(&result))?;
     }
-    run.reason_incomplete().map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
+    run.reason_incomplete()
+        .map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }
 
 /// Writes what the user should know of the results.
@@ -124,14 +148,23 @@ fn tell(run: &SceneRun, progress: &Progress) {
     let unit = scene.units.length.word();
     for outcome in &run.cases {
         for body in &scene.bodies {
-            let Some((_, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else { continue };
-            progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
+            let Some((_, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else {
+                continue;
+            };
+            progress.say(&format!(
+                "{}: {} sinks by at most {deepest:.6} {unit}",
+                outcome.label, body.name
+            ));
         }
     }
     for outcome in &run.cases {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
-            progress.say(&format!("{}: {name}: {}", outcome.label, foundations::selection_reason(choice)));
+            progress.say(&format!(
+                "{}: {name}: {}",
+                outcome.label,
+                foundations::selection_reason(choice)
+            ));
         }
     }
     for message in warning::messages(&run.cases, &run.document) {
@@ -140,7 +173,11 @@ fn tell(run: &SceneRun, progress: &Progress) {
 }
 
 /// Solves each distinct spec of the document once.
-fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
+fn solve(
+    document: &Document,
+    _: &Path,
+    progress: &Progress,
+) -> Result<Vec<SolvedStructure>, Failure> {
     solve_all(document, &distinct_specs(document), progress)
 }
 

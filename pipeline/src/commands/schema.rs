@@ -21,6 +21,10 @@ pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
         SchemaArg::Summary => results::summary::schema(),
         SchemaArg::DesignSummary => design::summary_schema(),
     };
-    output::deliver(args.output.as_deref(), &json_text(&schema), &Progress::new(global))?;
+    output::deliver(
+        args.output.as_deref(),
+        &json_text(&schema),
+        &Progress::new(global),
+    )?;
     Ok(Exit::Done)
 }

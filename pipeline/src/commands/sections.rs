@@ -8,7 +8,9 @@ use crate::output;
 use formats::text::diagnostic::Diagnostic;
 use formats::text::fault::alternatives;
 use outputs::files::json as json_text;
-use sections::{RailProfile, RolledSection, STEEL_DENSITY, SectionSeries, crane_rails, rolled_sections};
+use sections::{
+    RailProfile, RolledSection, STEEL_DENSITY, SectionSeries, crane_rails, rolled_sections,
+};
 
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
@@ -21,14 +23,22 @@ const POUND_PER_FOOT: f64 = 0.3048 / 0.453_592_37;
 /// No name contains it, or standard output cannot be written.
 pub fn run(args: &SectionsArgs, global: Global) -> Result<Exit, Failure> {
     let pattern = args.pattern.join(" ");
-    let found: Vec<&RolledSection> =
-        rolled_sections().iter().filter(|section| sections::matches(section.name, &pattern)).collect();
-    let rails: Vec<&RailProfile> =
-        crane_rails().iter().filter(|rail| sections::matches(rail.name, &pattern)).collect();
+    let found: Vec<&RolledSection> = rolled_sections()
+        .iter()
+        .filter(|section| sections::matches(section.name, &pattern))
+        .collect();
+    let rails: Vec<&RailProfile> = crane_rails()
+        .iter()
+        .filter(|rail| sections::matches(rail.name, &pattern))
+        .collect();
     // a rail has names that the table does not show, such as ASCE 135 of CR 135
     let by_name = || sections::crane_rail(&pattern).into_iter().collect();
     let rails = if rails.is_empty() { by_name() } else { rails };
-    let found = if found.is_empty() { sections::rolled(&pattern).into_iter().collect() } else { found };
+    let found = if found.is_empty() {
+        sections::rolled(&pattern).into_iter().collect()
+    } else {
+        found
+    };
     if found.is_empty() && rails.is_empty() {
         return Err(unknown(&pattern).into());
     }
@@ -49,15 +59,24 @@ pub fn run(args: &SectionsArgs, global: Global) -> Result<Exit, Failure> {
 
 /// The error of a pattern that no name contains.
 fn unknown(pattern: &str) -> Diagnostic {
-    let near = [sections::nearest_rolled(pattern), sections::nearest_crane_rails(pattern)].concat();
+    let near = [
+        sections::nearest_rolled(pattern),
+        sections::nearest_crane_rails(pattern),
+    ]
+    .concat();
     let hint = if near.is_empty() {
         "without a pattern all names are listed".to_owned()
     } else {
         format!("did you mean {}?", alternatives(&near))
     };
-    let fault =
-        Diagnostic::of_file("sections", "must be a part of the name of a rolled section or a crane rail");
-    Diagnostic { found: Some(format!("\"{pattern}\"")), ..fault.hint(hint) }
+    let fault = Diagnostic::of_file(
+        "sections",
+        "must be a part of the name of a rolled section or a crane rail",
+    );
+    Diagnostic {
+        found: Some(format!("\"{pattern}\"")),
+        ..fault.hint(hint)
+    }
 }
 
 /// Titles of the tables, with their units.
@@ -71,7 +90,13 @@ const RAILS: &str = "Crane rails: dimensions in mm; area in cm2; second moments 
 fn table(title: &str, head: &[&str], rows: &[Vec<String>]) -> String {
     let head: Vec<String> = head.iter().map(|title| (*title).to_owned()).collect();
     let lines: Vec<&Vec<String>> = std::iter::once(&head).chain(rows).collect();
-    let width = |column: usize| lines.iter().map(|line| line[column].len()).max().unwrap_or_default();
+    let width = |column: usize| {
+        lines
+            .iter()
+            .map(|line| line[column].len())
+            .max()
+            .unwrap_or_default()
+    };
     let widths: Vec<usize> = (0..head.len()).map(width).collect();
     let line = |cells: &Vec<String>| {
         let mut text = format!("{:<1$}", cells[0], widths[0]);
@@ -92,21 +117,60 @@ fn short(value: f64) -> String {
     let before = value.abs().log10().floor() as i32 + 1;
     let behind = usize::try_from(4 - before).unwrap_or_default();
     let text = format!("{value:.behind$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// The sections in mm, cm and kg/m; nothing if there are none.
 fn metric(found: &[&RolledSection]) -> Option<String> {
-    let head = ["name", "h", "b", "tw", "tf", "r", "A", "Iy", "Iz", "J", "As web", "As flange", "mass"];
-    let rows = found.iter().map(|section| row(section, 1.0, 10.0, 1.0)).collect::<Vec<_>>();
+    let head = [
+        "name",
+        "h",
+        "b",
+        "tw",
+        "tf",
+        "r",
+        "A",
+        "Iy",
+        "Iz",
+        "J",
+        "As web",
+        "As flange",
+        "mass",
+    ];
+    let rows = found
+        .iter()
+        .map(|section| row(section, 1.0, 10.0, 1.0))
+        .collect::<Vec<_>>();
     (!rows.is_empty()).then(|| table(METRIC, &head, &rows))
 }
 
 /// The W shapes in in and lb/ft; nothing if there are none.
 fn american(found: &[&RolledSection]) -> Option<String> {
-    let head = ["name", "d", "bf", "tw", "tf", "r", "A", "Ix", "Iy", "J", "As web", "As flange", "weight"];
-    let shapes = found.iter().filter(|section| section.series == SectionSeries::W);
-    let rows = shapes.map(|section| row(section, INCH, INCH, POUND_PER_FOOT)).collect::<Vec<_>>();
+    let head = [
+        "name",
+        "d",
+        "bf",
+        "tw",
+        "tf",
+        "r",
+        "A",
+        "Ix",
+        "Iy",
+        "J",
+        "As web",
+        "As flange",
+        "weight",
+    ];
+    let shapes = found
+        .iter()
+        .filter(|section| section.series == SectionSeries::W);
+    let rows = shapes
+        .map(|section| row(section, INCH, INCH, POUND_PER_FOOT))
+        .collect::<Vec<_>>();
     (!rows.is_empty()).then(|| table(AMERICAN, &head, &rows))
 }
 
@@ -114,7 +178,8 @@ fn american(found: &[&RolledSection]) -> Option<String> {
 fn row(section: &RolledSection, length: f64, unit: f64, weight: f64) -> Vec<String> {
     let size = section.dimensions;
     let found = section.dimensions.properties();
-    let dimensions = [size.height, size.width, size.web, size.flange, size.radius].map(|side| side / length);
+    let dimensions =
+        [size.height, size.width, size.web, size.flange, size.radius].map(|side| side / length);
     let [two, four] = [unit.powi(2), unit.powi(4)];
     let properties = [
         found.area / two,
@@ -126,7 +191,9 @@ fn row(section: &RolledSection, length: f64, unit: f64, weight: f64) -> Vec<Stri
         mass(section) * weight,
     ];
     let numbers = dimensions.into_iter().chain(properties).map(short);
-    std::iter::once(section.name.to_owned()).chain(numbers).collect()
+    std::iter::once(section.name.to_owned())
+        .chain(numbers)
+        .collect()
 }
 
 /// Mass per length of a section of steel, kg/m.
@@ -136,9 +203,12 @@ fn mass(section: &RolledSection) -> f64 {
 
 /// The rails in mm, cm and kg/m; nothing if there are none.
 fn rail_table(rails: &[&RailProfile]) -> Option<String> {
-    let head = ["name", "head", "base", "height", "web", "A", "Iv", "Il", "centroid", "mass", "standard"];
-    let cell =
-        |value: Option<f64>, unit: f64| value.map_or_else(|| "-".to_owned(), |value| short(value / unit));
+    let head = [
+        "name", "head", "base", "height", "web", "A", "Iv", "Il", "centroid", "mass", "standard",
+    ];
+    let cell = |value: Option<f64>, unit: f64| {
+        value.map_or_else(|| "-".to_owned(), |value| short(value / unit))
+    };
     let row = |rail: &&RailProfile| {
         vec![
             rail.name.to_owned(),

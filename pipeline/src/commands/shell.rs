@@ -42,8 +42,15 @@ pub fn man(args: &ManArgs, global: Global) -> Result<Exit, Failure> {
         if command.get_name() == "help" {
             continue;
         }
-        let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
-        output::deliver_bytes(Some(&folder.join(format!("{name}.1"))), &page(command)?, &progress)?;
+        let name = command
+            .get_display_name()
+            .unwrap_or(command.get_name())
+            .to_owned();
+        output::deliver_bytes(
+            Some(&folder.join(format!("{name}.1"))),
+            &page(command)?,
+            &progress,
+        )?;
     }
     Ok(Exit::Done)
 }

@@ -36,14 +36,19 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
         // a spec with pads is solved again because its pads depend on the scene, which may have changed
         if !spec.pads().is_empty() {
             let solved = foundations::solve(spec).map_err(Failure::untrusted)?;
-            known.push(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solved) });
+            known.push(SolvedStructure {
+                spec: Arc::clone(spec),
+                solution: Arc::new(solved),
+            });
             continue;
         }
         let manifest = folder.join(MANIFEST);
         let entries = unchanged(document, &manifest, file)?;
         let grid = format!("grid-{name}.json");
-        let listed =
-            entries.iter().find(|entry| entry.name == grid).and_then(|entry| entry.sha256.as_deref());
+        let listed = entries
+            .iter()
+            .find(|entry| entry.name == grid)
+            .and_then(|entry| entry.sha256.as_deref());
         let path = folder.join(&grid);
         known.push(SolvedStructure {
             spec: Arc::clone(spec),
@@ -64,13 +69,24 @@ fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputE
     let text = std::fs::read(path).map_err(|_| refuse("there are no tables yet"))?;
     let outputs = listed_files(&text).ok_or_else(|| refuse("is not a manifest"))?;
     let manifest: Value = serde_json::from_slice(&text).map_err(|_| refuse("is not a manifest"))?;
-    let entries = manifest["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let then = entries.iter().find(|entry| entry["name"] == file).and_then(|entry| entry["sha256"].as_str());
-    let now = document.inputs.find(file).map(|input| input.sha256.as_str());
+    let entries = manifest["inputs"]
+        .as_array()
+        .map(Vec::as_slice)
+        .unwrap_or_default();
+    let then = entries
+        .iter()
+        .find(|entry| entry["name"] == file)
+        .and_then(|entry| entry["sha256"].as_str());
+    let now = document
+        .inputs
+        .find(file)
+        .map(|input| input.sha256.as_str());
     if then.is_some() && then == now {
         Ok(outputs)
     } else {
-        Err(refuse(&format!("its tables were not made from {file} as it is now")))
+        Err(refuse(&format!(
+            "its tables were not made from {file} as it is now"
+        )))
     }
 }
 
@@ -79,11 +95,19 @@ fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputE
 fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel, Failure> {
     let (inputs, source) = Inputs::open(path)?;
     if listed != Some(inputs.all()[0].sha256.as_str()) {
-        let wrong = Diagnostic::of_file(&source.name, format!("is not the grid that {MANIFEST} lists"));
+        let wrong = Diagnostic::of_file(
+            &source.name,
+            format!("is not the grid that {MANIFEST} lists"),
+        );
         return Err(wrong.hint(HINT).into());
     }
     let (grid, surface) = grid_file::read(&source)?;
-    let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
+    let wrong = |why: &str| {
+        Failure::Input(vec![Diagnostic::of_file(
+            source.name.clone(),
+            why.to_owned(),
+        )])
+    };
     if grid.units != spec.units {
         return Err(wrong("is in other units than the scene"));
     }
@@ -93,5 +117,13 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
     let girder = spec.girder().cloned();
     let modes = ComputedModes::default();
-    Ok(SolvedModel { model, rails, surface: Some(surface), grid, girder, size: None, modes })
+    Ok(SolvedModel {
+        model,
+        rails,
+        surface: Some(surface),
+        grid,
+        girder,
+        size: None,
+        modes,
+    })
 }

@@ -45,10 +45,15 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         progress.say(&format!("warning: {} has no tables", input.display_name));
     }
     if !args.only.is_empty() {
-        let directions: Vec<_> = args.only.iter().map(|direction| (*direction).into()).collect();
+        let directions: Vec<_> = args
+            .only
+            .iter()
+            .map(|direction| (*direction).into())
+            .collect();
         set = tables::select(&set, &directions);
         if set.tables.is_empty() {
-            let fault = Diagnostic::of_file(&input.display_name, "has no table of these directions");
+            let fault =
+                Diagnostic::of_file(&input.display_name, "has no table of these directions");
             return Err(fault
                 .hint("a table's direction is known from a grid, or from the end of its name")
                 .into());
@@ -62,7 +67,8 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         None => {}
     }
     if let Some(digits) = args.digits {
-        let refused = |why: tables::RoundError| Diagnostic::of_file(&input.display_name, why.to_string());
+        let refused =
+            |why: tables::RoundError| Diagnostic::of_file(&input.display_name, why.to_string());
         let (rounded, rounding) = tables::round(&set, usize::from(digits)).map_err(refused)?;
         progress.say(&rounding.message());
         summary.insert("rounding".into(), rounding.json());
@@ -82,11 +88,17 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
 fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     let factored = args.form == Some(TableFormArg::Factored);
     let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
-        ("--tolerance is that of a reading", "add --reading akispl, --check or --form factored")
+        (
+            "--tolerance is that of a reading",
+            "add --reading akispl, --check or --form factored",
+        )
     } else if args.rank.is_some() && !factored {
         ("--rank is of the factored form", "add --form factored")
     } else if args.rank.is_some() && args.tolerance.is_some() && args.reading.is_none() {
-        ("--rank and --tolerance both set the number of products", "use one of them")
+        (
+            "--rank and --tolerance both set the number of products",
+            "use one of them",
+        )
     } else {
         return Ok(());
     };
@@ -103,14 +115,19 @@ fn given(
     told_more: &mut Map<String, Value>,
 ) -> Result<Given, Failure> {
     let units = args.length.zip(args.force);
-    let units = units.map(|(length, force)| Units { length: length.into(), force: force.into() });
+    let units = units.map(|(length, force)| Units {
+        length: length.into(),
+        force: force.into(),
+    });
     if tables::is_tables(&input.display_name, &input.bytes) {
         if args.reading.is_some() {
             let fault = Diagnostic::of_file(
                 &input.display_name,
                 "does not contain the exact values between its stations",
             );
-            return Err(fault.hint("--reading and --tolerance need a grid file").into());
+            return Err(fault
+                .hint("--reading and --tolerance need a grid file")
+                .into());
         }
         let set = tables::read(&input.display_name, &input.bytes, units)?;
         if let Some(message) = set.left_out_message() {
@@ -124,17 +141,37 @@ fn given(
         let fault = Diagnostic::of_file(&input.display_name, "a grid already states its units");
         return Err(fault.hint("leave out --length and --force").into());
     }
-    if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {
-        grid = fewest::chosen(args, wanted, &source, (&grid, surface.as_ref()), progress, told_more)?;
+    if let Some(wanted) = args
+        .reading
+        .map(TableReadingMethod::from)
+        .zip(args.tolerance)
+    {
+        grid = fewest::chosen(
+            args,
+            wanted,
+            &source,
+            (&grid, surface.as_ref()),
+            progress,
+            told_more,
+        )?;
     }
-    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < SplineValues::MIN_POINTS) {
-        progress
-            .say(&format!("note: no tables of loads on rail {}: it has fewer than four stations", rail.name));
+    for rail in grid
+        .rails
+        .iter()
+        .filter(|rail| rail.stations.len() < SplineValues::MIN_POINTS)
+    {
+        progress.say(&format!(
+            "note: no tables of loads on rail {}: it has fewer than four stations",
+            rail.name
+        ));
     }
     let set = TableSet::of_grid(&grid);
     if set.tables.is_empty() {
         let root = Place::root();
-        let fault = Fault::new(&root.key("rails"), "must have a rail of at least four stations");
+        let fault = Fault::new(
+            &root.key("rails"),
+            "must have a rail of at least four stations",
+        );
         let fault = fault.hint("a SPLINE has four x values or more");
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }

@@ -29,7 +29,12 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let name = document.scene().name.clone();
     let label = args.case.clone();
     let chosen = Document {
-        cases: document.cases.iter().filter(|case| case.label == label).cloned().collect(),
+        cases: document
+            .cases
+            .iter()
+            .filter(|case| case.label == label)
+            .cloned()
+            .collect(),
         inputs: document.inputs.clone(),
         changes: None,
     };
@@ -40,7 +45,11 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let folder = || PathBuf::from("girderway-out").join(format!("{name}-study"));
     let path = args.output.clone().unwrap_or_else(folder);
     let mut folder = OutputFolder::open(&path, "study", args.force, &planned(args.stability))?;
-    let mut budget = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
+    let mut budget = if args.quick {
+        StudyBudget::quick()
+    } else {
+        StudyBudget::full()
+    };
     budget.limit = args.limit.unwrap_or(budget.limit);
     budget.repetition_limit = budget.repetition_limit.min(budget.limit);
     budget.resolution = args.resolution.unwrap_or(budget.resolution);
@@ -55,10 +64,17 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     folder.add("study.json", json_text(&result));
     folder.add("study.csv", study::csv(&study).map_err(Failure::untrusted)?);
     folder.add_varying("timing.json", json_text(&study::timing_json(&study)));
-    folder.add_varying("timing.csv", study::timing_csv(&study).map_err(Failure::untrusted)?);
+    folder.add_varying(
+        "timing.csv",
+        study::timing_csv(&study).map_err(Failure::untrusted)?,
+    );
     for figure in study::figures(&study, &name).map_err(Failure::untrusted)? {
         let file = format!("plots/{}.svg", figure.name);
-        if figure.varies { folder.add_varying(&file, figure.svg) } else { folder.add(&file, figure.svg) }
+        if figure.varies {
+            folder.add_varying(&file, figure.svg)
+        } else {
+            folder.add(&file, figure.svg)
+        }
     }
     let settings = json!({
         "case": args.case, "quick": args.quick, "limit": budget.limit, "resolution": budget.resolution,
@@ -67,11 +83,16 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     for (family, who) in [
         (SettingFamily::Written, "as written"),
         (SettingFamily::Auto, "choice of auto"),
-        (SettingFamily::Stepping, "as written, compared with other methods on its foundations"),
+        (
+            SettingFamily::Stepping,
+            "as written, compared with other methods on its foundations",
+        ),
     ] {
         let ratios = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
             let all = study::cost_ratios(&study, family, cost).into_iter();
-            let ratios: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
+            let ratios: Vec<String> = all
+                .map(|(own, by)| format!("{by:.2} {}", own.name()))
+                .collect();
             ratios.join(", ")
         };
         let [time, work] = [ratios(&StudyPoint::seconds), ratios(&study::stages)];
@@ -97,8 +118,15 @@ fn planned(stability: bool) -> PlannedFiles {
     } else {
         &["study.json", "study.csv", "timing.json", "timing.csv"]
     };
-    let plots = if stability { vec!["stability-".to_owned()] } else { Vec::new() };
-    PlannedFiles { names: names.iter().map(|name| (*name).to_owned()).collect(), plots }
+    let plots = if stability {
+        vec!["stability-".to_owned()]
+    } else {
+        Vec::new()
+    };
+    PlannedFiles {
+        names: names.iter().map(|name| (*name).to_owned()).collect(),
+        plots,
+    }
 }
 
 /// Computes and writes maps of the parameters for which methods fail.
@@ -114,12 +142,19 @@ fn stability(
     let (maps, absent) = stability::maps(&subject, args.quick, &progress);
     let result = stability::json(&maps, &absent);
     folder.add("stability.json", json_text(&result));
-    folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
+    folder.add(
+        "stability.csv",
+        stability::csv(&maps).map_err(Failure::untrusted)?,
+    );
     for map in &maps {
         let figures = stability::figures(map).map_err(Failure::untrusted)?;
         let is_one = figures.len() == 1;
         for (index, svg) in figures.into_iter().enumerate() {
-            let number = if is_one { String::new() } else { format!("-{}", index + 1) };
+            let number = if is_one {
+                String::new()
+            } else {
+                format!("-{}", index + 1)
+            };
             folder.add(&format!("plots/stability-{}{number}.svg", map.name), svg);
         }
     }
@@ -127,9 +162,19 @@ fn stability(
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
     for map in &maps {
         for layer in map.layers.iter().filter(|layer| layer.is_ours) {
-            let counts = MapVerdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
-            let summary: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
-            progress.say(&format!("{}: {}: {}", map.name, layer.method, summary.join(", ")));
+            let counts = MapVerdict::WORDS
+                .iter()
+                .zip(layer.counts())
+                .filter(|(_, count)| *count > 0);
+            let summary: Vec<String> = counts
+                .map(|(word, count)| format!("{count} {word}"))
+                .collect();
+            progress.say(&format!(
+                "{}: {}: {}",
+                map.name,
+                layer.method,
+                summary.join(", ")
+            ));
         }
     }
     progress.say(&format!("wrote {}", written.display()));
@@ -150,18 +195,34 @@ fn stability(
 /// Returns the scene itself, or the comparison with the requested label.
 fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
     let Some(label) = &args.case else {
-        return Ok(Case { label: None, scene: document.scene().clone() });
+        return Ok(Case {
+            label: None,
+            scene: document.scene().clone(),
+        });
     };
-    let labels: Vec<&str> = document.cases.iter().filter_map(|case| case.label.as_deref()).collect();
-    match document.cases.iter().find(|case| case.label.as_ref() == Some(label)) {
-        Some(found) => Ok(Case { label: None, scene: found.scene.clone() }),
+    let labels: Vec<&str> = document
+        .cases
+        .iter()
+        .filter_map(|case| case.label.as_deref())
+        .collect();
+    match document
+        .cases
+        .iter()
+        .find(|case| case.label.as_ref() == Some(label))
+    {
+        Some(found) => Ok(Case {
+            label: None,
+            scene: found.scene.clone(),
+        }),
         None => {
             let hint = match labels.as_slice() {
                 [] => "the scene has no comparisons".to_owned(),
                 labels => format!("known: {}", labels.join(", ")),
             };
-            let wrong =
-                Diagnostic::of_file("--case", format!("must be the label of a comparison, got \"{label}\""));
+            let wrong = Diagnostic::of_file(
+                "--case",
+                format!("must be the label of a comparison, got \"{label}\""),
+            );
             Err(wrong.hint(hint).into())
         }
     }
@@ -170,10 +231,20 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 /// Checks that the reference solutions resolve the error that the budget requires.
 fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
     if let Some((kind, why)) = study.failed_references.first() {
-        let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
-        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", kind.word())));
+        let hint = if why.contains("was stopped") {
+            "  hint: raise --limit"
+        } else {
+            ""
+        };
+        return Err(Failure::Untrusted(format!(
+            "no reference \"{}\": {why}{hint}",
+            kind.word()
+        )));
     }
-    let worst = study.references.iter().max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
+    let worst = study
+        .references
+        .iter()
+        .max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
     match worst.filter(|worst| worst.worst_resolution() > budget.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(

@@ -23,7 +23,10 @@ use outputs::sweep_files::{SweepProgress, WrittenSweep, join_shards, make_sweep}
 /// cannot be written, or no run has results.
 pub fn run(args: &SweepArgs, global: Global) -> Result<Exit, Failure> {
     let Some(file) = &args.sweep else {
-        let path = args.output.as_ref().expect("the command line requires a folder beside --merge");
+        let path = args
+            .output
+            .as_ref()
+            .expect("the command line requires a folder beside --merge");
         let written = join_shards(&args.merge, path, args.force, global.threads)?;
         return report(&written, global);
     };
@@ -33,19 +36,30 @@ pub fn run(args: &SweepArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(number) = args.run {
         return repeat(number, &sweep, args, global);
     }
-    let path = args.output.clone().unwrap_or_else(|| default_folder(&sweep, args.shard));
+    let path = args
+        .output
+        .clone()
+        .unwrap_or_else(|| default_folder(&sweep, args.shard));
     let bar = progress.bar("runs", sweep.count as u64);
     let mut observed = |now: SweepProgress| {
         match now {
-            SweepProgress::Resumed(made, all) => progress.say(&format!("resumes after {made} of {all} runs")),
+            SweepProgress::Resumed(made, all) => {
+                progress.say(&format!("resumes after {made} of {all} runs"))
+            }
             SweepProgress::Made(made, all) => bar.set_of(made as u64, all as u64),
         }
         ControlFlow::Continue(())
     };
     // Ctrl-C ends the process
     let go_on = || ControlFlow::Continue(());
-    let written =
-        make_sweep((&sweep, &own), args.shard, (&path, args.force), global.threads, &mut observed, &go_on)?;
+    let written = make_sweep(
+        (&sweep, &own),
+        args.shard,
+        (&path, args.force),
+        global.threads,
+        &mut observed,
+        &go_on,
+    )?;
     drop(bar);
     report(&written, global)
 }
@@ -56,16 +70,25 @@ fn report(written: &WrittenSweep, global: Global) -> Result<Exit, Failure> {
     if let Some((run, why)) = written.failures.first() {
         let count = written.failures.len();
         let runs = if count == 1 { "run has" } else { "runs have" };
-        progress.say(&format!("warning: {count} {runs} no results, see failures.csv; run {run}: {why}"));
+        progress.say(&format!(
+            "warning: {count} {runs} no results, see failures.csv; run {run}: {why}"
+        ));
     }
-    progress.say(&format!("{} runs with results, {} without", written.rows, written.failures.len()));
+    progress.say(&format!(
+        "{} runs with results, {} without",
+        written.rows,
+        written.failures.len()
+    ));
     progress.say(&format!("wrote {}", written.folder.display()));
     if global.json {
-        let all = json!({ "output": written.folder.display().to_string(), "summary": written.summary });
+        let all =
+            json!({ "output": written.folder.display().to_string(), "summary": written.summary });
         output::print(&json_text(&all))?;
     }
     if written.rows == 0 {
-        return Err(Failure::Untrusted("no run has results; failures.csv has the reasons".to_owned()));
+        return Err(Failure::Untrusted(
+            "no run has results; failures.csv has the reasons".to_owned(),
+        ));
     }
     Ok(Exit::Done)
 }
@@ -85,10 +108,13 @@ fn repeat(number: usize, sweep: &Sweep, args: &SweepArgs, global: Global) -> Res
     let folder = PathBuf::from("girderway-out").join(format!("{}-run-{number}", sweep.name));
     let path = args.output.clone().unwrap_or(folder);
     match &sweep.input {
-        SweepInput::Scene(_) => commands::run::of_document(runner.scene(&values)?, &path, args.force, global),
+        SweepInput::Scene(_) => {
+            commands::run::of_document(runner.scene(&values)?, &path, args.force, global)
+        }
         SweepInput::Design(_) => {
             let (design, inputs) = runner.design(&values)?;
-            commands::design::of_design(&design, inputs, &path, args.force, global).map(|_| Exit::Done)
+            commands::design::of_design(&design, inputs, &path, args.force, global)
+                .map(|_| Exit::Done)
         }
     }
 }

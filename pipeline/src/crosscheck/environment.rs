@@ -18,8 +18,12 @@ const PARTIAL: &str = "partial";
 /// A small package of the requirements, by which an index that cannot be reached is noticed at once.
 const SMALLEST: &str = "wcwidth";
 /// What the models of each code need besides numpy and scipy, by the beginnings of the lines of the requirements.
-const PACKAGES: [(&str, &[&str]); 4] =
-    [("scikit-fem", &["scikit-fem"]), ("OpenSees", &["openseespy"]), ("PyNite", PYNITE), ("gmsh", &["gmsh"])];
+const PACKAGES: [(&str, &[&str]); 4] = [
+    ("scikit-fem", &["scikit-fem"]),
+    ("OpenSees", &["openseespy"]),
+    ("PyNite", PYNITE),
+    ("gmsh", &["gmsh"]),
+];
 const PYNITE: &[&str] = &[
     "PyNiteFEA",
     "prettytable",
@@ -52,16 +56,27 @@ impl Environment {
     /// # Errors
     /// [`Error::NoCache`] if neither directory is known.
     pub fn of_user() -> Result<Self, Error> {
-        let set = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+        let set = |name| {
+            std::env::var_os(name)
+                .filter(|v| !v.is_empty())
+                .map(PathBuf::from)
+        };
         let cache = set("XDG_CACHE_HOME").filter(|p| p.is_absolute());
         let cache = cache.or_else(|| set("HOME").map(|home| home.join(".cache")));
-        Ok(Environment { python: "python3".into(), cache: cache.ok_or(Error::NoCache)?.join("girderway") })
+        Ok(Environment {
+            python: "python3".into(),
+            cache: cache.ok_or(Error::NoCache)?.join("girderway"),
+        })
     }
 
     /// Directory of the environment for the pinned requirements.
     pub fn folder(&self) -> PathBuf {
         let digest = Sha256::digest(REQUIREMENTS.as_bytes());
-        let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let name: String = digest
+            .iter()
+            .take(8)
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
         self.cache.join(name)
     }
 
@@ -90,8 +105,10 @@ impl Environment {
             move |source| Error::File { path, source }
         };
         fs::create_dir_all(&self.cache).map_err(file(&self.cache))?;
-        let place =
-            tempfile::Builder::new().prefix("new-").tempdir_in(&self.cache).map_err(file(&self.cache))?;
+        let place = tempfile::Builder::new()
+            .prefix("new-")
+            .tempdir_in(&self.cache)
+            .map_err(file(&self.cache))?;
         let new = place.path().join("environment");
         let requirements = place.path().join("requirements.txt");
         fs::write(&requirements, REQUIREMENTS).map_err(file(&requirements))?;
@@ -110,7 +127,10 @@ impl Environment {
                 "pip cannot reach its package index (PyPI); packages are taken from {COPIES} alone"
             ));
         }
-        let every = ["--requirement".to_owned(), requirements.display().to_string()];
+        let every = [
+            "--requirement".to_owned(),
+            requirements.display().to_string(),
+        ];
         let all = install(&python, &every, options)?;
         let mark = match all.status.success() {
             true => (MARK, REQUIREMENTS.to_owned()),
@@ -131,7 +151,10 @@ impl Environment {
             Ok(()) => Ok(program(&folder)),
             // Another process has created the environment in the meantime.
             Err(_) if complete(&folder) || folder.join(PARTIAL).is_file() => Ok(program(&folder)),
-            Err(source) => Err(Error::File { path: folder, source }),
+            Err(source) => Err(Error::File {
+                path: folder,
+                source,
+            }),
         }
     }
 
@@ -140,9 +163,15 @@ impl Environment {
         let answer = start(Command::new(&self.python).args(["-I", "-c", ask]))?;
         succeeded(&answer, "ask Python for its version")?;
         let found = String::from_utf8_lossy(&answer.stdout).trim().to_owned();
-        let version: Vec<u32> = found.split('.').filter_map(|part| part.parse().ok()).collect();
+        let version: Vec<u32> = found
+            .split('.')
+            .filter_map(|part| part.parse().ok())
+            .collect();
         if version.as_slice() < OLDEST.as_slice() {
-            return Err(Error::OldPython { program: self.python.clone(), found });
+            return Err(Error::OldPython {
+                program: self.python.clone(),
+                found,
+            });
         }
         Ok(())
     }
@@ -158,7 +187,11 @@ const COPIES: &str = "PIP_FIND_LINKS";
 /// Lines of the requirements that begin with one of `names`.
 fn requirements_of(names: &[&str]) -> Vec<String> {
     let is_one = |line: &&str| names.iter().any(|name| line.starts_with(name));
-    REQUIREMENTS.lines().filter(is_one).map(str::to_owned).collect()
+    REQUIREMENTS
+        .lines()
+        .filter(is_one)
+        .map(str::to_owned)
+        .collect()
 }
 
 /// Installs a small package from the index of packages alone, which fails where the index cannot be reached: at once, or
@@ -171,10 +204,17 @@ fn ask_index(python: &Path) -> Result<Output, Error> {
 /// The error of an index that cannot be reached. That pip has found no version says nothing more; a proxy or a certificate
 /// that it complains of does.
 fn offline(asked: &Output) -> Error {
-    let says_more =
-        |line: &&str| !line.contains("(from versions: none)") && !line.contains("No matching distribution");
+    let says_more = |line: &&str| {
+        !line.contains("(from versions: none)") && !line.contains("No matching distribution")
+    };
     let text = tail(asked);
-    Error::Offline { output: text.lines().filter(says_more).flat_map(|line| ["\n", line]).collect() }
+    Error::Offline {
+        output: text
+            .lines()
+            .filter(says_more)
+            .flat_map(|line| ["\n", line])
+            .collect(),
+    }
 }
 
 /// Runs pip in the environment of `python`. The requirements include all dependencies, so that no unpinned package is
@@ -185,8 +225,17 @@ fn install(python: &Path, packages: &[String], options: &[&str]) -> Result<Outpu
 
 fn pip_install(python: &Path, packages: &[String], options: &[&str]) -> Command {
     let mut pip = Command::new(python);
-    pip.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
-    pip.args(["--no-deps", "--only-binary", ":all:"]).args(options).args(packages);
+    pip.args([
+        "-m",
+        "pip",
+        "install",
+        "--disable-pip-version-check",
+        "--no-input",
+        "--quiet",
+    ]);
+    pip.args(["--no-deps", "--only-binary", ":all:"])
+        .args(options)
+        .args(packages);
     pip
 }
 
@@ -202,7 +251,10 @@ fn install_separately(
     succeeded(&install(python, &requirements_of(SHARED), options)?, step)?;
     let mut missing = Vec::new();
     for (code, names) in PACKAGES {
-        if !install(python, &requirements_of(names), options)?.status.success() {
+        if !install(python, &requirements_of(names), options)?
+            .status
+            .success()
+        {
             missing.push(code);
         }
     }
@@ -220,7 +272,8 @@ fn install_separately(
 
 /// Whether this process has made the environment, without some packages.
 fn made_by_this_process(folder: &Path) -> bool {
-    fs::read_to_string(folder.join(PARTIAL)).is_ok_and(|made| made == std::process::id().to_string())
+    fs::read_to_string(folder.join(PARTIAL))
+        .is_ok_and(|made| made == std::process::id().to_string())
 }
 
 /// Whether the environment was completed and its interpreter still exists.
@@ -229,15 +282,29 @@ fn complete(folder: &Path) -> bool {
 }
 
 fn program(folder: &Path) -> PathBuf {
-    if cfg!(windows) { folder.join("Scripts").join("python.exe") } else { folder.join("bin").join("python") }
+    if cfg!(windows) {
+        folder.join("Scripts").join("python.exe")
+    } else {
+        folder.join("bin").join("python")
+    }
 }
 
 fn start(command: &mut Command) -> Result<Output, Error> {
-    command.output().map_err(|source| Error::NoPython { program: command.get_program().into(), source })
+    command.output().map_err(|source| Error::NoPython {
+        program: command.get_program().into(),
+        source,
+    })
 }
 
 fn succeeded(output: &Output, step: &'static str) -> Result<(), Error> {
-    if output.status.success() { Ok(()) } else { Err(Error::Environment { step, output: tail(output) }) }
+    if output.status.success() {
+        Ok(())
+    } else {
+        Err(Error::Environment {
+            step,
+            output: tail(output),
+        })
+    }
 }
 
 /// Last lines of the output of a process.

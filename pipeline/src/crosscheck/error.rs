@@ -40,7 +40,9 @@ pub enum Error {
     #[error("no place for the Python environment: set XDG_CACHE_HOME or HOME")]
     NoCache,
     /// Python is missing or cannot be started.
-    #[error("cannot start {program}: {source}; the cross-check needs Python 3.11 or newer with venv and pip")]
+    #[error(
+        "cannot start {program}: {source}; the cross-check needs Python 3.11 or newer with venv and pip"
+    )]
     NoPython {
         /// What was started.
         program: PathBuf,
@@ -56,7 +58,9 @@ pub enum Error {
         found: String,
     },
     /// The environment could not be made.
-    #[error("cannot {step} (on Debian: apt-get install python3-venv; packages come from PyPI)\n{output}")]
+    #[error(
+        "cannot {step} (on Debian: apt-get install python3-venv; packages come from PyPI)\n{output}"
+    )]
     Environment {
         /// What was tried.
         step: &'static str,

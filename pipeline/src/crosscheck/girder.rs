@@ -72,7 +72,10 @@ impl PlainGirder {
         if !self.rail_height.is_finite() {
             return Err(Error::Stiffness("rail_height"));
         }
-        let (low, high) = (-self.overhangs[0], self.spans.iter().sum::<f64>() + self.overhangs[1]);
+        let (low, high) = (
+            -self.overhangs[0],
+            self.spans.iter().sum::<f64>() + self.overhangs[1],
+        );
         let slack = 1e-12 * (high - low);
         for (i, x) in self.stations.iter().enumerate() {
             let on = (low - slack..=high + slack).contains(x);

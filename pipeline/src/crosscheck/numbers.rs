@@ -50,7 +50,11 @@ fn write_girder(own: &mut Map<String, Value>, girder: &Girder) {
 
 /// The model begins with the sections of the file, in their order.
 fn write_sections(raw: &mut Value, frame: &FrameSpec) {
-    let sections = raw["sections"].as_array_mut().into_iter().flatten().zip(&frame.model.sections);
+    let sections = raw["sections"]
+        .as_array_mut()
+        .into_iter()
+        .flatten()
+        .zip(&frame.model.sections);
     for (own, section) in sections.filter(|(own, _)| own.get("shape").is_some()) {
         let known = [
             ("A", Some(section.area)),
@@ -71,16 +75,28 @@ fn write_sections(raw: &mut Value, frame: &FrameSpec) {
 
 fn write_rails(raw: &mut Value, frame: &FrameSpec) -> Result<(), String> {
     for (name, rail) in &frame.rails {
-        let own = raw["rails"].get_mut(name).filter(|own| own.get("crane_rail").is_some());
-        let Some(own) = own.and_then(Value::as_object_mut) else { continue };
+        let own = raw["rails"]
+            .get_mut(name)
+            .filter(|own| own.get("crane_rail").is_some());
+        let Some(own) = own.and_then(Value::as_object_mut) else {
+            continue;
+        };
         own.remove("crane_rail");
-        let is_composite = own.remove("composite").is_some_and(|composite| composite == json!(true));
+        let is_composite = own
+            .remove("composite")
+            .is_some_and(|composite| composite == json!(true));
         let segments = own.get_mut("segments").and_then(Value::as_array_mut);
         match segments.filter(|own| !is_composite && own.len() == rail.segments.len()) {
             Some(own) => {
-                own.iter_mut().zip(&rail.segments).for_each(|(own, of)| own["offset"] = json!(of.offset));
+                own.iter_mut()
+                    .zip(&rail.segments)
+                    .for_each(|(own, of)| own["offset"] = json!(of.offset));
             }
-            None => return Err(format!("the crane rail of {name} changes the sections of its members")),
+            None => {
+                return Err(format!(
+                    "the crane rail of {name} changes the sections of its members"
+                ));
+            }
         }
     }
     Ok(())

@@ -78,18 +78,27 @@ impl PeerOutcome {
     /// Whether at least one grid was compared and all of them agree.
     pub fn agrees(&self) -> bool {
         !self.differences.is_empty()
-            && self.differences.iter().all(|d| d.relative <= self.tolerance_of(d.quantity))
+            && self
+                .differences
+                .iter()
+                .all(|d| d.relative <= self.tolerance_of(d.quantity))
     }
 
     /// Largest relative difference of a grid that counts as agreement.
     pub fn tolerance_of(&self, quantity: GridBlock) -> f64 {
-        let own = self.own_tolerances.iter().find(|(other, _)| *other == quantity);
+        let own = self
+            .own_tolerances
+            .iter()
+            .find(|(other, _)| *other == quantity);
         own.map_or(self.tolerance, |(_, tolerance)| *tolerance)
     }
 
     /// The result as lines of text; `rails` are the names of the rails.
     pub fn table(&self, rails: &[String]) -> String {
-        let theory = self.theory.map(|word| format!(", {word}")).unwrap_or_default();
+        let theory = self
+            .theory
+            .map(|word| format!(", {word}"))
+            .unwrap_or_default();
         let mut text = format!("compared with {} ({}){theory}\n", self.code, self.elements);
         let head = [
             "grid",
@@ -103,7 +112,11 @@ impl PeerOutcome {
         ];
         let place = |d: &BlockDifference, k: usize| match rails {
             [_, _, ..] => {
-                format!("{} {}", rails.get(d.rails[k]).map_or("", String::as_str), d.at[k])
+                format!(
+                    "{} {}",
+                    rails.get(d.rails[k]).map_or("", String::as_str),
+                    d.at[k]
+                )
             }
             _ => d.at[k].to_string(),
         };
@@ -120,12 +133,19 @@ impl PeerOutcome {
                 format!("{:.1e}", d.relative),
             ]);
         }
-        let widths: Vec<usize> =
-            (0..head.len()).map(|i| rows.iter().map(|r| r[i].len()).max().unwrap_or(0)).collect();
+        let widths: Vec<usize> = (0..head.len())
+            .map(|i| rows.iter().map(|r| r[i].len()).max().unwrap_or(0))
+            .collect();
         for row in &rows {
             let cells = row.iter().zip(&widths).enumerate();
             let line: Vec<String> = cells
-                .map(|(i, (c, &w))| if i == 0 { format!("{c:<w$}") } else { format!("{c:>w$}") })
+                .map(|(i, (c, &w))| {
+                    if i == 0 {
+                        format!("{c:<w$}")
+                    } else {
+                        format!("{c:>w$}")
+                    }
+                })
                 .collect();
             text.push_str(line.join("  ").trim_end());
             text.push('\n');
@@ -146,9 +166,14 @@ impl PeerOutcome {
             PeerMeasure::Diagonal => "of sqrt(Gii Gjj)",
         };
         let others = self.own_tolerances.iter();
-        let others: String =
-            others.map(|(quantity, tolerance)| format!(", {quantity} {tolerance:.1e}")).collect();
-        let _ = writeln!(text, "{verdict} (tolerance {:.0e} {measure}{others})", self.tolerance);
+        let others: String = others
+            .map(|(quantity, tolerance)| format!(", {quantity} {tolerance:.1e}"))
+            .collect();
+        let _ = writeln!(
+            text,
+            "{verdict} (tolerance {:.0e} {measure}{others})",
+            self.tolerance
+        );
         text
     }
 
@@ -168,8 +193,11 @@ impl PeerOutcome {
             })
             .collect();
         let skipped: Vec<&str> = self.skipped.iter().map(|q| q.name()).collect();
-        let stations: Vec<Value> =
-            self.stations.iter().map(|(rail, x)| json!({ "rail": name(*rail), "x": x })).collect();
+        let stations: Vec<Value> = self
+            .stations
+            .iter()
+            .map(|(rail, x)| json!({ "rail": name(*rail), "x": x }))
+            .collect();
         let measure = match self.peer.measure() {
             PeerMeasure::Largest => "largest entry",
             PeerMeasure::Diagonal => "sqrt(Gii Gjj)",
@@ -196,16 +224,29 @@ pub struct PeerComparison {
 impl PeerComparison {
     /// Whether at least one code was compared and all compared codes agree.
     pub fn agrees(&self) -> bool {
-        let mut compared = self.outcomes.iter().filter(|o| !o.differences.is_empty()).peekable();
+        let mut compared = self
+            .outcomes
+            .iter()
+            .filter(|o| !o.differences.is_empty())
+            .peekable();
         compared.peek().is_some() && compared.all(PeerOutcome::agrees)
     }
 
     /// The result as text, with a table for each code.
     pub fn table(&self) -> String {
-        let mut parts: Vec<String> = self.outcomes.iter().map(|outcome| outcome.table(&self.rails)).collect();
-        let absent = |(peer, why): &(Peer, String)| format!("not compared with {}: {why}\n", peer.name());
+        let mut parts: Vec<String> = self
+            .outcomes
+            .iter()
+            .map(|outcome| outcome.table(&self.rails))
+            .collect();
+        let absent =
+            |(peer, why): &(Peer, String)| format!("not compared with {}: {why}\n", peer.name());
         parts.push(self.absent.iter().map(absent).collect());
-        if self.outcomes.iter().all(|outcome| outcome.differences.is_empty()) {
+        if self
+            .outcomes
+            .iter()
+            .all(|outcome| outcome.differences.is_empty())
+        {
             parts.push("nothing compared\n".to_owned());
         }
         parts.retain(|part| !part.is_empty());
@@ -214,9 +255,16 @@ impl PeerComparison {
 
     /// The result as JSON.
     pub fn json(&self) -> Value {
-        let outcomes: Vec<Value> = self.outcomes.iter().map(|outcome| outcome.json(&self.rails)).collect();
-        let absent: Vec<Value> =
-            self.absent.iter().map(|(peer, why)| json!({ "code": peer.name(), "why": why })).collect();
+        let outcomes: Vec<Value> = self
+            .outcomes
+            .iter()
+            .map(|outcome| outcome.json(&self.rails))
+            .collect();
+        let absent: Vec<Value> = self
+            .absent
+            .iter()
+            .map(|(peer, why)| json!({ "code": peer.name(), "why": why }))
+            .collect();
         json!({ "agrees": self.agrees(), "compared": outcomes, "not_compared": absent })
     }
 }

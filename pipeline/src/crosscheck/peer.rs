@@ -11,11 +11,23 @@ use std::process::{Command, Stdio};
 
 /// Names and contents of the scripts, some of which import others.
 const SCRIPTS: [(&str, &str); 5] = [
-    ("scikit_fem_girder.py", include_str!("../../../fea/scikit_fem_girder.py")),
+    (
+        "scikit_fem_girder.py",
+        include_str!("../../../fea/scikit_fem_girder.py"),
+    ),
     ("gmsh_solid.py", include_str!("../../../fea/gmsh_solid.py")),
-    ("frame_model.py", include_str!("../../../fea/frame_model.py")),
-    ("opensees_frame.py", include_str!("../../../fea/opensees_frame.py")),
-    ("pynite_frame.py", include_str!("../../../fea/pynite_frame.py")),
+    (
+        "frame_model.py",
+        include_str!("../../../fea/frame_model.py"),
+    ),
+    (
+        "opensees_frame.py",
+        include_str!("../../../fea/opensees_frame.py"),
+    ),
+    (
+        "pynite_frame.py",
+        include_str!("../../../fea/pynite_frame.py"),
+    ),
 ];
 
 /// Square matrix of influence coefficients, as the other codes return them; rows are deflections, columns are loads.
@@ -135,24 +147,36 @@ impl Peer {
             let path = folder.path().join(name);
             std::fs::write(&path, text).map_err(file(&path))?;
         }
-        let missing = |source| Error::NoPython { program: python.clone(), source };
+        let missing = |source| Error::NoPython {
+            program: python.clone(),
+            source,
+        };
         let mut child = Command::new(&python)
             .args(["-E", "-s", "-B"])
             .arg(folder.path().join(self.script()))
             // The systems are small, and with one thread the order of summation is reproducible.
-            .envs(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"].map(|name| (name, "1")))
+            .envs(
+                ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
+                    .map(|name| (name, "1")),
+            )
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
             .map_err(missing)?;
-        let answer = |source| Error::Answer { code: self.name(), source };
+        let answer = |source| Error::Answer {
+            code: self.name(),
+            source,
+        };
         let question = serde_json::to_vec(question).map_err(answer)?;
         // The script reads all input before it writes; a script that ends early is detected by its exit status.
         let written = child.stdin.take().map(|mut pipe| pipe.write_all(&question));
         let output = child.wait_with_output().map_err(missing)?;
         if !output.status.success() || !matches!(written, Some(Ok(()))) {
-            return Err(Error::Script { code: self.name(), output: tail(&output) });
+            return Err(Error::Script {
+                code: self.name(),
+                output: tail(&output),
+            });
         }
         let reply: PeerAnswer = serde_json::from_slice(&output.stdout).map_err(answer)?;
         match reply.refused {

@@ -23,7 +23,10 @@ pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart>
             ChartAxis::new("largest difference over all loads", "").log(),
         );
         for difference in &outcome.differences {
-            let points = kept.iter().map(|k| [x(k), difference.profile[*k].max(LEAST)]).collect();
+            let points = kept
+                .iter()
+                .map(|k| [x(k), difference.profile[*k].max(LEAST)])
+                .collect();
             chart = chart.with(Series::new(difference.quantity.name(), Style::Line, points));
         }
         let ends = kept.first().into_iter().chain(kept.last());
@@ -32,7 +35,11 @@ pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart>
         for (quantity, tolerance) in &outcome.own_tolerances {
             let ends = kept.first().into_iter().chain(kept.last());
             let limit = ends.map(|k| [x(k), *tolerance]).collect();
-            chart = chart.with(Series::new(format!("tolerance, {quantity}"), Style::Dashed, limit));
+            chart = chart.with(Series::new(
+                format!("tolerance, {quantity}"),
+                Style::Dashed,
+                limit,
+            ));
         }
         chart
     };

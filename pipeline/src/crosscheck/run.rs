@@ -65,7 +65,10 @@ pub fn ask(
         .into_iter()
         .filter_map(|q| Some((q, answer.influence.get(q.name())?.clone()?)))
         .collect();
-    let chosen = answer.stations.clone().unwrap_or_else(|| (0..stations.len()).collect());
+    let chosen = answer
+        .stations
+        .clone()
+        .unwrap_or_else(|| (0..stations.len()).collect());
     if chosen.iter().any(|index| *index >= stations.len()) {
         return Err(Error::Stations { code: peer.name() });
     }
@@ -77,7 +80,11 @@ pub fn ask(
     let version = |name: &str| answer.versions.get(name).map_or("", String::as_str);
     let code = match peer {
         Peer::Solid => {
-            format!("gmsh {} and scikit-fem {}", version("gmsh"), version("scikit-fem"))
+            format!(
+                "gmsh {} and scikit-fem {}",
+                version("gmsh"),
+                version("scikit-fem")
+            )
         }
         _ => format!("{} {}", peer.name(), version(peer.name())),
     };
@@ -119,7 +126,11 @@ fn check(grids: &[(GridBlock, PlainGrid)], stations: usize) -> Result<(), Error>
         }
         for (row, values) in grid.iter().enumerate() {
             if let Some(column) = values.iter().position(|v| !v.is_finite()) {
-                return Err(Error::NotFinite { quantity, row, column });
+                return Err(Error::NotFinite {
+                    quantity,
+                    row,
+                    column,
+                });
             }
         }
     }
@@ -135,14 +146,29 @@ struct Scale {
 
 impl Scale {
     fn new(quantity: GridBlock, grids: &[(GridBlock, PlainGrid)], measure: PeerMeasure) -> Scale {
-        let find = |q| grids.iter().find(|(known, _)| *known == q).map(|(_, grid)| grid);
-        let largest = |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
+        let find = |q| {
+            grids
+                .iter()
+                .find(|(known, _)| *known == q)
+                .map(|(_, grid)| grid)
+        };
+        let largest = |q| {
+            find(q)
+                .into_iter()
+                .flatten()
+                .flatten()
+                .fold(0.0, |a: f64, v: &f64| a.max(v.abs()))
+        };
         let [row, column] = quantity.direct();
         let whole = match (largest(row), largest(column)) {
             (a, b) if a > 0.0 && b > 0.0 => (a * b).sqrt(),
             _ => largest(quantity),
         };
-        let diagonal = |q| find(q).into_iter().flat_map(|g| g.iter().enumerate().map(|(i, row)| row[i]));
+        let diagonal = |q| {
+            find(q)
+                .into_iter()
+                .flat_map(|g| g.iter().enumerate().map(|(i, row)| row[i]))
+        };
         let sides: [Vec<f64>; 2] = match measure {
             PeerMeasure::Largest => [Vec::new(), Vec::new()],
             PeerMeasure::Diagonal => [row, column].map(|q| diagonal(q).collect()),
@@ -153,7 +179,11 @@ impl Scale {
         } else {
             FLOOR * whole
         };
-        Scale { rows, columns, least }
+        Scale {
+            rows,
+            columns,
+            least,
+        }
     }
 
     fn at(&self, i: usize, j: usize) -> f64 {
@@ -171,7 +201,8 @@ pub(super) fn compare(
     stations: &[Station],
     measure: PeerMeasure,
 ) -> (Vec<BlockDifference>, Vec<GridBlock>) {
-    let find = |side: &'_ [(GridBlock, PlainGrid)], q| side.iter().position(|(other, _)| *other == q);
+    let find =
+        |side: &'_ [(GridBlock, PlainGrid)], q| side.iter().position(|(other, _)| *other == q);
     let (mut differences, mut skipped) = (Vec::new(), Vec::new());
     for quantity in GridBlock::ALL {
         let (a, b) = match (find(ours, quantity), find(theirs, quantity)) {
@@ -183,7 +214,10 @@ pub(super) fn compare(
             }
         };
         let scale = Scale::new(quantity, theirs, measure);
-        let mut worst = BlockDifference { relative: -1.0, ..BlockDifference::none(quantity) };
+        let mut worst = BlockDifference {
+            relative: -1.0,
+            ..BlockDifference::none(quantity)
+        };
         let mut profile = Vec::with_capacity(a.len());
         let mut entries = 0;
         for (i, (row, other)) in a.iter().zip(b).enumerate() {
@@ -210,7 +244,11 @@ pub(super) fn compare(
             profile.push(largest);
         }
         if entries > 0 {
-            differences.push(BlockDifference { entries, profile, ..worst });
+            differences.push(BlockDifference {
+                entries,
+                profile,
+                ..worst
+            });
         }
     }
     (differences, skipped)
@@ -219,5 +257,11 @@ pub(super) fn compare(
 /// Compares other grids of this program with the grids of the other code in `outcome`.
 #[must_use]
 pub fn again(outcome: &PeerOutcome, ours: &[(GridBlock, PlainGrid)]) -> Vec<BlockDifference> {
-    compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0
+    compare(
+        &part(ours, &outcome.chosen),
+        &outcome.theirs,
+        &outcome.stations,
+        outcome.peer.measure(),
+    )
+    .0
 }

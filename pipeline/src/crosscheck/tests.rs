@@ -32,7 +32,10 @@ fn largest_difference_is_found_with_its_place() {
     theirs.push((GridBlock::Lateral, vec![vec![0.0; 2]; 2]));
     let (found, skipped) = compare(&ours, &theirs, &stations, PeerMeasure::Largest);
     assert_eq!(skipped, [GridBlock::Lateral]);
-    assert_eq!((found.len(), found[0].at, found[0].entries), (1, [10.0, 0.0], 4));
+    assert_eq!(
+        (found.len(), found[0].at, found[0].entries),
+        (1, [10.0, 0.0], 4)
+    );
     assert!((found[0].relative - 2.5e-4).abs() < 1e-15);
 }
 
@@ -46,7 +49,10 @@ fn coupling_is_measured_by_its_direct_grids() {
     ];
     let ours = vec![(GridBlock::VerticalLateral, grid(0.6))];
     let (found, _) = compare(&ours, &theirs, &[(0, 0.0)], PeerMeasure::Largest);
-    assert!((found[0].relative - 0.1).abs() < 1e-15, "0.6 of sqrt(4 x 9)");
+    assert!(
+        (found[0].relative - 0.1).abs() < 1e-15,
+        "0.6 of sqrt(4 x 9)"
+    );
 }
 
 #[test]
@@ -67,9 +73,16 @@ fn nothing_compared_is_no_agreement() {
     };
     assert!(!outcome.agrees());
     assert!(outcome.table(&[]).contains("nothing compared"));
-    let empty = PeerComparison { outcomes: vec![outcome.clone()], ..PeerComparison::default() };
+    let empty = PeerComparison {
+        outcomes: vec![outcome.clone()],
+        ..PeerComparison::default()
+    };
     assert!(!empty.agrees() && !PeerComparison::default().agrees());
-    assert!(PeerComparison::default().table().contains("nothing compared"));
+    assert!(
+        PeerComparison::default()
+            .table()
+            .contains("nothing compared")
+    );
     outcome.differences.push(BlockDifference {
         entries: 1,
         scale: 1.0,
@@ -87,7 +100,8 @@ fn nothing_compared_is_no_agreement() {
 
 #[test]
 fn missing_python_is_named_and_nothing_is_left_behind() {
-    let error = influence(&girder(), &nowhere(), &mut |_| {}).expect_err("there is no such program");
+    let error =
+        influence(&girder(), &nowhere(), &mut |_| {}).expect_err("there is no such program");
     assert!(matches!(error, Error::NoPython { .. }));
     assert!(error.to_string().contains("/no/such/python3"), "{error}");
     assert!(!nowhere().cache.exists());
@@ -98,7 +112,9 @@ fn unusable_girders_are_refused_before_python_starts() {
     let refuse = |change: &dyn Fn(&mut PlainGirder)| {
         let mut girder = girder();
         change(&mut girder);
-        influence(&girder, &nowhere(), &mut |_| {}).expect_err("the girder is unusable").to_string()
+        influence(&girder, &nowhere(), &mut |_| {})
+            .expect_err("the girder is unusable")
+            .to_string()
     };
     assert!(refuse(&|g| g.spans.clear()).contains("no span"));
     assert!(refuse(&|g| g.spans[0] = -60.0).contains("length 1"));
@@ -112,9 +128,30 @@ fn unusable_girders_are_refused_before_python_starts() {
 #[test]
 fn grids_of_another_size_are_refused() {
     let grid = vec![vec![0.0; 2]; 2];
-    let run = |grid| crosscheck(&girder(), &[(GridBlock::Vertical, grid)], 1e-9, &nowhere(), &mut |_| {});
-    assert!(matches!(run(grid), Err(Error::Shape { quantity: GridBlock::Vertical, stations: 3 })));
+    let run = |grid| {
+        crosscheck(
+            &girder(),
+            &[(GridBlock::Vertical, grid)],
+            1e-9,
+            &nowhere(),
+            &mut |_| {},
+        )
+    };
+    assert!(matches!(
+        run(grid),
+        Err(Error::Shape {
+            quantity: GridBlock::Vertical,
+            stations: 3
+        })
+    ));
     let mut grid = vec![vec![0.0; 3]; 3];
     grid[1][2] = f64::NAN;
-    assert!(matches!(run(grid), Err(Error::NotFinite { row: 1, column: 2, .. })));
+    assert!(matches!(
+        run(grid),
+        Err(Error::NotFinite {
+            row: 1,
+            column: 2,
+            ..
+        })
+    ));
 }

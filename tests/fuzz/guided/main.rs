@@ -5,7 +5,10 @@
 #[path = "../generate.rs"]
 mod generate;
 #[path = "../targets.rs"]
-#[allow(dead_code, reason = "the corpus begins with files that the caller names, not with `seeds`")]
+#[allow(
+    dead_code,
+    reason = "the corpus begins with files that the caller names, not with `seeds`"
+)]
 mod targets;
 
 use std::sync::LazyLock;
@@ -14,8 +17,12 @@ use libfuzzer_sys::fuzz_target;
 use targets::{TARGETS, Target};
 
 static CHOSEN: LazyLock<Target> = LazyLock::new(|| {
-    let name = std::env::var("GIRDERWAY_FUZZ_TARGET").expect("GIRDERWAY_FUZZ_TARGET names a target");
-    *TARGETS.iter().find(|target| target.name == name).expect("GIRDERWAY_FUZZ_TARGET names a target")
+    let name =
+        std::env::var("GIRDERWAY_FUZZ_TARGET").expect("GIRDERWAY_FUZZ_TARGET names a target");
+    *TARGETS
+        .iter()
+        .find(|target| target.name == name)
+        .expect("GIRDERWAY_FUZZ_TARGET names a target")
 });
 
 fuzz_target!(|data: &[u8]| {

@@ -143,12 +143,19 @@ impl Function {
                 Ok(a.scaled(if flip { -1.0 } else { 1.0 }))
             }
             (Function::Dim, [a, b]) => Ok(positive(&a.minus(b))),
-            (Function::Max, [first, rest @ ..]) => Ok(rest.iter().fold(first.clone(), |a, b| max(&a, b))),
-            (Function::Min, [first, rest @ ..]) => Ok(rest.iter().fold(first.clone(), |a, b| min(&a, b))),
+            (Function::Max, [first, rest @ ..]) => {
+                Ok(rest.iter().fold(first.clone(), |a, b| max(&a, b)))
+            }
+            (Function::Min, [first, rest @ ..]) => {
+                Ok(rest.iter().fold(first.clone(), |a, b| min(&a, b)))
+            }
             (Function::Poly, [x, origin, coefficients @ ..]) => {
                 let d = x.minus(origin);
                 let zero = T::constant(0.0);
-                Ok(coefficients.iter().rev().fold(zero, |sum, one| sum.times(&d).plus(one)))
+                Ok(coefficients
+                    .iter()
+                    .rev()
+                    .fold(zero, |sum, one| sum.times(&d).plus(one)))
             }
             (Function::Step, [x, x0, h0, x1, h1]) => step(x, [x0, h0, x1, h1]),
             (Function::Step5, [x, x0, h0, x1, h1]) => step5(x, [x0, h0, x1, h1]),
@@ -203,16 +210,28 @@ pub(crate) fn power<T: Scalar>(base: &T, exponent: &T) -> T {
 }
 
 fn max<T: Scalar>(a: &T, b: &T) -> T {
-    if a.value() >= b.value() { a.clone() } else { b.clone() }
+    if a.value() >= b.value() {
+        a.clone()
+    } else {
+        b.clone()
+    }
 }
 
 fn min<T: Scalar>(a: &T, b: &T) -> T {
-    if a.value() <= b.value() { a.clone() } else { b.clone() }
+    if a.value() <= b.value() {
+        a.clone()
+    } else {
+        b.clone()
+    }
 }
 
 /// max(0, a)
 fn positive<T: Scalar>(a: &T) -> T {
-    if a.value() > 0.0 { a.clone() } else { T::constant(0.0) }
+    if a.value() > 0.0 {
+        a.clone()
+    } else {
+        T::constant(0.0)
+    }
 }
 
 /// h0 + (h1 - h0) s(D) with D = (x - x0) / (x1 - x0); s is 0 below D = 0 and 1 above D = 1. Between them the
@@ -248,7 +267,9 @@ fn step<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
 /// Adams Solver reference, STEP5.
 fn step5<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
     let slope = |d: f64| 30.0 * d * d * (1.0 - d) * (1.0 - d);
-    ramp(x, ends, |d| (d * d * d * (10.0 - 15.0 * d + 6.0 * d * d), slope(d)))
+    ramp(x, ends, |d| {
+        (d * d * d * (10.0 - 15.0 * d + 6.0 * d * d), slope(d))
+    })
 }
 
 /// HAVSIN: s = (1 + sin(pi D - pi/2)) / 2.
@@ -257,15 +278,23 @@ fn step5<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
 /// Adams Solver reference, HAVSIN.
 fn havsin<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
     let angle = |d: f64| PI * d - 0.5 * PI;
-    ramp(x, ends, |d| (0.5 * (1.0 + angle(d).sin()), 0.5 * PI * angle(d).cos()))
+    ramp(x, ends, |d| {
+        (0.5 * (1.0 + angle(d).sin()), 0.5 * PI * angle(d).cos())
+    })
 }
 
 /// Parameters of a contact law, checked: stiffness k >= 0, exponent e > 0, damping cmax >= 0 and the
 /// penetration d > 0 at which the damping is fully applied.
 fn contact_parameters<T: Scalar>(law: &[T]) -> Result<[&T; 4], AdamsFault> {
-    let [k, e, c, d] = law else { return Err(AdamsFault::Arguments) };
+    let [k, e, c, d] = law else {
+        return Err(AdamsFault::Arguments);
+    };
     let sound = k.value() >= 0.0 && e.value() > 0.0 && c.value() >= 0.0 && d.value() > 0.0;
-    if sound { Ok([k, e, c, d]) } else { Err(AdamsFault::Parameter) }
+    if sound {
+        Ok([k, e, c, d])
+    } else {
+        Err(AdamsFault::Parameter)
+    }
 }
 
 /// Contact force max(0, k p^e - c xdot) at the penetration p > 0 (`depth`); c rises to cmax over the
@@ -277,7 +306,9 @@ fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, Ada
     let [k, e, c, d] = law;
     let zero = T::constant(0.0);
     let damping = step(depth, [&zero, &zero, d, c])?;
-    Ok(positive(&k.times(&power(depth, e)).minus(&damping.times(speed))))
+    Ok(positive(
+        &k.times(&power(depth, e)).minus(&damping.times(speed)),
+    ))
 }
 
 /// IMPACT(x, xdot, x1, k, e, cmax, d): a force on x towards larger values while x < x1, and never below zero.
@@ -287,7 +318,11 @@ fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, Ada
 fn impact<T: Scalar>(x: &T, speed: &T, x1: &T, parameters: &[T]) -> Result<T, AdamsFault> {
     let law = contact_parameters(parameters)?;
     let depth = x1.minus(x);
-    if depth.value() > 0.0 { contact_force(&depth, speed, law) } else { Ok(T::constant(0.0)) }
+    if depth.value() > 0.0 {
+        contact_force(&depth, speed, law)
+    } else {
+        Ok(T::constant(0.0))
+    }
 }
 
 /// BISTOP(x, xdot, x1, x2, k, e, cmax, d): a force on x that returns it between x1 and x2.

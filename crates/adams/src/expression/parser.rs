@@ -25,7 +25,12 @@ const DEEPEST: usize = 100;
 pub fn parse(text: &str) -> Result<Expression, (usize, AdamsFault)> {
     let letters: Vec<char> = text.chars().collect();
     let tokens = tokens(&letters)?;
-    let mut parser = Parser { tokens: &tokens, next: 0, end: letters.len(), depth: 0 };
+    let mut parser = Parser {
+        tokens: &tokens,
+        next: 0,
+        end: letters.len(),
+        depth: 0,
+    };
     let out = parser.sum()?;
     match parser.peek() {
         None => Ok(out),
@@ -52,7 +57,9 @@ impl Parser<'_> {
     }
 
     fn offset(&self) -> usize {
-        self.tokens.get(self.next).map_or(self.end, |(offset, _)| *offset)
+        self.tokens
+            .get(self.next)
+            .map_or(self.end, |(offset, _)| *offset)
     }
 
     /// Passes over a token if it comes next, and returns whether it did.
@@ -63,7 +70,11 @@ impl Parser<'_> {
     }
 
     fn expect(&mut self, token: &Token) -> Result<(), (usize, AdamsFault)> {
-        if self.take(token) { Ok(()) } else { Err((self.offset(), AdamsFault::UnexpectedText)) }
+        if self.take(token) {
+            Ok(())
+        } else {
+            Err((self.offset(), AdamsFault::UnexpectedText))
+        }
     }
 
     /// Reads a part that is nested one level deeper.
@@ -126,7 +137,11 @@ impl Parser<'_> {
         match self.sign() {
             Some(sign) => {
                 let inner = self.within(Parser::signed)?;
-                Ok(if sign == TermOperator::Plus { inner } else { Expression::Sum(vec![(sign, inner)]) })
+                Ok(if sign == TermOperator::Plus {
+                    inner
+                } else {
+                    Expression::Sum(vec![(sign, inner)])
+                })
             }
             None => self.power(),
         }
@@ -157,7 +172,11 @@ impl Parser<'_> {
             Some(Token::Word(word)) => {
                 self.next += 1;
                 let name = ExpressionName { word, offset };
-                if self.take(&Token::Open) { self.call(name) } else { Ok(Expression::Name(name)) }
+                if self.take(&Token::Open) {
+                    self.call(name)
+                } else {
+                    Ok(Expression::Name(name))
+                }
             }
             _ => Err((offset, AdamsFault::UnexpectedText)),
         }
@@ -225,10 +244,18 @@ fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, AdamsFault)> {
                 Token::Number(value)
             }
             c if c.is_ascii_alphabetic() || c == '_' => {
-                while text.get(k).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_') {
+                while text
+                    .get(k)
+                    .is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_')
+                {
                     k += 1;
                 }
-                Token::Word(text[start..k].iter().collect::<String>().to_ascii_uppercase())
+                Token::Word(
+                    text[start..k]
+                        .iter()
+                        .collect::<String>()
+                        .to_ascii_uppercase(),
+                )
             }
             _ => return Err((start, AdamsFault::UnexpectedText)),
         };
@@ -260,7 +287,10 @@ fn number_at(text: &[char], start: usize) -> Option<(f64, usize)> {
         degrees = true;
         k += 1;
     }
-    if text.get(k).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_' || *c == '.') {
+    if text
+        .get(k)
+        .is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_' || *c == '.')
+    {
         return None;
     }
     let value = number::read(&digits)?;

@@ -114,7 +114,10 @@ impl Dual {
 
 impl Scalar for Dual {
     fn constant(value: f64) -> Dual {
-        Dual { value, slopes: Vec::new() }
+        Dual {
+            value,
+            slopes: Vec::new(),
+        }
     }
 
     fn value(&self) -> f64 {
@@ -148,7 +151,10 @@ mod tests {
     fn slopes_of_a_quotient_follow_the_rule() {
         let (a, b) = (Dual::unknown(3.0, 0, 2), Dual::unknown(4.0, 1, 2));
         let c = a.times(&a).over(&b).minus(&b.scaled(2.0));
-        assert_eq!((c.value(), c.derivative(0), c.derivative(1)), (9.0 / 4.0 - 8.0, 1.5, -9.0 / 16.0 - 2.0));
+        assert_eq!(
+            (c.value(), c.derivative(0), c.derivative(1)),
+            (9.0 / 4.0 - 8.0, 1.5, -9.0 / 16.0 - 2.0)
+        );
         assert_eq!(Dual::constant(2.0).derivative(7), 0.0);
     }
 }

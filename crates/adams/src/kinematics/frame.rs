@@ -2,8 +2,8 @@
 
 use super::state::Pose;
 use super::vector::{
-    IDENTITY, Matrix, Vector, add, apply, column, cross, dot, matrix, norm, product, resolve, subtract,
-    vector,
+    IDENTITY, Matrix, Vector, add, apply, column, cross, dot, matrix, norm, product, resolve,
+    subtract, vector,
 };
 use crate::Scalar;
 use crate::expression::functions::atan2;
@@ -43,13 +43,17 @@ pub(crate) enum Measure {
 impl<T: Scalar> Frame<T> {
     /// The frame of ground.
     pub fn ground() -> Frame<T> {
-        Frame::of(&Pose::at_rest(nalgebra::Vector3::zeros(), nalgebra::Matrix3::identity()))
+        Frame::of(&Pose::at_rest(
+            nalgebra::Vector3::zeros(),
+            nalgebra::Matrix3::identity(),
+        ))
     }
 
     /// The frame of a part in a pose.
     pub fn of(pose: &Pose) -> Frame<T> {
-        let rows =
-            |m: &nalgebra::Matrix3<f64>| matrix(std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)])));
+        let rows = |m: &nalgebra::Matrix3<f64>| {
+            matrix(std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)])))
+        };
         let three = |v: &nalgebra::Vector3<f64>| vector([v.x, v.y, v.z]);
         Frame {
             origin: three(&pose.origin),
@@ -63,13 +67,25 @@ impl<T: Scalar> Frame<T> {
     /// A frame at rest.
     pub fn at_rest(origin: Vector<T>, axes: Matrix<T>) -> Frame<T> {
         let zero = || vector([0.0; 3]);
-        Frame { origin, axes, velocity: zero(), rate: matrix([[0.0; 3]; 3]), spin: zero() }
+        Frame {
+            origin,
+            axes,
+            velocity: zero(),
+            rate: matrix([[0.0; 3]; 3]),
+            spin: zero(),
+        }
     }
 
     /// The frame of a marker, given its position and axes in coordinates of this part.
     pub fn marker(&self, position: Vector<f64>, axes: Matrix<f64>) -> Frame<T> {
         let s = vector(position);
-        let rotated = |m: &Matrix<T>| if axes == IDENTITY { m.clone() } else { product(m, &matrix(axes)) };
+        let rotated = |m: &Matrix<T>| {
+            if axes == IDENTITY {
+                m.clone()
+            } else {
+                product(m, &matrix(axes))
+            }
+        };
         Frame {
             origin: add(&self.origin, &apply(&self.axes, &s)),
             axes: rotated(&self.axes),
@@ -83,7 +99,11 @@ impl<T: Scalar> Frame<T> {
     pub fn parallel_at(&self, place: &Vector<T>) -> Frame<T> {
         let arm = subtract(place, &self.origin);
         let velocity = add(&self.velocity, &cross(&self.spin, &arm));
-        Frame { origin: place.clone(), velocity, ..self.clone() }
+        Frame {
+            origin: place.clone(),
+            velocity,
+            ..self.clone()
+        }
     }
 }
 
@@ -111,7 +131,11 @@ pub(crate) fn measure<T: Scalar>(what: Measure, [i, j, k, l]: [&Frame<T>; 4], sa
         Measure::RadialSpeed => {
             let d = distance();
             let length = norm(&d);
-            if length.value() > 0.0 { dot(&d, &seen()).over(&length) } else { T::constant(0.0) }
+            if length.value() > 0.0 {
+                dot(&d, &seen()).over(&length)
+            } else {
+                T::constant(0.0)
+            }
         }
         Measure::AngularVelocity(axis) => dot(&column(&k.axes, axis), &subtract(&i.spin, &j.spin)),
         Measure::AngularSpeed => norm(&subtract(&i.spin, &j.spin)),

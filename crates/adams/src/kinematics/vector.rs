@@ -38,7 +38,9 @@ pub(crate) fn scale<T: Scalar>(a: &Vector<T>, factor: &T) -> Vector<T> {
 
 /// a . b
 pub(crate) fn dot<T: Scalar>(a: &Vector<T>, b: &Vector<T>) -> T {
-    a[0].times(&b[0]).plus(&a[1].times(&b[1])).plus(&a[2].times(&b[2]))
+    a[0].times(&b[0])
+        .plus(&a[1].times(&b[1]))
+        .plus(&a[2].times(&b[2]))
 }
 
 /// a x b
@@ -50,8 +52,17 @@ pub(crate) fn cross<T: Scalar>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
 /// The magnitude of a vector. Its derivative at the zero vector is taken as zero.
 pub(crate) fn norm<T: Scalar>(a: &Vector<T>) -> T {
     let length = a[0].value().hypot(a[1].value()).hypot(a[2].value());
-    let slope = |k: usize| if length > 0.0 { a[k].value() / length } else { 0.0 };
-    T::compose(length, &[(slope(0), &a[0]), (slope(1), &a[1]), (slope(2), &a[2])])
+    let slope = |k: usize| {
+        if length > 0.0 {
+            a[k].value() / length
+        } else {
+            0.0
+        }
+    };
+    T::compose(
+        length,
+        &[(slope(0), &a[0]), (slope(1), &a[1]), (slope(2), &a[2])],
+    )
 }
 
 /// Column k of a matrix.

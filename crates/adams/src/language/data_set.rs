@@ -38,11 +38,14 @@ impl DataSet {
     pub fn write(&self) -> Result<String, Error> {
         let mut layout = Layout::new(&self.title);
         for (k, statement) in self.statements.iter().enumerate() {
-            let twice = |other: &Statement| other.keyword == statement.keyword && other.id == statement.id;
+            let twice =
+                |other: &Statement| other.keyword == statement.keyword && other.id == statement.id;
             if let Some(id) = statement.id
                 && (id == 0 || self.statements[..k].iter().any(twice))
             {
-                return Err(Error::Id { statement: StatementId::new(&statement.keyword, id) });
+                return Err(Error::Id {
+                    statement: StatementId::new(&statement.keyword, id),
+                });
             }
             layout.statement(statement)?;
         }
@@ -52,12 +55,17 @@ impl DataSet {
     /// The first statement with this keyword and identifier.
     #[must_use]
     pub fn find(&self, keyword: &str, id: u32) -> Option<&Statement> {
-        self.statements.iter().find(|one| one.keyword == keyword && one.id == Some(id))
+        self.statements
+            .iter()
+            .find(|one| one.keyword == keyword && one.id == Some(id))
     }
 
     /// The number of statements with this keyword, such as VARIABLE.
     #[must_use]
     pub fn count(&self, keyword: &str) -> usize {
-        self.statements.iter().filter(|one| one.keyword == keyword).count()
+        self.statements
+            .iter()
+            .filter(|one| one.keyword == keyword)
+            .count()
     }
 }

@@ -23,12 +23,17 @@ impl Layout {
         for remark in &statement.remarks {
             self.remark(remark);
         }
-        for (key, value) in [("adams_view_name", &statement.name), ("adams_view_units", &statement.units)] {
+        for (key, value) in [
+            ("adams_view_name", &statement.name),
+            ("adams_view_units", &statement.units),
+        ] {
             let Some(value) = value else { continue };
             let line = format!("!  {key}='{value}'");
             let plain = value.bytes().all(|c| c.is_ascii_graphic() && c != b'\'');
             if !plain || value.is_empty() || line.len() > WIDTH {
-                return Err(Error::Name { statement: id_of(statement) });
+                return Err(Error::Name {
+                    statement: id_of(statement),
+                });
             }
             self.line(&line);
         }
@@ -41,7 +46,9 @@ impl Layout {
         let last = statement.arguments.len().saturating_sub(1);
         for (k, argument) in statement.arguments.iter().enumerate() {
             let written = self.argument(&argument.name, &argument.value, k == last);
-            written.ok_or_else(|| Error::Long { statement: id_of(statement) })?;
+            written.ok_or_else(|| Error::Long {
+                statement: id_of(statement),
+            })?;
         }
         self.line("!");
         Ok(())
@@ -188,7 +195,11 @@ fn pieces(text: &str) -> Vec<&str> {
 fn line_of_title(text: &str) -> String {
     let clean = plain(text.trim());
     let statement = statement_word(&clean).is_some() || clean.starts_with(['!', ',']);
-    let mut out = if statement { format!("Model: {clean}") } else { clean };
+    let mut out = if statement {
+        format!("Model: {clean}")
+    } else {
+        clean
+    };
     out.truncate(WIDTH);
     out.truncate(out.trim_end().len());
     out
@@ -196,7 +207,15 @@ fn line_of_title(text: &str) -> String {
 
 /// The text with `?` for every character that is not printable ASCII.
 fn plain(text: &str) -> String {
-    text.chars().map(|c| if c.is_ascii_graphic() || c == ' ' { c } else { '?' }).collect()
+    text.chars()
+        .map(|c| {
+            if c.is_ascii_graphic() || c == ' ' {
+                c
+            } else {
+                '?'
+            }
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -206,6 +225,11 @@ mod tests {
     #[test]
     fn expressions_break_after_operators_but_not_inside_numbers() {
         let text = "1.5E-07*AKISPL(DZ(1,2),X**2,6)-2";
-        assert_eq!(pieces(text), ["1.5E-07*", "AKISPL(", "DZ(", "1,", "2),", "X**", "2,", "6)-", "2"]);
+        assert_eq!(
+            pieces(text),
+            [
+                "1.5E-07*", "AKISPL(", "DZ(", "1,", "2),", "X**", "2,", "6)-", "2"
+            ]
+        );
     }
 }

@@ -18,7 +18,10 @@ pub(crate) struct RawStatement<'a> {
 impl<'a> RawStatement<'a> {
     /// Takes the name, the units or the remark of a comment.
     fn note(&mut self, comment: &'a str) {
-        let (name, units) = (quoted(comment, "adams_view_name"), quoted(comment, "adams_view_units"));
+        let (name, units) = (
+            quoted(comment, "adams_view_name"),
+            quoted(comment, "adams_view_units"),
+        );
         if (name, units) == (None, None) && !comment.trim().is_empty() {
             self.remarks.push(comment.trim());
         }
@@ -62,14 +65,20 @@ pub(crate) enum TokenKind<'a> {
 impl<K> Positioned<K> {
     /// An error at this token.
     pub fn fault(&self, fault: AdamsFault) -> Error {
-        Error::At { line: self.line, column: self.column, fault }
+        Error::At {
+            line: self.line,
+            column: self.column,
+            fault,
+        }
     }
 }
 
 /// The first word of a line that begins a statement: of `WORD/...`, or of a line with END alone.
 pub(crate) fn statement_word(text: &str) -> Option<&str> {
     let text = text.trim_start();
-    let end = text.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(text.len());
+    let end = text
+        .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+        .unwrap_or(text.len());
     let (word, rest) = text.split_at(end);
     let starts = word.starts_with(|c: char| c.is_ascii_alphabetic());
     let end = word.eq_ignore_ascii_case("END") && rest.trim().is_empty();
@@ -84,7 +93,9 @@ pub(crate) fn statement_word(text: &str) -> Option<&str> {
 pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'_>>), Error> {
     let mut lines = text.lines().enumerate().peekable();
     let title = match lines.peek() {
-        Some((_, first)) if statement_word(first).is_none() && !first.trim_start().starts_with('!') => {
+        Some((_, first))
+            if statement_word(first).is_none() && !first.trim_start().starts_with('!') =>
+        {
             let title = first.trim();
             lines.next();
             (!title.is_empty()).then_some(title)
@@ -106,20 +117,26 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
         let ends = parts.len() - 1;
         let mut column = 1;
         for (k, part) in parts.into_iter().enumerate() {
-            let piece = Piece { line: number + 1, column, text: part };
+            let piece = Piece {
+                line: number + 1,
+                column,
+                text: part,
+            };
             column += part.chars().count() + 1;
             let trimmed = part.trim();
             if trimmed.is_empty() {
                 open &= ends == 0;
                 continue;
             }
-            let continues =
-                k == 0 && (trimmed.starts_with(',') || (open && comma && statement_word(trimmed).is_none()));
+            let continues = k == 0
+                && (trimmed.starts_with(',')
+                    || (open && comma && statement_word(trimmed).is_none()));
             if continues {
                 match all.last_mut().filter(|_| open) {
                     Some(last) => last.pieces.push(piece),
                     None => {
-                        let column = piece.column + part.chars().take_while(|c| c.is_whitespace()).count();
+                        let column =
+                            piece.column + part.chars().take_while(|c| c.is_whitespace()).count();
                         return Err(Error::At {
                             line: piece.line,
                             column,
@@ -131,7 +148,10 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
                 if statement_word(trimmed).is_some_and(|word| word.eq_ignore_ascii_case("END")) {
                     return Ok((title, all));
                 }
-                all.push(RawStatement { pieces: vec![piece], ..std::mem::take(&mut next) });
+                all.push(RawStatement {
+                    pieces: vec![piece],
+                    ..std::mem::take(&mut next)
+                });
             }
             open = k == ends;
             comma = trimmed.ends_with(',');
@@ -164,7 +184,12 @@ fn split_statements(line: &str) -> Vec<&str> {
 
 /// The value of `key='value'` in a comment.
 fn quoted<'a>(comment: &'a str, key: &str) -> Option<&'a str> {
-    let value = comment.trim().strip_prefix(key)?.trim_start().strip_prefix('=')?.trim();
+    let value = comment
+        .trim()
+        .strip_prefix(key)?
+        .trim_start()
+        .strip_prefix('=')?
+        .trim();
     let inner = value.strip_prefix('\'')?.strip_suffix('\'')?;
     (!inner.is_empty()).then_some(inner)
 }
@@ -179,8 +204,14 @@ pub(crate) fn tokens<'a>(statement: &RawStatement<'a>) -> Result<Vec<Token<'a>>,
             let trimmed = rest.trim_start();
             column += rest[..rest.len() - trimmed.len()].chars().count();
             rest = trimmed;
-            let Some(first) = rest.chars().next() else { break };
-            let at = |kind| Token { line: piece.line, column, kind };
+            let Some(first) = rest.chars().next() else {
+                break;
+            };
+            let at = |kind| Token {
+                line: piece.line,
+                column,
+                kind,
+            };
             let (length, token) = match first {
                 '=' => (1, at(TokenKind::Equals)),
                 ',' => (1, at(TokenKind::Comma)),
@@ -194,7 +225,13 @@ pub(crate) fn tokens<'a>(statement: &RawStatement<'a>) -> Result<Vec<Token<'a>>,
                     let number = &rest[..number_length(rest.as_bytes())];
                     (number.len(), at(TokenKind::Number(number)))
                 }
-                _ => return Err(Error::At { line: piece.line, column, fault: AdamsFault::UnexpectedText }),
+                _ => {
+                    return Err(Error::At {
+                        line: piece.line,
+                        column,
+                        fault: AdamsFault::UnexpectedText,
+                    });
+                }
             };
             out.push(token);
             rest = &rest[length..];

@@ -54,7 +54,10 @@ impl Statement {
     /// A statement with an identifier and no arguments.
     #[must_use]
     pub fn new(keyword: &str, id: u32) -> Statement {
-        Statement { id: Some(id), ..Statement::without_id(keyword) }
+        Statement {
+            id: Some(id),
+            ..Statement::without_id(keyword)
+        }
     }
 
     /// A statement of a kind without identifier, such as UNITS, without arguments.
@@ -87,7 +90,10 @@ impl Statement {
     /// Adds an argument.
     #[must_use]
     pub fn with(mut self, name: &str, value: ArgumentValue) -> Statement {
-        self.arguments.push(StatementArgument { name: name.to_owned(), value });
+        self.arguments.push(StatementArgument {
+            name: name.to_owned(),
+            value,
+        });
         self
     }
 
@@ -124,6 +130,9 @@ impl Statement {
     /// The value of the first argument with this full name in capitals.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&ArgumentValue> {
-        self.arguments.iter().find(|argument| argument.name == name).map(|argument| &argument.value)
+        self.arguments
+            .iter()
+            .find(|argument| argument.name == name)
+            .map(|argument| &argument.value)
     }
 }

@@ -21,7 +21,10 @@ pub(crate) trait UnitWords: Copy + PartialEq + 'static {
 
     /// The word of a unit.
     fn word(self) -> &'static str {
-        Self::ALL.iter().find(|(unit, _)| *unit == self).map_or("", |(_, word)| word)
+        Self::ALL
+            .iter()
+            .find(|(unit, _)| *unit == self)
+            .map_or("", |(_, word)| word)
     }
 }
 

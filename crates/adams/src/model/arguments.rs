@@ -20,7 +20,10 @@ impl<'a> Arguments<'a> {
 
     /// The identifier.
     pub fn id(&self) -> Result<u32, Error> {
-        self.statement.id.filter(|id| *id > 0).ok_or_else(|| self.fault(AdamsFault::Id))
+        self.statement
+            .id
+            .filter(|id| *id > 0)
+            .ok_or_else(|| self.fault(AdamsFault::Id))
     }
 
     /// Whether an argument is given.
@@ -43,11 +46,17 @@ impl<'a> Arguments<'a> {
         let all = match self.statement.get(name) {
             None => return Ok(None),
             Some(ArgumentValue::Numbers(all)) => all.clone(),
-            Some(ArgumentValue::Degrees(all)) => all.iter().map(|angle| angle.to_radians()).collect(),
+            Some(ArgumentValue::Degrees(all)) => {
+                all.iter().map(|angle| angle.to_radians()).collect()
+            }
             Some(ArgumentValue::Whole(whole)) => vec![*whole as f64],
             Some(_) => return Err(self.wrong_form(name)),
         };
-        if all.iter().all(|value| value.is_finite()) { Ok(Some(all)) } else { Err(self.wrong_form(name)) }
+        if all.iter().all(|value| value.is_finite()) {
+            Ok(Some(all))
+        } else {
+            Err(self.wrong_form(name))
+        }
     }
 
     /// One finite number.
@@ -61,7 +70,8 @@ impl<'a> Arguments<'a> {
 
     /// One finite number that must be given.
     pub fn required(&self, name: &'static str) -> Result<f64, Error> {
-        self.number(name)?.ok_or_else(|| self.missing_argument(name))
+        self.number(name)?
+            .ok_or_else(|| self.missing_argument(name))
     }
 
     /// Three finite numbers.
@@ -75,7 +85,9 @@ impl<'a> Arguments<'a> {
 
     /// Three angles, each as cosine and sine.
     pub fn angles(&self, name: &'static str) -> Result<Option<[(f64, f64); 3]>, Error> {
-        let Some(value) = self.statement.get(name) else { return Ok(None) };
+        let Some(value) = self.statement.get(name) else {
+            return Ok(None);
+        };
         match cosines_and_sines(value).as_deref() {
             Some([a, b, c]) if self.three(name)?.is_some() => Ok(Some([*a, *b, *c])),
             _ => Err(self.wrong_form(name)),
@@ -86,9 +98,9 @@ impl<'a> Arguments<'a> {
     pub fn reference(&self, name: &'static str) -> Result<Option<u32>, Error> {
         match self.statement.get(name) {
             None => Ok(None),
-            Some(ArgumentValue::Whole(whole)) => {
-                u32::try_from(*whole).map(Some).map_err(|_| self.wrong_form(name))
-            }
+            Some(ArgumentValue::Whole(whole)) => u32::try_from(*whole)
+                .map(Some)
+                .map_err(|_| self.wrong_form(name)),
             Some(_) => Err(self.wrong_form(name)),
         }
     }
@@ -116,7 +128,9 @@ impl<'a> Arguments<'a> {
 /// degrees.
 pub(super) fn cosines_and_sines(value: &ArgumentValue) -> Option<Vec<(f64, f64)>> {
     match value {
-        ArgumentValue::Numbers(all) => Some(all.iter().map(|angle| (angle.cos(), angle.sin())).collect()),
+        ArgumentValue::Numbers(all) => {
+            Some(all.iter().map(|angle| (angle.cos(), angle.sin())).collect())
+        }
         ArgumentValue::Degrees(all) => Some(
             all.iter()
                 .map(|degrees| {

@@ -35,11 +35,21 @@ impl Beam {
             arguments.required("EMODULUS")?,
             arguments.required("GMODULUS")?,
         ];
-        let [ixx, iyy, izz] =
-            [arguments.required("IXX")?, arguments.required("IYY")?, arguments.required("IZZ")?];
-        let shear = [arguments.number("ASY")?.unwrap_or(0.0), arguments.number("ASZ")?.unwrap_or(0.0)];
+        let [ixx, iyy, izz] = [
+            arguments.required("IXX")?,
+            arguments.required("IYY")?,
+            arguments.required("IZZ")?,
+        ];
+        let shear = [
+            arguments.number("ASY")?.unwrap_or(0.0),
+            arguments.number("ASZ")?.unwrap_or(0.0),
+        ];
         let positive = [length, area, e, g].into_iter().all(|value| value > 0.0);
-        if !positive || [ixx, iyy, izz, shear[0], shear[1]].into_iter().any(|value| value < 0.0) {
+        if !positive
+            || [ixx, iyy, izz, shear[0], shear[1]]
+                .into_iter()
+                .any(|value| value < 0.0)
+        {
             return Err(arguments.fault(AdamsFault::Parameter));
         }
         match arguments.statement.get("FORMULATION") {
@@ -62,27 +72,47 @@ impl Beam {
         (k[5][1], k[4][2]) = (k[1][5], k[2][4]);
         let damping = match (arguments.number("CRATIO")?, arguments.numbers("CMATRIX")?) {
             (ratio, None) => k.map(|row| row.map(|value| value * ratio.unwrap_or(0.0))),
-            (None, Some(list)) => symmetric(&list).ok_or_else(|| arguments.fault(AdamsFault::Parameter))?,
+            (None, Some(list)) => {
+                symmetric(&list).ok_or_else(|| arguments.fault(AdamsFault::Parameter))?
+            }
             _ => return Err(arguments.fault(AdamsFault::Parameter)),
         };
-        Ok(Beam { length, stiffness: k, damping })
+        Ok(Beam {
+            length,
+            stiffness: k,
+            damping,
+        })
     }
 
     /// The force on I and the torque about I, in ground axes.
     pub fn wrench<T: Scalar>(&self, i: &Frame<T>, j: &Frame<T>) -> [Vector<T>; 2] {
         let get = |what: Measure| measure(what, [i, j, j, j], true);
-        let mut u: [T; 6] =
-            std::array::from_fn(|k| if k < 3 { get(Measure::Displacement(k)) } else { angle(k - 3, i, j) });
+        let mut u: [T; 6] = std::array::from_fn(|k| {
+            if k < 3 {
+                get(Measure::Displacement(k))
+            } else {
+                angle(k - 3, i, j)
+            }
+        });
         u[0] = u[0].minus(&T::constant(self.length));
         let v: [T; 6] = std::array::from_fn(|k| {
-            if k < 3 { get(Measure::Velocity(k)) } else { get(Measure::AngularVelocity(k - 3)) }
+            if k < 3 {
+                get(Measure::Velocity(k))
+            } else {
+                get(Measure::AngularVelocity(k - 3))
+            }
         });
         let row = |k: usize| {
-            let terms =
-                (0..6).map(|m| u[m].scaled(self.stiffness[k][m]).plus(&v[m].scaled(self.damping[k][m])));
+            let terms = (0..6).map(|m| {
+                u[m].scaled(self.stiffness[k][m])
+                    .plus(&v[m].scaled(self.damping[k][m]))
+            });
             terms.fold(T::constant(0.0), |sum, term| sum.minus(&term))
         };
-        [apply(&j.axes, &std::array::from_fn(row)), apply(&j.axes, &std::array::from_fn(|k| row(k + 3)))]
+        [
+            apply(&j.axes, &std::array::from_fn(row)),
+            apply(&j.axes, &std::array::from_fn(|k| row(k + 3))),
+        ]
     }
 }
 
@@ -95,5 +125,7 @@ fn symmetric(list: &[f64]) -> Option<[[f64; 6]; 6]> {
     // Column k begins after 6 + 5 + ... numbers, k terms.
     let start = |column: usize| column * (13 - column) / 2;
     let entry = |a: usize, b: usize| list[start(a.min(b)) + a.abs_diff(b)];
-    Some(std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column))))
+    Some(std::array::from_fn(|row| {
+        std::array::from_fn(|column| entry(row, column))
+    }))
 }

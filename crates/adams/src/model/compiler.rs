@@ -46,19 +46,29 @@ impl Compiler<'_> {
                 "PI" => Ok(Formula::Number(std::f64::consts::PI)),
                 "DTOR" => Ok(Formula::Number(std::f64::consts::PI / 180.0)),
                 "RTOD" => Ok(Formula::Number(180.0 / std::f64::consts::PI)),
-                _ => Err((name.offset, AdamsFault::Unknown { name: name.word.clone() })),
+                _ => Err((
+                    name.offset,
+                    AdamsFault::Unknown {
+                        name: name.word.clone(),
+                    },
+                )),
             },
             Expression::Sum(terms) => {
-                let each = terms.iter().map(|(sign, term)| Ok((*sign, self.compile(term)?)));
+                let each = terms
+                    .iter()
+                    .map(|(sign, term)| Ok((*sign, self.compile(term)?)));
                 Ok(Formula::Sum(each.collect::<Result<_, _>>()?))
             }
             Expression::Product(factors) => {
-                let each = factors.iter().map(|(factor, part)| Ok((*factor, self.compile(part)?)));
+                let each = factors
+                    .iter()
+                    .map(|(factor, part)| Ok((*factor, self.compile(part)?)));
                 Ok(Formula::Product(each.collect::<Result<_, _>>()?))
             }
-            Expression::Power(base, exponent) => {
-                Ok(Formula::Power(Box::new(self.compile(base)?), Box::new(self.compile(exponent)?)))
-            }
+            Expression::Power(base, exponent) => Ok(Formula::Power(
+                Box::new(self.compile(base)?),
+                Box::new(self.compile(exponent)?),
+            )),
             Expression::Call(name, arguments) => self.call(name, arguments),
         }
     }
@@ -74,37 +84,50 @@ impl Compiler<'_> {
             if !(least..=most).contains(&arguments.len()) {
                 return Err(fault(AdamsFault::Arguments));
             }
-            let all: Result<Vec<Formula>, _> = arguments.iter().map(|one| self.compile(one)).collect();
+            let all: Result<Vec<Formula>, _> =
+                arguments.iter().map(|one| self.compile(one)).collect();
             return Ok(Formula::Call(function, all?));
         }
         match (word, arguments) {
             ("IF", [test, below, zero, above]) => {
-                let all =
-                    [self.compile(test)?, self.compile(below)?, self.compile(zero)?, self.compile(above)?];
+                let all = [
+                    self.compile(test)?,
+                    self.compile(below)?,
+                    self.compile(zero)?,
+                    self.compile(above)?,
+                ];
                 Ok(Formula::Choice(Box::new(all)))
             }
             ("VARVAL", [id]) => {
                 let id = whole(id, name)?;
                 let slot = self.symbols.variables.get(&id).copied();
-                slot.map(Formula::Slot).ok_or_else(|| fault(missing("VARIABLE", id)))
+                slot.map(Formula::Slot)
+                    .ok_or_else(|| fault(missing("VARIABLE", id)))
             }
             ("DIF" | "DIF1", [id]) => {
                 let id = whole(id, name)?;
                 let found = self.symbols.diffs.get(&id).copied();
                 let (index, slot) = found.ok_or_else(|| fault(missing("DIFF", id)))?;
-                Ok(if word == "DIF" { Formula::Differential(index) } else { Formula::Slot(slot) })
+                Ok(if word == "DIF" {
+                    Formula::Differential(index)
+                } else {
+                    Formula::Slot(slot)
+                })
             }
             ("AKISPL", _) => self.spline(name, arguments, SplineMethod::Akima),
             ("CUBSPL", _) => self.spline(name, arguments, SplineMethod::Natural),
-            ("SFORCE" | "VFORCE" | "GFORCE" | "BEAM" | "JOINT" | "JPRIM" | "MOTION", [id, rest @ ..]) => {
-                self.force(name, id, rest)
-            }
             (
-                "IF" | "VARVAL" | "DIF" | "DIF1" | "SFORCE" | "VFORCE" | "GFORCE" | "BEAM" | "JOINT"
-                | "MOTION",
+                "SFORCE" | "VFORCE" | "GFORCE" | "BEAM" | "JOINT" | "JPRIM" | "MOTION",
+                [id, rest @ ..],
+            ) => self.force(name, id, rest),
+            (
+                "IF" | "VARVAL" | "DIF" | "DIF1" | "SFORCE" | "VFORCE" | "GFORCE" | "BEAM"
+                | "JOINT" | "MOTION",
                 _,
             ) => Err(fault(AdamsFault::Arguments)),
-            _ => Err(fault(AdamsFault::Unknown { name: name.word.clone() })),
+            _ => Err(fault(AdamsFault::Unknown {
+                name: name.word.clone(),
+            })),
         }
     }
 
@@ -118,7 +141,9 @@ impl Compiler<'_> {
             0 => Ok(None),
             id => {
                 let found = self.symbols.markers.get(&id).copied();
-                found.map(Some).ok_or_else(|| (name.offset, missing("MARKER", id)))
+                found
+                    .map(Some)
+                    .ok_or_else(|| (name.offset, missing("MARKER", id)))
             }
         }
     }
@@ -144,7 +169,12 @@ impl Compiler<'_> {
     }
 
     /// AKISPL or CUBSPL with the arguments (x, z, id, order).
-    fn spline(&self, name: &ExpressionName, arguments: &[Expression], method: SplineMethod) -> Compiled {
+    fn spline(
+        &self,
+        name: &ExpressionName,
+        arguments: &[Expression],
+        method: SplineMethod,
+    ) -> Compiled {
         let fault = |fault: AdamsFault| (name.offset, fault);
         let (x, z, id, order) = match arguments {
             [x, z, id] => (x, z, id, 0),
@@ -161,7 +191,12 @@ impl Compiler<'_> {
             return Err(fault(AdamsFault::Arguments));
         }
         let (x, z) = (Box::new(self.compile(x)?), Box::new(self.compile(z)?));
-        Ok(Formula::Spline { family, order: order as usize, x, z })
+        Ok(Formula::Spline {
+            family,
+            order: order as usize,
+            x,
+            z,
+        })
     }
 
     /// A component of a force or reaction, with the arguments (id, jflag, comp, rm).
@@ -185,23 +220,41 @@ impl Compiler<'_> {
             "BEAM" => LoadKind::Beam,
             word => {
                 let all = &self.symbols.constraints;
-                let found = all.iter().find(|((keyword, other), _)| *keyword == word && *other == id);
+                let found = all
+                    .iter()
+                    .find(|((keyword, other), _)| *keyword == word && *other == id);
                 let (_, &constraint) = found.ok_or_else(|| fault(missing(word, id)))?;
                 if !self.reactions {
                     return Err(fault(AdamsFault::Reaction));
                 }
-                return Ok(Formula::Reaction { constraint, on_j, component, frame });
+                return Ok(Formula::Reaction {
+                    constraint,
+                    on_j,
+                    component,
+                    frame,
+                });
             }
         };
-        let load =
-            self.symbols.loads.get(&(kind, id)).copied().ok_or_else(|| fault(missing(&name.word, id)))?;
-        Ok(Formula::Load { load, on_j, component, frame })
+        let load = self
+            .symbols
+            .loads
+            .get(&(kind, id))
+            .copied()
+            .ok_or_else(|| fault(missing(&name.word, id)))?;
+        Ok(Formula::Load {
+            load,
+            on_j,
+            component,
+            frame,
+        })
     }
 }
 
 /// The fault of a statement that does not exist.
 fn missing(keyword: &str, id: u32) -> AdamsFault {
-    AdamsFault::Missing { statement: StatementId::new(keyword, id) }
+    AdamsFault::Missing {
+        statement: StatementId::new(keyword, id),
+    }
 }
 
 /// An identifier or another argument that must be a whole number, not an expression.

@@ -31,7 +31,9 @@ impl<T: Scalar> Configuration<T> {
     pub fn new(markers: &[Marker], parts: &[Frame<T>], slots: usize) -> Configuration<T> {
         let fixed = |marker: &Marker| parts[marker.part].marker(marker.position, marker.axes);
         let place = |marker: &Marker| match marker.follows.and_then(|k| markers.get(k)) {
-            Some(leader) if marker.floating => parts[marker.part].parallel_at(&fixed(leader).origin),
+            Some(leader) if marker.floating => {
+                parts[marker.part].parallel_at(&fixed(leader).origin)
+            }
             _ => fixed(marker),
         };
         Configuration {
@@ -46,6 +48,8 @@ impl<T: Scalar> Configuration<T> {
 
     /// The frame of a marker; `None` is ground.
     pub fn frame(&self, marker: Option<usize>) -> &Frame<T> {
-        marker.and_then(|k| self.frames.get(k)).unwrap_or(&self.ground)
+        marker
+            .and_then(|k| self.frames.get(k))
+            .unwrap_or(&self.ground)
     }
 }

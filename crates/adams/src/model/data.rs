@@ -91,10 +91,17 @@ impl AdamsModel {
     /// The initial state: QG, REULER and VX to WZ of every PART, and IC of every DIFF, at time zero.
     #[must_use]
     pub fn initial(&self) -> ModelState {
-        let parts =
-            self.parts.iter().filter(|part| !part.ground).map(|part| (part.id, part.pose(&self.markers)));
+        let parts = self
+            .parts
+            .iter()
+            .filter(|part| !part.ground)
+            .map(|part| (part.id, part.pose(&self.markers)));
         let differentials = self.diffs.iter().map(|diff| (diff.id, diff.start));
-        ModelState { time: 0.0, parts: parts.collect(), differentials: differentials.collect() }
+        ModelState {
+            time: 0.0,
+            parts: parts.collect(),
+            differentials: differentials.collect(),
+        }
     }
 
     /// The keyword and argument that a slot belongs to.
@@ -102,14 +109,19 @@ impl AdamsModel {
         match slot.owner {
             Owner::Variable => ("VARIABLE", "FUNCTION"),
             Owner::Rate(_) => ("DIFF", "FUNCTION"),
-            Owner::Load(load, component) => {
-                self.loads.get(load).map_or(("GFORCE", "FUNCTION"), |load| load.label(component))
-            }
+            Owner::Load(load, component) => self
+                .loads
+                .get(load)
+                .map_or(("GFORCE", "FUNCTION"), |load| load.label(component)),
         }
     }
 
     /// Compiles an expression that is not part of the data set.
     pub(crate) fn compile(&self, tree: &Expression) -> Result<Formula, (usize, AdamsFault)> {
-        Compiler { symbols: &self.symbols, reactions: true }.compile(tree)
+        Compiler {
+            symbols: &self.symbols,
+            reactions: true,
+        }
+        .compile(tree)
     }
 }

@@ -77,7 +77,13 @@ impl<'a, T: Scalar> Evaluation<'a, T> {
         constraints: usize,
     ) -> Evaluation<'a, T> {
         let reactions = vec![None; constraints];
-        Evaluation { loads, families, at, reactions, beyond: RefCell::new(BTreeSet::new()) }
+        Evaluation {
+            loads,
+            families,
+            at,
+            reactions,
+            beyond: RefCell::new(BTreeSet::new()),
+        }
     }
 }
 
@@ -88,7 +94,11 @@ impl Formula {
     /// The faults of functions and tables; [`AdamsFault::NotFiniteValue`] for a result that is not finite.
     pub fn value<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, AdamsFault> {
         let out = self.part(on)?;
-        if out.value().is_finite() { Ok(out) } else { Err(AdamsFault::NotFiniteValue) }
+        if out.value().is_finite() {
+            Ok(out)
+        } else {
+            Err(AdamsFault::NotFiniteValue)
+        }
     }
 
     /// The value, which may be infinite or NaN.
@@ -99,28 +109,63 @@ impl Formula {
             Formula::Mode => Ok(T::constant(on.at.mode)),
             Formula::Measure(what, markers) => {
                 let same = markers[2] == markers[3];
-                Ok(measure(*what, markers.map(|marker| on.at.frame(marker)), same))
+                Ok(measure(
+                    *what,
+                    markers.map(|marker| on.at.frame(marker)),
+                    same,
+                ))
             }
-            Formula::Load { load, on_j, component, frame } => {
+            Formula::Load {
+                load,
+                on_j,
+                component,
+                frame,
+            } => {
                 let load = on.loads.get(*load).ok_or(AdamsFault::UnexpectedText)?;
                 if let Some(slot) = load.direct(*component, *frame) {
                     let sign = if *on_j { -1.0 } else { 1.0 };
-                    return Ok(slot.map_or(T::constant(0.0), |slot| on.at.values[slot].scaled(sign)));
+                    return Ok(
+                        slot.map_or(T::constant(0.0), |slot| on.at.values[slot].scaled(sign))
+                    );
                 }
-                Ok(component_of(&load.wrench(&on.at), *component, on.at.frame(*frame), *on_j))
+                Ok(component_of(
+                    &load.wrench(&on.at),
+                    *component,
+                    on.at.frame(*frame),
+                    *on_j,
+                ))
             }
-            Formula::Reaction { constraint, on_j, component, frame } => {
-                let wrench =
-                    on.reactions.get(*constraint).and_then(Option::as_ref).ok_or(AdamsFault::Reaction)?;
+            Formula::Reaction {
+                constraint,
+                on_j,
+                component,
+                frame,
+            } => {
+                let wrench = on
+                    .reactions
+                    .get(*constraint)
+                    .and_then(Option::as_ref)
+                    .ok_or(AdamsFault::Reaction)?;
                 Ok(component_of(wrench, *component, on.at.frame(*frame), *on_j))
             }
-            Formula::Slot(index) => on.at.values.get(*index).cloned().ok_or(AdamsFault::UnexpectedText),
-            Formula::Differential(index) => {
-                on.at.differentials.get(*index).cloned().ok_or(AdamsFault::UnexpectedText)
-            }
-            Formula::Spline { family, order, x, z } => {
-                interpolated(on, *family, *order, &x.part(on)?, &z.part(on)?)
-            }
+            Formula::Slot(index) => on
+                .at
+                .values
+                .get(*index)
+                .cloned()
+                .ok_or(AdamsFault::UnexpectedText),
+            Formula::Differential(index) => on
+                .at
+                .differentials
+                .get(*index)
+                .cloned()
+                .ok_or(AdamsFault::UnexpectedText),
+            Formula::Spline {
+                family,
+                order,
+                x,
+                z,
+            } => interpolated(on, *family, *order, &x.part(on)?, &z.part(on)?),
             Formula::Choice(parts) => {
                 let [test, below, zero, above] = parts.as_ref();
                 match test.part(on)?.value().partial_cmp(&0.0) {
@@ -131,7 +176,8 @@ impl Formula {
                 }
             }
             Formula::Call(function, arguments) => {
-                let all: Result<Vec<T>, AdamsFault> = arguments.iter().map(|one| one.part(on)).collect();
+                let all: Result<Vec<T>, AdamsFault> =
+                    arguments.iter().map(|one| one.part(on)).collect();
                 function.value(&all?)
             }
             Formula::Sum(terms) => sum(on, terms),
@@ -144,9 +190,10 @@ impl Formula {
     pub fn is_function_of_time(&self) -> bool {
         match self {
             Formula::Number(_) | Formula::Time | Formula::Mode => true,
-            Formula::Measure(..) | Formula::Load { .. } | Formula::Reaction { .. } | Formula::Slot(_) => {
-                false
-            }
+            Formula::Measure(..)
+            | Formula::Load { .. }
+            | Formula::Reaction { .. }
+            | Formula::Slot(_) => false,
             Formula::Differential(_) => false,
             Formula::Spline { x, z, .. } | Formula::Power(x, z) => {
                 x.is_function_of_time() && z.is_function_of_time()
@@ -170,7 +217,12 @@ impl Formula {
             Formula::Slot(slot) => {
                 out.insert(*slot);
             }
-            Formula::Load { load, component, frame, .. } => {
+            Formula::Load {
+                load,
+                component,
+                frame,
+                ..
+            } => {
                 if let Some(load) = loads.get(*load) {
                     match load.direct(*component, *frame) {
                         Some(slot) => out.extend(slot),
@@ -210,7 +262,10 @@ fn interpolated<T: Scalar>(
 }
 
 /// The sum of terms from left to right.
-fn sum<T: Scalar>(on: &Evaluation<'_, T>, terms: &[(TermOperator, Formula)]) -> Result<T, AdamsFault> {
+fn sum<T: Scalar>(
+    on: &Evaluation<'_, T>,
+    terms: &[(TermOperator, Formula)],
+) -> Result<T, AdamsFault> {
     let mut sum: Option<T> = None;
     for (sign, term) in terms {
         let term = term.part(on)?;
@@ -243,7 +298,12 @@ fn product<T: Scalar>(
 
 /// A component of a force and torque in the axes of `frame`: 1 |F|, 2 to 4 F, 5 |T|, 6 to 8 T. On J the
 /// components have the opposite sign; magnitudes have none.
-fn component_of<T: Scalar>(wrench: &[Vector<T>; 2], component: usize, frame: &Frame<T>, on_j: bool) -> T {
+fn component_of<T: Scalar>(
+    wrench: &[Vector<T>; 2],
+    component: usize,
+    frame: &Frame<T>,
+    on_j: bool,
+) -> T {
     let vector = &wrench[usize::from(component > 4)];
     match (component - 1) % 4 {
         0 => norm(vector),

@@ -33,7 +33,10 @@ pub(crate) enum Law {
     /// A torque about z of J.
     Torque { slot: usize, action_only: bool },
     /// Slots of FX, FY, FZ, TX, TY, TZ along the axes of the marker `rm`; `None` is zero.
-    Components { slots: [Option<usize>; 6], rm: usize },
+    Components {
+        slots: [Option<usize>; 6],
+        rm: usize,
+    },
     /// A massless beam.
     Beam(Box<Beam>),
 }
@@ -55,8 +58,12 @@ impl AppliedForce {
     /// load's own marker RM. `None` if the component needs arithmetic, `Some(None)` if it is zero.
     pub fn direct(&self, component: usize, frame: Option<usize>) -> Option<Option<usize>> {
         match (&self.law, component) {
-            (Law::Components { slots, rm }, 2..=4) if frame == Some(*rm) => Some(slots[component - 2]),
-            (Law::Components { slots, rm }, 6..=8) if frame == Some(*rm) => Some(slots[component - 3]),
+            (Law::Components { slots, rm }, 2..=4) if frame == Some(*rm) => {
+                Some(slots[component - 2])
+            }
+            (Law::Components { slots, rm }, 6..=8) if frame == Some(*rm) => {
+                Some(slots[component - 3])
+            }
             _ => None,
         }
     }
@@ -66,7 +73,11 @@ impl AppliedForce {
         match &self.law {
             Law::Force { slot, .. } | Law::Torque { slot, .. } => vec![*slot],
             Law::Components { slots, .. } => {
-                let half = if component <= 4 { &slots[..3] } else { &slots[3..] };
+                let half = if component <= 4 {
+                    &slots[..3]
+                } else {
+                    &slots[3..]
+                };
                 half.iter().flatten().copied().collect()
             }
             Law::Beam(_) => Vec::new(),
@@ -79,8 +90,14 @@ impl AppliedForce {
         let (i, j) = (at.frame(Some(self.i)), at.frame(Some(self.j)));
         let value = |slot: usize| at.values.get(slot).cloned().unwrap_or(T::constant(0.0));
         match &self.law {
-            Law::Force { slot, action_only: true } => [scale(&column(&j.axes, 2), &value(*slot)), zero()],
-            Law::Force { slot, action_only: false } => {
+            Law::Force {
+                slot,
+                action_only: true,
+            } => [scale(&column(&j.axes, 2), &value(*slot)), zero()],
+            Law::Force {
+                slot,
+                action_only: false,
+            } => {
                 let d = subtract(&i.origin, &j.origin);
                 let length = norm(&d);
                 if length.value() == 0.0 {
@@ -91,8 +108,9 @@ impl AppliedForce {
             Law::Torque { slot, .. } => [zero(), scale(&column(&j.axes, 2), &value(*slot))],
             Law::Components { slots, rm } => {
                 let axes = &at.frame(Some(*rm)).axes;
-                let three =
-                    |from: usize| std::array::from_fn(|k| slots[from + k].map_or(T::constant(0.0), value));
+                let three = |from: usize| {
+                    std::array::from_fn(|k| slots[from + k].map_or(T::constant(0.0), value))
+                };
                 [apply(axes, &three(0)), apply(axes, &three(3))]
             }
             Law::Beam(beam) => beam.wrench(i, j),
@@ -109,14 +127,25 @@ impl AppliedForce {
             Law::Beam(_) => {
                 let axes = &at.frame(Some(self.j)).axes;
                 let [force, torque] = self.wrench(at).map(|vector| resolve(axes, &vector));
-                [force[0], force[1], force[2], torque[0], torque[1], torque[2]]
+                [
+                    force[0], force[1], force[2], torque[0], torque[1], torque[2],
+                ]
             }
         }
     }
 
     /// Whether the load acts on I only, without reaction on J.
     pub fn action_only(&self) -> bool {
-        matches!(self.law, Law::Force { action_only: true, .. } | Law::Torque { action_only: true, .. })
+        matches!(
+            self.law,
+            Law::Force {
+                action_only: true,
+                ..
+            } | Law::Torque {
+                action_only: true,
+                ..
+            }
+        )
     }
 }
 

@@ -22,7 +22,11 @@ pub(crate) enum Block {
 /// # Source
 /// Strongly connected components: R. Tarjan, SIAM Journal on Computing 1(2), 1972; here by two searches
 /// (Kosaraju).
-pub(crate) fn order(needs: &[BTreeSet<usize>], implicit: &[bool], preferred: &[bool]) -> Vec<Block> {
+pub(crate) fn order(
+    needs: &[BTreeSet<usize>],
+    implicit: &[bool],
+    preferred: &[bool],
+) -> Vec<Block> {
     let all: BTreeSet<usize> = (0..needs.len()).collect();
     components(needs, &all)
         .into_iter()
@@ -44,18 +48,32 @@ fn tear(
     preferred: &[bool],
     group: BTreeSet<usize>,
 ) -> (Vec<usize>, Vec<usize>) {
-    let (mut torn, mut left): (BTreeSet<usize>, BTreeSet<usize>) = group.iter().partition(|k| implicit[**k]);
+    let (mut torn, mut left): (BTreeSet<usize>, BTreeSet<usize>) =
+        group.iter().partition(|k| implicit[**k]);
     loop {
         let groups = components(needs, &left);
-        let closed = |group: &Vec<usize>| group.len() > 1 || group.iter().any(|k| needs[*k].contains(k));
+        let closed =
+            |group: &Vec<usize>| group.len() > 1 || group.iter().any(|k| needs[*k].contains(k));
         let Some(group) = groups.iter().find(|group| closed(group)) else {
             return (torn.into_iter().collect(), groups.concat());
         };
         // A slot that reads itself must be torn. Otherwise the one that most others read is torn, the first
         // of equals.
         let inside: BTreeSet<usize> = group.iter().copied().collect();
-        let uses = |k: usize| inside.iter().filter(|other| needs[**other].contains(&k)).count();
-        let rank = |k: usize| (needs[k].contains(&k), preferred[k], uses(k), std::cmp::Reverse(k));
+        let uses = |k: usize| {
+            inside
+                .iter()
+                .filter(|other| needs[**other].contains(&k))
+                .count()
+        };
+        let rank = |k: usize| {
+            (
+                needs[k].contains(&k),
+                preferred[k],
+                uses(k),
+                std::cmp::Reverse(k),
+            )
+        };
         let Some(best) = inside.iter().copied().max_by_key(|k| rank(*k)) else {
             return (torn.into_iter().collect(), groups.concat());
         };
@@ -124,13 +142,31 @@ mod tests {
     fn loops_are_cut_at_variables_and_the_rest_follows_in_order() {
         // 0 and 1 variables, 2 and 3 forces on them, 4 reads all, 5 reads itself.
         let lists: [&[usize]; 6] = [&[2, 3], &[2, 3], &[0], &[1], &[0, 1, 2], &[5]];
-        let needs: Vec<BTreeSet<usize>> = lists.iter().map(|list| list.iter().copied().collect()).collect();
-        let blocks = order(&needs, &[false; 6], &[true, true, false, false, false, false]);
+        let needs: Vec<BTreeSet<usize>> = lists
+            .iter()
+            .map(|list| list.iter().copied().collect())
+            .collect();
+        let blocks = order(
+            &needs,
+            &[false; 6],
+            &[true, true, false, false, false, false],
+        );
         assert_eq!(blocks.len(), 3);
         let at = |wanted: &Block| blocks.iter().position(|block| block == wanted);
-        let both = |rest: [usize; 2]| at(&Block::Loop { torn: vec![0, 1], rest: rest.to_vec() });
+        let both = |rest: [usize; 2]| {
+            at(&Block::Loop {
+                torn: vec![0, 1],
+                rest: rest.to_vec(),
+            })
+        };
         let pair = both([2, 3]).or(both([3, 2])).expect("two variables");
-        assert!(at(&Block::Loop { torn: vec![5], rest: vec![] }).is_some());
+        assert!(
+            at(&Block::Loop {
+                torn: vec![5],
+                rest: vec![]
+            })
+            .is_some()
+        );
         assert!(at(&Block::Direct(4)) > Some(pair));
     }
 }

@@ -56,10 +56,18 @@ impl Part {
     /// follows.
     pub fn pose(&self, markers: &[Marker]) -> Pose {
         let rotation = Matrix3::from_fn(|i, j| self.rotation[i][j]);
-        let center = self.cm.and_then(|k| markers.get(k)).map_or([0.0; 3], |marker| marker.position);
+        let center = self
+            .cm
+            .and_then(|k| markers.get(k))
+            .map_or([0.0; 3], |marker| marker.position);
         let arm = rotation * Vector3::from(center);
         let spin = Vector3::from(self.spin);
-        Pose::moving(self.origin.into(), rotation, Vector3::from(self.velocity) - spin.cross(&arm), spin)
+        Pose::moving(
+            self.origin.into(),
+            rotation,
+            Vector3::from(self.velocity) - spin.cross(&arm),
+            spin,
+        )
     }
 }
 
@@ -68,7 +76,13 @@ impl Marker {
     pub(super) fn read(arguments: &Arguments<'_>, part: usize) -> Result<Marker, Error> {
         let (position, axes) = placement(arguments, ["QP", "ZP", "XP"])?;
         let floating = arguments.flag("FLOATING");
-        Ok(Marker { part, position, axes, floating, follows: None })
+        Ok(Marker {
+            part,
+            position,
+            axes,
+            floating,
+            follows: None,
+        })
     }
 }
 
@@ -95,7 +109,11 @@ fn placement(
                 [0.0, 1.0, 0.0]
             };
             let second = other.map_or(spare, |point| subtract(&point, &origin));
-            let axes = if by_x { from_axes(second, first, true) } else { from_axes(first, second, false) };
+            let axes = if by_x {
+                from_axes(second, first, true)
+            } else {
+                from_axes(first, second, false)
+            };
             axes.ok_or_else(|| arguments.fault(AdamsFault::Axes))?
         }
         _ => return Err(arguments.fault(AdamsFault::Axes)),
@@ -135,7 +153,8 @@ mod tests {
     #[test]
     fn euler_angles_are_body_3_1_3() {
         // x along ground z, y along ground y.
-        let angles = cosines_and_sines(&ArgumentValue::Degrees(vec![270.0, 90.0, 90.0])).expect("angles");
+        let angles =
+            cosines_and_sines(&ArgumentValue::Degrees(vec![270.0, 90.0, 90.0])).expect("angles");
         let axes = euler([angles[0], angles[1], angles[2]]);
         assert_eq!(apply(&axes, &[1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]);
         assert_eq!(apply(&axes, &[0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);

@@ -56,12 +56,17 @@ impl FactoredMatrix {
     /// A matrix scaled by the typical sizes of residuals (`rows`) and unknowns (`columns`): R has the inverse
     /// sizes of residuals, C the sizes of unknowns. `None` for a matrix that is not finite.
     pub fn scaled(matrix: &DMatrix<f64>, rows: &[f64], columns: &[f64]) -> Option<FactoredMatrix> {
-        FactoredMatrix::new(matrix, rows.iter().map(|row| 1.0 / row).collect(), columns.to_vec())
+        FactoredMatrix::new(
+            matrix,
+            rows.iter().map(|row| 1.0 / row).collect(),
+            columns.to_vec(),
+        )
     }
 
     fn new(matrix: &DMatrix<f64>, rows: Vec<f64>, columns: Vec<f64>) -> Option<FactoredMatrix> {
-        let scaled =
-            DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * rows[i] * columns[j]);
+        let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            matrix[(i, j)] * rows[i] * columns[j]
+        });
         if scaled.iter().any(|value| !value.is_finite()) {
             return None;
         }
@@ -75,16 +80,23 @@ impl FactoredMatrix {
             let top = svd.singular_values.max();
             Factorization::Singular(Box::new(svd), SINGULAR * top)
         };
-        Some(FactoredMatrix { rows, columns, factor, scaled })
+        Some(FactoredMatrix {
+            rows,
+            columns,
+            factor,
+            scaled,
+        })
     }
 
     /// The rank deficiency of the matrix.
     pub fn rank_deficiency(&self) -> usize {
         match &self.factor {
             Factorization::Regular(_) => 0,
-            Factorization::Singular(svd, least) => {
-                svd.singular_values.iter().filter(|value| **value <= *least).count()
-            }
+            Factorization::Singular(svd, least) => svd
+                .singular_values
+                .iter()
+                .filter(|value| **value <= *least)
+                .count(),
         }
     }
 
@@ -95,7 +107,8 @@ impl FactoredMatrix {
 
     /// The solution x of A x = b; `None` if it is not finite.
     pub fn solve(&self, b: &[f64]) -> Option<Vec<f64>> {
-        let right = DVector::from_iterator(b.len(), b.iter().zip(&self.rows).map(|(b, row)| b * row));
+        let right =
+            DVector::from_iterator(b.len(), b.iter().zip(&self.rows).map(|(b, row)| b * row));
         let x = match &self.factor {
             Factorization::Regular(lu) => {
                 let x = lu.solve(&right)?;
@@ -106,7 +119,11 @@ impl FactoredMatrix {
             }
             Factorization::Singular(svd, least) => svd.solve(&right, *least).ok()?,
         };
-        let out: Vec<f64> = x.iter().zip(&self.columns).map(|(x, column)| x * column).collect();
+        let out: Vec<f64> = x
+            .iter()
+            .zip(&self.columns)
+            .map(|(x, column)| x * column)
+            .collect();
         out.iter().all(|value| value.is_finite()).then_some(out)
     }
 }

@@ -45,7 +45,12 @@ impl AdamsModel {
                         Some(dual) => dual,
                         None => self.evaluation::<Dual>(state)?,
                     };
-                    other.at.values = on.at.values.iter().map(|value| Dual::constant(*value)).collect();
+                    other.at.values = on
+                        .at
+                        .values
+                        .iter()
+                        .map(|value| Dual::constant(*value))
+                        .collect();
                     iterations += self.close(&mut on, &mut other, torn, rest)?;
                     dual = Some(other);
                 }
@@ -84,7 +89,10 @@ impl AdamsModel {
             }
             self.loop_residuals(on, torn, rest)
         };
-        let continued: Vec<bool> = torn.iter().map(|slot| !self.slots[*slot].implicit).collect();
+        let continued: Vec<bool> = torn
+            .iter()
+            .map(|slot| !self.slots[*slot].implicit)
+            .collect();
         match newton::solve(start, &continued, linearize, residual)? {
             Ok((x, iterations)) => {
                 for (slot, x) in torn.iter().zip(&x) {
@@ -99,7 +107,10 @@ impl AdamsModel {
             Err(failure) => {
                 let slot = &self.slots[torn[failure.worst.min(count - 1)]];
                 let statement = StatementId::new(self.label(slot).0, slot.id);
-                Err(Error::Loop { statement, iterations: failure.iterations })
+                Err(Error::Loop {
+                    statement,
+                    iterations: failure.iterations,
+                })
             }
         }
     }
@@ -117,7 +128,11 @@ impl AdamsModel {
         }
         let residual = |slot: &usize| {
             let value = self.slot_value(*slot, on)?;
-            Ok(if self.slots[*slot].implicit { value } else { on.at.values[*slot].minus(&value) })
+            Ok(if self.slots[*slot].implicit {
+                value
+            } else {
+                on.at.values[*slot].minus(&value)
+            })
         };
         torn.iter().map(residual).collect()
     }

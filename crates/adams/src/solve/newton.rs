@@ -43,14 +43,20 @@ pub(super) fn solve<E>(
     mut residual_at: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
 ) -> Result<Result<(Vec<f64>, usize), NotConverged>, E> {
     let first = newton(start.clone(), &mut linearize, &mut residual_at)?;
-    let Err(failure) = first else { return Ok(first) };
-    let Some((near, iterations)) = continuation(start, continued, &mut linearize, &mut residual_at) else {
+    let Err(failure) = first else {
+        return Ok(first);
+    };
+    let Some((near, iterations)) = continuation(start, continued, &mut linearize, &mut residual_at)
+    else {
         return Ok(first);
     };
     let iterations = failure.iterations + iterations;
     Ok(match newton(near, linearize, residual_at)? {
         Ok((x, more)) => Ok((x, iterations + more)),
-        Err(failure) => Err(NotConverged { iterations: iterations + failure.iterations, ..failure }),
+        Err(failure) => Err(NotConverged {
+            iterations: iterations + failure.iterations,
+            ..failure
+        }),
     })
 }
 
@@ -73,7 +79,11 @@ fn continuation<E>(
         if before == 0.0 || rate < 1e-4 {
             return Some((x, iterations));
         }
-        for (k, _) in continued.iter().enumerate().filter(|(_, continued)| **continued) {
+        for (k, _) in continued
+            .iter()
+            .enumerate()
+            .filter(|(_, continued)| **continued)
+        {
             matrix[(k, k)] += rate;
         }
         let step = FactoredMatrix::balanced(&matrix).and_then(|linear| linear.solve(&residual))?;
@@ -111,22 +121,43 @@ fn newton<E>(
     for iterations in 0..MOST {
         let (residual, matrix) = linearize(&x)?;
         let linear = FactoredMatrix::balanced(&matrix);
-        let step = linear.as_ref().and_then(|linear| linear.correction(&residual));
+        let step = linear
+            .as_ref()
+            .and_then(|linear| linear.correction(&residual));
         let (Some(linear), Some(step)) = (linear, step) else {
-            return Ok(Err(NotConverged { iterations, worst: largest(&residual) }));
+            return Ok(Err(NotConverged {
+                iterations,
+                worst: largest(&residual),
+            }));
         };
         let goal = advanced(&x, &step, 1.0);
-        let now: Vec<f64> = x.iter().zip(&goal).map(|(a, b)| a.abs().max(b.abs())).collect();
-        if step.iter().zip(&now).all(|(d, scale)| d.abs() <= ROUNDING * scale) {
-            let closed = linear.rank_deficiency() == 0 || is_solution(&matrix, &step, &residual, &goal);
+        let now: Vec<f64> = x
+            .iter()
+            .zip(&goal)
+            .map(|(a, b)| a.abs().max(b.abs()))
+            .collect();
+        if step
+            .iter()
+            .zip(&now)
+            .all(|(d, scale)| d.abs() <= ROUNDING * scale)
+        {
+            let closed =
+                linear.rank_deficiency() == 0 || is_solution(&matrix, &step, &residual, &goal);
             return Ok(if closed {
                 Ok((goal, iterations + 1))
             } else {
-                Err(NotConverged { iterations, worst: largest(&residual) })
+                Err(NotConverged {
+                    iterations,
+                    worst: largest(&residual),
+                })
             });
         }
         let most = top.iter().copied().fold(0.0, f64::max);
-        let scales: Vec<f64> = top.iter().zip(&now).map(|(a, b)| a.max(*b).max(1e-9 * most)).collect();
+        let scales: Vec<f64> = top
+            .iter()
+            .zip(&now)
+            .map(|(a, b)| a.max(*b).max(1e-9 * most))
+            .collect();
         let length = scaled_size(&step, &scales);
         let rounding = length <= STALLED;
         if rounding && length >= 0.1 * before {
@@ -137,15 +168,25 @@ fn newton<E>(
             Some(candidate) => x = candidate,
             None if rounding => return Ok(Ok((x, iterations + 1))),
             None => {
-                let worst = step.iter().zip(&scales).map(|(d, s)| d / s).collect::<Vec<f64>>();
-                return Ok(Err(NotConverged { iterations, worst: largest(&worst) }));
+                let worst = step
+                    .iter()
+                    .zip(&scales)
+                    .map(|(d, s)| d / s)
+                    .collect::<Vec<f64>>();
+                return Ok(Err(NotConverged {
+                    iterations,
+                    worst: largest(&worst),
+                }));
             }
         }
         for (top, x) in top.iter_mut().zip(&x) {
             *top = top.max(x.abs());
         }
     }
-    Ok(Err(NotConverged { iterations: MOST, worst: 0 }))
+    Ok(Err(NotConverged {
+        iterations: MOST,
+        worst: 0,
+    }))
 }
 
 /// The unknowns after the largest fraction of a step that passes the test of natural monotonicity; `None` if
@@ -161,8 +202,12 @@ fn damped_step<E>(
     let mut fraction = 1.0;
     while fraction >= 1e-9 {
         let candidate = advanced(x, step, fraction);
-        let after = residual_at(&candidate).ok().and_then(|residual| linear.correction(&residual));
-        if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
+        let after = residual_at(&candidate)
+            .ok()
+            .and_then(|residual| linear.correction(&residual));
+        if after
+            .is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length)
+        {
             return Some(candidate);
         }
         fraction *= 0.5;
@@ -194,5 +239,7 @@ fn is_solution(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], x: &[f64])
 /// The index of the number with the largest magnitude.
 fn largest(all: &[f64]) -> usize {
     let size = |k: &usize| all[*k].abs();
-    (0..all.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
+    (0..all.len())
+        .max_by(|a, b| size(a).total_cmp(&size(b)))
+        .unwrap_or(0)
 }

@@ -43,9 +43,16 @@ pub struct Load {
 
 impl AdamsModel {
     /// The solution, once the values of all slots are known.
-    pub(super) fn report(&self, on: &Evaluation<'_, f64>, iterations: usize) -> Result<Solution, Error> {
+    pub(super) fn report(
+        &self,
+        on: &Evaluation<'_, f64>,
+        iterations: usize,
+    ) -> Result<Solution, Error> {
         const COLUMNS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
-        let mut out = Solution { iterations, ..Solution::default() };
+        let mut out = Solution {
+            iterations,
+            ..Solution::default()
+        };
         for (k, (slot, value)) in self.slots.iter().zip(&on.at.values).enumerate() {
             // Every expression is evaluated once more, so that every table read beyond its values is
             // recorded.
@@ -59,7 +66,11 @@ impl AdamsModel {
         for load in &self.loads {
             let [force, torque] = load.wrench(&on.at);
             let components = load.components(&on.at);
-            let all = Load { components, force: force.into(), torque: torque.into() };
+            let all = Load {
+                components,
+                force: force.into(),
+                torque: torque.into(),
+            };
             out.loads.insert((load.kind.keyword(), load.id), all);
         }
         for request in &self.requests {
@@ -73,14 +84,23 @@ impl AdamsModel {
                     Err(fault) => {
                         let statement = StatementId::new("REQUEST", request.id);
                         let fault = Box::new(fault);
-                        return Err(Error::In { statement, argument: COLUMNS[*column], offset: 0, fault });
+                        return Err(Error::In {
+                            statement,
+                            argument: COLUMNS[*column],
+                            offset: 0,
+                            fault,
+                        });
                     }
                 }
             }
             out.requests.insert(request.id, columns);
         }
         let beyond = on.beyond.borrow();
-        out.extrapolated = beyond.iter().filter_map(|family| self.splines.get(*family)).copied().collect();
+        out.extrapolated = beyond
+            .iter()
+            .filter_map(|family| self.splines.get(*family))
+            .copied()
+            .collect();
         out.values.clone_from(&on.at.values);
         out.reactions.clone_from(&on.reactions);
         Ok(out)
@@ -102,7 +122,12 @@ impl AdamsModel {
     /// assert_eq!(model.evaluate(&state, &solution, "2*DY(216)")?, 2.5);
     /// # Ok::<(), adams::Error>(())
     /// ```
-    pub fn evaluate(&self, state: &ModelState, solution: &Solution, text: &str) -> Result<f64, Error> {
+    pub fn evaluate(
+        &self,
+        state: &ModelState,
+        solution: &Solution,
+        text: &str,
+    ) -> Result<f64, Error> {
         let refuse = |(offset, fault): (usize, AdamsFault)| Error::In {
             statement: StatementId::new("REQUEST", 0),
             argument: "F1",

@@ -14,7 +14,12 @@ pub(super) struct HermiteCurve {
 impl HermiteCurve {
     /// A curve through at least three points with increasing x.
     pub fn new(x: &[f64], y: &[f64], slopes: Vec<f64>, linear: bool) -> HermiteCurve {
-        HermiteCurve { x: x.to_vec(), y: y.to_vec(), slopes, linear }
+        HermiteCurve {
+            x: x.to_vec(),
+            y: y.to_vec(),
+            slopes,
+            linear,
+        }
     }
 
     /// Whether x lies outside the points.
@@ -29,17 +34,33 @@ impl HermiteCurve {
         let n = self.x.len();
         if self.beyond(x) {
             let end = if x < self.x[0] { 0 } else { n - 1 };
-            let [_, _, bend] = if self.linear { [0.0; 3] } else { self.parabola(end) };
-            let slope = if self.linear { self.slopes[end] } else { self.parabola(end)[1] };
+            let [_, _, bend] = if self.linear {
+                [0.0; 3]
+            } else {
+                self.parabola(end)
+            };
+            let slope = if self.linear {
+                self.slopes[end]
+            } else {
+                self.parabola(end)[1]
+            };
             let d = x - self.x[end];
-            return [self.y[end] + d * (slope + d * bend), slope + 2.0 * d * bend, 2.0 * bend, 0.0];
+            return [
+                self.y[end] + d * (slope + d * bend),
+                slope + 2.0 * d * bend,
+                2.0 * bend,
+                0.0,
+            ];
         }
         let k = self.x.partition_point(|point| *point <= x).clamp(1, n - 1) - 1;
         let h = self.x[k + 1] - self.x[k];
         let (a, b) = (self.slopes[k], self.slopes[k + 1]);
         let chord = (self.y[k + 1] - self.y[k]) / h;
         // y = y_k + d (a + d (p + d q))
-        let (p, q) = ((3.0 * chord - 2.0 * a - b) / h, (a + b - 2.0 * chord) / (h * h));
+        let (p, q) = (
+            (3.0 * chord - 2.0 * a - b) / h,
+            (a + b - 2.0 * chord) / (h * h),
+        );
         let d = x - self.x[k];
         [
             self.y[k] + d * (a + d * (p + d * q)),
@@ -53,10 +74,18 @@ impl HermiteCurve {
     /// there.
     fn parabola(&self, end: usize) -> [f64; 3] {
         let n = self.x.len();
-        let [a, b, c] = if end == 0 { [0, 1, 2] } else { [n - 1, n - 2, n - 3] };
+        let [a, b, c] = if end == 0 {
+            [0, 1, 2]
+        } else {
+            [n - 1, n - 2, n - 3]
+        };
         let chord = |i: usize, j: usize| (self.y[j] - self.y[i]) / (self.x[j] - self.x[i]);
         let bend = (chord(b, c) - chord(a, b)) / (self.x[c] - self.x[a]);
-        [self.y[a], chord(a, b) + bend * (self.x[a] - self.x[b]), bend]
+        [
+            self.y[a],
+            chord(a, b) + bend * (self.x[a] - self.x[b]),
+            bend,
+        ]
     }
 }
 
@@ -70,13 +99,20 @@ impl HermiteCurve {
 /// H. Akima, A new method of interpolation and smooth curve fitting based on local procedures, Journal of the
 /// ACM 17(4), 1970, pages 589-602.
 pub(super) fn akima_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let chords: Vec<f64> =
-        x.windows(2).zip(y.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect();
+    let chords: Vec<f64> = x
+        .windows(2)
+        .zip(y.windows(2))
+        .map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0]))
+        .collect();
     let (Some(&first), Some(&last)) = (chords.first(), chords.last()) else {
         return vec![0.0; x.len()];
     };
     let second = chords.get(1).copied().unwrap_or(first);
-    let before = if chords.len() > 1 { chords[chords.len() - 2] } else { last };
+    let before = if chords.len() > 1 {
+        chords[chords.len() - 2]
+    } else {
+        last
+    };
     let mut all = vec![3.0 * first - 2.0 * second, 2.0 * first - second];
     all.extend(&chords);
     all.extend([2.0 * last - before, 3.0 * last - 2.0 * before]);
@@ -108,7 +144,11 @@ pub(super) fn natural_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     }
     let inverse: Vec<f64> = x.windows(2).map(|x| 1.0 / (x[1] - x[0])).collect();
     // 3 m / h of each chord: the right-hand side is the sum over the chords at a point.
-    let load: Vec<f64> = inverse.iter().zip(y.windows(2)).map(|(v, y)| 3.0 * (y[1] - y[0]) * v * v).collect();
+    let load: Vec<f64> = inverse
+        .iter()
+        .zip(y.windows(2))
+        .map(|(v, y)| 3.0 * (y[1] - y[0]) * v * v)
+        .collect();
     let side = |k: Option<usize>, list: &[f64]| k.and_then(|k| list.get(k).copied()).unwrap_or(0.0);
     let mut diagonal: Vec<f64> = Vec::with_capacity(n);
     let mut right: Vec<f64> = Vec::with_capacity(n);

@@ -39,16 +39,26 @@ impl SplineValues {
     /// [`AdamsFault::NotFinite`] for a y value that is not finite.
     pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<SplineValues, AdamsFault> {
         if x.len() < SplineValues::MIN_POINTS {
-            return Err(AdamsFault::Points { found: x.len(), least: SplineValues::MIN_POINTS });
+            return Err(AdamsFault::Points {
+                found: x.len(),
+                least: SplineValues::MIN_POINTS,
+            });
         }
         increasing(&x)?;
         increasing(&z)?;
         if y.len() != z.len().max(1) {
-            return Err(AdamsFault::Curves { found: y.len(), expected: z.len().max(1) });
+            return Err(AdamsFault::Curves {
+                found: y.len(),
+                expected: z.len().max(1),
+            });
         }
         for (curve, values) in y.iter().enumerate() {
             if values.len() != x.len() {
-                return Err(AdamsFault::Values { curve, found: values.len(), expected: x.len() });
+                return Err(AdamsFault::Values {
+                    curve,
+                    found: values.len(),
+                    expected: x.len(),
+                });
             }
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
                 return Err(AdamsFault::NotFinite { curve, index });

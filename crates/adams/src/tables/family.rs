@@ -57,7 +57,11 @@ impl SplineFunction {
         };
         let curve = |y: &Vec<f64>| HermiteCurve::new(x, y, rule(x, y), spline.linear_extrapolate);
         let curves = spline.curves.y().iter().map(curve).collect();
-        SplineFunction { z: spline.curves.z().to_vec(), curves, linear: spline.linear_extrapolate }
+        SplineFunction {
+            z: spline.curves.z().to_vec(),
+            curves,
+            linear: spline.linear_extrapolate,
+        }
     }
 
     /// Whether the function depends on z. Derivatives are defined for single curves only.
@@ -84,7 +88,10 @@ impl SplineFunction {
         let outside = self.curves.first().is_some_and(|curve| curve.beyond(x));
         let n = self.z.len();
         if n < 2 {
-            let all = self.curves.first().map_or([0.0; 4], |curve| curve.derivatives(x));
+            let all = self
+                .curves
+                .first()
+                .map_or([0.0; 4], |curve| curve.derivatives(x));
             return Ok(SplineReading {
                 value: all[order],
                 by_x: all[order + 1],
@@ -97,7 +104,10 @@ impl SplineFunction {
             return Err(AdamsFault::OutsideZ);
         }
         let k = self.z.partition_point(|at| *at <= z).clamp(1, n - 1) - 1;
-        let (a, b) = (self.curves[k].derivatives(x), self.curves[k + 1].derivatives(x));
+        let (a, b) = (
+            self.curves[k].derivatives(x),
+            self.curves[k + 1].derivatives(x),
+        );
         let (width, step) = (self.z[k + 1] - self.z[k], z - self.z[k]);
         let fraction = step / width;
         Ok(SplineReading {
@@ -115,8 +125,15 @@ mod tests {
     use crate::{Spline, SplineValues};
 
     fn curve(x: &[f64], y: &[f64], linear: bool) -> Spline {
-        let curves = SplineValues::new(x.to_vec(), Vec::new(), vec![y.to_vec()]).expect("increasing");
-        Spline { id: 1, name: None, units: None, linear_extrapolate: linear, curves }
+        let curves =
+            SplineValues::new(x.to_vec(), Vec::new(), vec![y.to_vec()]).expect("increasing");
+        Spline {
+            id: 1,
+            name: None,
+            units: None,
+            linear_extrapolate: linear,
+            curves,
+        }
     }
 
     /// The Adams View help prints these values for AKIMA_SPLINE({1,2,3,4},{0,2,1,3},10) and CSPLINE of the
@@ -126,10 +143,16 @@ mod tests {
         let points = curve(&[1.0, 2.0, 3.0, 4.0], &[0.0, 2.0, 1.0, 3.0], false);
         let akima = [0.0, 1.0, 1.667, 2.0, 1.778, 1.222, 1.0, 1.333, 2.0, 3.0];
         let natural = [0.0, 0.963, 1.704, 2.0, 1.741, 1.259, 1.0, 1.296, 2.037, 3.0];
-        for (method, printed) in [(SplineMethod::Akima, akima), (SplineMethod::Natural, natural)] {
+        for (method, printed) in [
+            (SplineMethod::Akima, akima),
+            (SplineMethod::Natural, natural),
+        ] {
             let family = SplineFunction::new(&points, method);
             for (k, value) in printed.into_iter().enumerate() {
-                let found = family.read(1.0 + k as f64 / 3.0, 0.0, 0).expect("one curve").value;
+                let found = family
+                    .read(1.0 + k as f64 / 3.0, 0.0, 0)
+                    .expect("one curve")
+                    .value;
                 assert!((found - value).abs() < 5.1e-4, "{method:?} {k}: {found}");
             }
         }
@@ -140,13 +163,17 @@ mod tests {
         let x = [0.0, 1.0, 2.5, 3.0, 5.0];
         for method in [SplineMethod::Akima, SplineMethod::Natural] {
             for linear in [false, true] {
-                let family = SplineFunction::new(&curve(&x, &[0.3, 1.0, -2.0, 0.5, 0.25], linear), method);
+                let family =
+                    SplineFunction::new(&curve(&x, &[0.3, 1.0, -2.0, 0.5, 0.25], linear), method);
                 for at in [-0.7, 0.2, 1.7, 2.8, 4.1, 6.0] {
                     for order in [0, 1] {
                         let read = |x: f64| family.read(x, 0.0, order).expect("one curve");
                         let step = 1e-5;
                         let slope = (read(at + step).value - read(at - step).value) / (2.0 * step);
-                        assert!((slope - read(at).by_x).abs() < 1e-7, "{method:?} {at} {order}");
+                        assert!(
+                            (slope - read(at).by_x).abs() < 1e-7,
+                            "{method:?} {at} {order}"
+                        );
                     }
                 }
             }
@@ -156,8 +183,10 @@ mod tests {
     #[test]
     fn natural_spline_bends_continuously_and_not_at_its_ends() {
         let x = [0.0, 1.0, 2.5, 3.0, 5.0];
-        let family =
-            SplineFunction::new(&curve(&x, &[0.3, 1.0, -2.0, 0.5, 0.25], true), SplineMethod::Natural);
+        let family = SplineFunction::new(
+            &curve(&x, &[0.3, 1.0, -2.0, 0.5, 0.25], true),
+            SplineMethod::Natural,
+        );
         let bend = |x: f64| family.read(x, 0.0, 2).expect("one curve").value;
         assert!(bend(0.0).abs() < 1e-13 && bend(5.0).abs() < 1e-13);
         for at in &x[1..4] {
@@ -167,9 +196,14 @@ mod tests {
 
     #[test]
     fn parabola_goes_on_beyond_the_ends_unless_the_tangent_is_asked_for() {
-        let square: Vec<f64> = [0.0, 1.0, 2.5, 3.0, 5.0].iter().map(|x: &f64| x * x).collect();
-        let family =
-            SplineFunction::new(&curve(&[0.0, 1.0, 2.5, 3.0, 5.0], &square, false), SplineMethod::Akima);
+        let square: Vec<f64> = [0.0, 1.0, 2.5, 3.0, 5.0]
+            .iter()
+            .map(|x: &f64| x * x)
+            .collect();
+        let family = SplineFunction::new(
+            &curve(&[0.0, 1.0, 2.5, 3.0, 5.0], &square, false),
+            SplineMethod::Akima,
+        );
         for x in [-2.0, 7.0] {
             let found = family.read(x, 0.0, 0).expect("one curve");
             assert!((found.value - x * x).abs() < 1e-12 && found.extrapolated);

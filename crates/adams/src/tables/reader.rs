@@ -33,9 +33,17 @@ use crate::{AdamsFault, Error, number};
 /// ```
 pub fn read(text: &str) -> Result<Tables, Error> {
     let (title, all) = statements(text)?;
-    let mut out = Tables { title: title.map(str::to_owned), units: None, splines: Vec::new() };
+    let mut out = Tables {
+        title: title.map(str::to_owned),
+        units: None,
+        splines: Vec::new(),
+    };
     for statement in &all {
-        let Some(word) = statement.pieces.first().and_then(|piece| statement_word(piece.text)) else {
+        let Some(word) = statement
+            .pieces
+            .first()
+            .and_then(|piece| statement_word(piece.text))
+        else {
             continue;
         };
         if abbreviates(word, "SPLINE", 3) {
@@ -96,7 +104,13 @@ fn spline(statement: &RawStatement<'_>, before: &[Spline]) -> Result<Spline, Err
             _ => return Err(at.fault(AdamsFault::Id)),
         },
         [.., last] => return Err(last.fault(AdamsFault::Id)),
-        [] => return Err(Error::At { line: 1, column: 1, fault: AdamsFault::Id }),
+        [] => {
+            return Err(Error::At {
+                line: 1,
+                column: 1,
+                fault: AdamsFault::Id,
+            });
+        }
     };
     if before.iter().any(|spline| spline.id == id) {
         return Err(at.fault(AdamsFault::DuplicateId { id }));
@@ -132,11 +146,13 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
                     _ => None,
                 };
                 let list = list.ok_or_else(|| token.fault(AdamsFault::UnexpectedText))?;
-                list.values.push(number::read(text).ok_or_else(|| token.fault(AdamsFault::Number))?);
+                list.values
+                    .push(number::read(text).ok_or_else(|| token.fault(AdamsFault::Number))?);
                 separated = false;
             }
             TokenKind::Word(word) => {
-                let argument = lookup(ARGUMENTS, word).ok_or_else(|| token.fault(AdamsFault::Argument))?;
+                let argument =
+                    lookup(ARGUMENTS, word).ok_or_else(|| token.fault(AdamsFault::Argument))?;
                 match argument {
                     Argument::File => return Err(token.fault(AdamsFault::File { id })),
                     Argument::Linear if out.linear => return Err(token.fault(AdamsFault::Repeated)),
@@ -145,17 +161,33 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
                         if argument == Argument::X && out.x.is_some() {
                             return Err(token.fault(AdamsFault::Repeated));
                         }
-                        let [Token { kind: TokenKind::Equals, .. }, after @ ..] = rest else {
+                        let [
+                            Token {
+                                kind: TokenKind::Equals,
+                                ..
+                            },
+                            after @ ..,
+                        ] = rest
+                        else {
                             return Err(token.fault(AdamsFault::UnexpectedText));
                         };
                         rest = after;
                         target = Some(argument);
-                        let list = List { at: *token, values: Vec::new() };
-                        if argument == Argument::X { out.x = Some(list) } else { out.y.push(list) }
+                        let list = List {
+                            at: *token,
+                            values: Vec::new(),
+                        };
+                        if argument == Argument::X {
+                            out.x = Some(list)
+                        } else {
+                            out.y.push(list)
+                        }
                     }
                 }
             }
-            TokenKind::Equals | TokenKind::Slash => return Err(token.fault(AdamsFault::UnexpectedText)),
+            TokenKind::Equals | TokenKind::Slash => {
+                return Err(token.fault(AdamsFault::UnexpectedText));
+            }
         }
     }
     Ok(out)
@@ -173,7 +205,11 @@ fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<SplineV
             for list in y {
                 let found = list.values.len();
                 if found != n + 1 || found < 2 {
-                    return Err(list.at.fault(AdamsFault::Count { id, found, expected }));
+                    return Err(list.at.fault(AdamsFault::Count {
+                        id,
+                        found,
+                        expected,
+                    }));
                 }
             }
             (
@@ -182,8 +218,12 @@ fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<SplineV
             )
         }
     };
-    SplineValues::new(x.values, z, values)
-        .map_err(|source| at.fault(AdamsFault::Spline { id, source: Box::new(source) }))
+    SplineValues::new(x.values, z, values).map_err(|source| {
+        at.fault(AdamsFault::Spline {
+            id,
+            source: Box::new(source),
+        })
+    })
 }
 
 #[derive(Clone, Copy)]
@@ -203,14 +243,43 @@ const QUANTITIES: &[(Quantity, &str)] = &[
     (Quantity::System, "SYSTEM"),
 ];
 
-const fn system(force: AdamsForceUnit, mass: AdamsMassUnit, length: AdamsLengthUnit) -> Option<AdamsUnits> {
-    Some(AdamsUnits { force, mass, length })
+const fn system(
+    force: AdamsForceUnit,
+    mass: AdamsMassUnit,
+    length: AdamsLengthUnit,
+) -> Option<AdamsUnits> {
+    Some(AdamsUnits {
+        force,
+        mass,
+        length,
+    })
 }
 
 const SYSTEMS: &[(Option<AdamsUnits>, &str)] = &[
-    (system(AdamsForceUnit::Newton, AdamsMassUnit::Kilogram, AdamsLengthUnit::Meter), "MKS"),
-    (system(AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Foot), "FPS"),
-    (system(AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Inch), "IPS"),
+    (
+        system(
+            AdamsForceUnit::Newton,
+            AdamsMassUnit::Kilogram,
+            AdamsLengthUnit::Meter,
+        ),
+        "MKS",
+    ),
+    (
+        system(
+            AdamsForceUnit::Pound,
+            AdamsMassUnit::Pound,
+            AdamsLengthUnit::Foot,
+        ),
+        "FPS",
+    ),
+    (
+        system(
+            AdamsForceUnit::Pound,
+            AdamsMassUnit::Pound,
+            AdamsLengthUnit::Inch,
+        ),
+        "IPS",
+    ),
     (None, "NONE"),
 ];
 
@@ -226,22 +295,38 @@ fn units(tokens: &[Token<'_>]) -> Result<Option<AdamsUnits>, Error> {
             _ => return Err(first.fault(AdamsFault::UnexpectedText)),
         };
         let quantity = lookup(QUANTITIES, name).ok_or_else(|| first.fault(AdamsFault::Argument))?;
-        let [Token { kind: TokenKind::Equals, .. }, value, after @ ..] = after else {
+        let [
+            Token {
+                kind: TokenKind::Equals,
+                ..
+            },
+            value,
+            after @ ..,
+        ] = after
+        else {
             return Err(first.fault(AdamsFault::UnexpectedText));
         };
         rest = after;
         let unknown = || value.fault(AdamsFault::Unit);
-        let TokenKind::Word(word) = value.kind else { return Err(unknown()) };
+        let TokenKind::Word(word) = value.kind else {
+            return Err(unknown());
+        };
         match quantity {
             Quantity::Force => force = Some(lookup(AdamsForceUnit::ALL, word).ok_or_else(unknown)?),
             Quantity::Mass => mass = Some(lookup(AdamsMassUnit::ALL, word).ok_or_else(unknown)?),
-            Quantity::Length => length = Some(lookup(AdamsLengthUnit::ALL, word).ok_or_else(unknown)?),
+            Quantity::Length => {
+                length = Some(lookup(AdamsLengthUnit::ALL, word).ok_or_else(unknown)?)
+            }
             Quantity::Time => lookup(&[((), "SECOND")], word).ok_or_else(unknown)?,
             Quantity::System => return lookup(SYSTEMS, word).ok_or_else(unknown),
         }
     }
     match (force, mass, length, tokens.first()) {
-        (Some(force), Some(mass), Some(length), _) => Ok(Some(AdamsUnits { force, mass, length })),
+        (Some(force), Some(mass), Some(length), _) => Ok(Some(AdamsUnits {
+            force,
+            mass,
+            length,
+        })),
         (_, _, _, Some(token)) => Err(token.fault(AdamsFault::Unit)),
         _ => Ok(None),
     }

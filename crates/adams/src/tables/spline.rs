@@ -41,7 +41,14 @@ impl Spline {
         }
         out = out.numbers("X", self.curves.x());
         for (i, values) in self.curves.y().iter().enumerate() {
-            let line: Vec<f64> = self.curves.z().get(i).into_iter().chain(values).copied().collect();
+            let line: Vec<f64> = self
+                .curves
+                .z()
+                .get(i)
+                .into_iter()
+                .chain(values)
+                .copied()
+                .collect();
             out = out.numbers("Y", &line);
         }
         out
@@ -57,7 +64,10 @@ pub fn of_statement(statement: &Statement) -> Result<Spline, Error> {
     let id = statement.id.unwrap_or(0);
     let refuse = |fault: AdamsFault| {
         let statement = StatementId::new(&statement.keyword, id);
-        Err(Error::Statement { statement, fault: Box::new(fault) })
+        Err(Error::Statement {
+            statement,
+            fault: Box::new(fault),
+        })
     };
     let (mut x, mut y, mut linear) = (None, Vec::new(), false);
     for argument in &statement.arguments {
@@ -69,13 +79,23 @@ pub fn of_statement(statement: &Statement) -> Result<Spline, Error> {
             _ => return refuse(AdamsFault::Argument),
         }
     }
-    let Some(x) = x else { return refuse(AdamsFault::NoX { id }) };
+    let Some(x) = x else {
+        return refuse(AdamsFault::NoX { id });
+    };
     // A single list as long as x is a curve; otherwise every list begins with its z.
-    let expected = if y.len() == 1 && y[0].len() == x.len() { x.len() } else { x.len() + 1 };
+    let expected = if y.len() == 1 && y[0].len() == x.len() {
+        x.len()
+    } else {
+        x.len() + 1
+    };
     let (mut z, mut curves) = (Vec::new(), Vec::new());
     for list in y {
         if list.len() != expected {
-            return refuse(AdamsFault::Count { id, found: list.len(), expected });
+            return refuse(AdamsFault::Count {
+                id,
+                found: list.len(),
+                expected,
+            });
         }
         let values = list.split_at(expected - x.len());
         z.extend(values.0);
@@ -107,6 +127,12 @@ pub fn of_statement(statement: &Statement) -> Result<Spline, Error> {
 /// be written between quotes on one line.
 pub fn write(tables: &Tables) -> Result<String, Error> {
     let units = tables.units.iter().map(AdamsUnits::statement);
-    let statements = units.chain(tables.splines.iter().map(Spline::statement)).collect();
-    DataSet { title: tables.title.clone().unwrap_or_default(), statements }.write()
+    let statements = units
+        .chain(tables.splines.iter().map(Spline::statement))
+        .collect();
+    DataSet {
+        title: tables.title.clone().unwrap_or_default(),
+        statements,
+    }
+    .write()
 }

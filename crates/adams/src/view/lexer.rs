@@ -32,7 +32,11 @@ pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
             Some(code) => (code, true),
             None => (body, false),
         };
-        let piece = Piece { line: number + 1, column: 1, text: code };
+        let piece = Piece {
+            line: number + 1,
+            column: 1,
+            text: code,
+        };
         match all.last_mut().filter(|_| open) {
             Some(last) => last.0.push(piece),
             None => all.push(Command(vec![piece])),
@@ -45,11 +49,16 @@ pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
 impl<'a> Command<'a> {
     /// Whether the command begins with `words`, each abbreviated to no fewer letters than given, in any case.
     pub fn starts(&self, words: &[(&str, usize)]) -> bool {
-        let mut given = self.0.iter().flat_map(|piece| piece.text.split_whitespace());
+        let mut given = self
+            .0
+            .iter()
+            .flat_map(|piece| piece.text.split_whitespace());
         words.iter().all(|(full, least)| {
             let begins = |word: &str| {
                 word.len() >= *least
-                    && full.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+                    && full
+                        .get(..word.len())
+                        .is_some_and(|start| start.eq_ignore_ascii_case(word))
             };
             given.next().is_some_and(begins)
         })
@@ -96,8 +105,14 @@ impl<'a> Command<'a> {
                 let trimmed = rest.trim_start();
                 column += rest[..rest.len() - trimmed.len()].chars().count();
                 rest = trimmed;
-                let Some(first) = rest.chars().next() else { break };
-                let refused = || Error::At { line: piece.line, column, fault: AdamsFault::UnexpectedText };
+                let Some(first) = rest.chars().next() else {
+                    break;
+                };
+                let refused = || Error::At {
+                    line: piece.line,
+                    column,
+                    fault: AdamsFault::UnexpectedText,
+                };
                 let (length, kind) = match first {
                     '=' => (1, CommandTokenKind::Equals),
                     ',' => (1, CommandTokenKind::Comma),
@@ -112,7 +127,11 @@ impl<'a> Command<'a> {
                     }
                     _ => return Err(refused()),
                 };
-                out.push(CommandToken { line: piece.line, column, kind });
+                out.push(CommandToken {
+                    line: piece.line,
+                    column,
+                    kind,
+                });
                 column += rest[..length].chars().count();
                 rest = &rest[length..];
             }

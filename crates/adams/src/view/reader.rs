@@ -29,7 +29,11 @@ pub struct ModifiedSpline {
 pub fn read(text: &str) -> Result<Tables, Error> {
     let (tables, modified) = read_with_modified(text)?;
     match modified.first() {
-        Some(first) => Err(Error::At { line: first.line, column: 1, fault: AdamsFault::Changed }),
+        Some(first) => Err(Error::At {
+            line: first.line,
+            column: 1,
+            fault: AdamsFault::Changed,
+        }),
         None => Ok(tables),
     }
 }
@@ -49,7 +53,11 @@ pub fn read(text: &str) -> Result<Tables, Error> {
 /// # Source
 /// Adams View command help, `data_element create spline` and `defaults units`.
 pub fn read_with_modified(text: &str) -> Result<(Tables, Vec<ModifiedSpline>), Error> {
-    let mut out = Tables { title: None, units: None, splines: Vec::new() };
+    let mut out = Tables {
+        title: None,
+        units: None,
+        splines: Vec::new(),
+    };
     // Splines without an identifier.
     let mut free = Vec::new();
     let mut units = DefaultUnits::default();
@@ -64,34 +72,65 @@ pub fn read_with_modified(text: &str) -> Result<(Tables, Vec<ModifiedSpline>), E
             out.splines.push(spline);
         } else if command.starts(&[("data_element", 4), ("modify", 2), ("spline", 3)]) {
             let values = command.first_values();
-            let named = values.iter().find(|(key, _)| lookup(KEYS, key) == Some(Key::Name));
-            let name = named.and_then(|(_, value)| value.rsplit('.').next()).filter(|name| !name.is_empty());
+            let named = values
+                .iter()
+                .find(|(key, _)| lookup(KEYS, key) == Some(Key::Name));
+            let name = named
+                .and_then(|(_, value)| value.rsplit('.').next())
+                .filter(|name| !name.is_empty());
             let Some(name) = name else {
-                return Err(Error::At { line: command.line(), column: 1, fault: AdamsFault::Changed });
+                return Err(Error::At {
+                    line: command.line(),
+                    column: 1,
+                    fault: AdamsFault::Changed,
+                });
             };
-            modified.push(ModifiedSpline { id: None, name: name.to_owned(), line: command.line() });
+            modified.push(ModifiedSpline {
+                id: None,
+                name: name.to_owned(),
+                line: command.line(),
+            });
         } else if command.starts(&[("defaults", 3), ("units", 4)]) {
             units.take(command)?;
         }
     }
     for k in free {
-        let last = out.splines.iter().map(|spline| spline.id).max().unwrap_or(0);
+        let last = out
+            .splines
+            .iter()
+            .map(|spline| spline.id)
+            .max()
+            .unwrap_or(0);
         out.splines[k].id = last.saturating_add(1);
     }
     modified.dedup_by(|later, first| later.name.eq_ignore_ascii_case(&first.name));
     for change in &mut modified {
         let is_meant = |spline: &Spline| {
-            let own = spline.name.clone().unwrap_or_else(|| default_name(spline.id));
+            let own = spline
+                .name
+                .clone()
+                .unwrap_or_else(|| default_name(spline.id));
             own.eq_ignore_ascii_case(&change.name)
         };
-        change.id = out.splines.iter().find(|spline| is_meant(spline)).map(|spline| spline.id);
+        change.id = out
+            .splines
+            .iter()
+            .find(|spline| is_meant(spline))
+            .map(|spline| spline.id);
         out.splines.retain(|spline| !is_meant(spline));
     }
     if let Some(first) = modified.first().filter(|_| out.splines.is_empty()) {
-        return Err(Error::At { line: first.line, column: 1, fault: AdamsFault::Changed });
+        return Err(Error::At {
+            line: first.line,
+            column: 1,
+            fault: AdamsFault::Changed,
+        });
     }
     for spline in &mut out.splines {
-        spline.name = spline.name.take().filter(|name| *name != default_name(spline.id));
+        spline.name = spline
+            .name
+            .take()
+            .filter(|name| *name != default_name(spline.id));
     }
     out.units = units.units();
     Ok((out, modified))
@@ -115,14 +154,28 @@ fn entries<'a>(command: &Command<'a>, skip: usize) -> Result<Vec<Entry<'a>>, Err
         match (token.kind, after) {
             (
                 CommandTokenKind::Word(word),
-                [CommandToken { kind: CommandTokenKind::Equals, .. }, after @ ..],
+                [
+                    CommandToken {
+                        kind: CommandTokenKind::Equals,
+                        ..
+                    },
+                    after @ ..,
+                ],
             ) => {
                 rest = after;
-                all.push(Entry { key: *token, word, values: Vec::new() });
+                all.push(Entry {
+                    key: *token,
+                    word,
+                    values: Vec::new(),
+                });
                 separated = true;
             }
-            (CommandTokenKind::Word(_) | CommandTokenKind::Quoted(_), _) if separated && !all.is_empty() => {
-                all.last_mut().into_iter().for_each(|last| last.values.push(*token));
+            (CommandTokenKind::Word(_) | CommandTokenKind::Quoted(_), _)
+                if separated && !all.is_empty() =>
+            {
+                all.last_mut()
+                    .into_iter()
+                    .for_each(|last| last.values.push(*token));
                 separated = false;
             }
             (CommandTokenKind::Comma, _) if !all.is_empty() => separated = true,
@@ -165,10 +218,18 @@ const KEYS: &[(Key, &str)] = &[
     (Key::Other, "z_units"),
 ];
 
-const ANSWERS: &[(bool, &str)] = &[(true, "yes"), (false, "no"), (true, "true"), (false, "false")];
+const ANSWERS: &[(bool, &str)] = &[
+    (true, "yes"),
+    (false, "no"),
+    (true, "true"),
+    (false, "false"),
+];
 
 /// The spline of a command, the name of its model, and whether it has an identifier.
-fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<String>, bool), Error> {
+fn spline(
+    command: &Command<'_>,
+    before: &[Spline],
+) -> Result<(Spline, Option<String>, bool), Error> {
     let entries = entries(command, 3)?;
     let mut seen = Vec::new();
     for entry in &entries {
@@ -178,10 +239,20 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
         }
         seen.push((key, entry));
     }
-    let find = |key: Key| seen.iter().find(|(one, _)| *one == key).map(|(_, entry)| *entry);
+    let find = |key: Key| {
+        seen.iter()
+            .find(|(one, _)| *one == key)
+            .map(|(_, entry)| *entry)
+    };
     let at = match command.tokens()?.first() {
         Some(token) => *token,
-        None => return Err(Error::At { line: 1, column: 1, fault: AdamsFault::UnexpectedText }),
+        None => {
+            return Err(Error::At {
+                line: 1,
+                column: 1,
+                fault: AdamsFault::UnexpectedText,
+            });
+        }
     };
     let (id, numbered) = match find(Key::Id) {
         None => (0, false),
@@ -201,7 +272,10 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
         Some(entry) => {
             let full = one(entry)?.0;
             let parts: Vec<&str> = full.split('.').filter(|part| !part.is_empty()).collect();
-            let model = parts.first().filter(|_| parts.len() > 1).map(|part| (*part).to_owned());
+            let model = parts
+                .first()
+                .filter(|_| parts.len() > 1)
+                .map(|part| (*part).to_owned());
             (parts.last().map(|part| (*part).to_owned()), model)
         }
     };
@@ -212,12 +286,25 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
             lookup(ANSWERS, word).ok_or_else(|| token.fault(AdamsFault::UnexpectedText))?
         }
     };
-    let units = find(Key::Units).map(one).transpose()?.map(|(word, _)| word.to_owned());
+    let units = find(Key::Units)
+        .map(one)
+        .transpose()?
+        .map(|(word, _)| word.to_owned());
     let x = find(Key::X).ok_or_else(|| at.fault(AdamsFault::NoX { id }))?;
     let y = find(Key::Y).ok_or_else(|| at.fault(AdamsFault::NoY { id }))?;
     let z = find(Key::Z).map(numbers).transpose()?.unwrap_or_default();
     let curves = curves(id, at, numbers(x)?, z, (y.key, numbers(y)?))?;
-    Ok((Spline { id, name, units, linear_extrapolate: linear, curves }, model, numbered))
+    Ok((
+        Spline {
+            id,
+            name,
+            units,
+            linear_extrapolate: linear,
+            curves,
+        },
+        model,
+        numbered,
+    ))
 }
 
 /// The value of an entry that has exactly one.
@@ -235,7 +322,9 @@ fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, CommandToken<'a>), Error> {
 /// The values of an entry as numbers.
 fn numbers(entry: &Entry<'_>) -> Result<Vec<f64>, Error> {
     let read = |token: &CommandToken<'_>| match token.kind {
-        CommandTokenKind::Word(text) => number::read(text).ok_or_else(|| token.fault(AdamsFault::Number)),
+        CommandTokenKind::Word(text) => {
+            number::read(text).ok_or_else(|| token.fault(AdamsFault::Number))
+        }
         _ => Err(token.fault(AdamsFault::Number)),
     };
     entry.values.iter().map(read).collect()
@@ -251,11 +340,19 @@ fn curves(
 ) -> Result<SplineValues, Error> {
     let expected = x.len().saturating_mul(z.len().max(1));
     if y.len() != expected || x.is_empty() {
-        return Err(key.fault(AdamsFault::Count { id, found: y.len(), expected }));
+        return Err(key.fault(AdamsFault::Count {
+            id,
+            found: y.len(),
+            expected,
+        }));
     }
     let rows = y.chunks(x.len()).map(<[f64]>::to_vec).collect();
-    SplineValues::new(x, z, rows)
-        .map_err(|source| at.fault(AdamsFault::Spline { id, source: Box::new(source) }))
+    SplineValues::new(x, z, rows).map_err(|source| {
+        at.fault(AdamsFault::Spline {
+            id,
+            source: Box::new(source),
+        })
+    })
 }
 
 /// The units of all `defaults units` commands so far; a later command replaces the units it names.
@@ -289,6 +386,10 @@ impl DefaultUnits {
     /// have no mass.
     fn units(&self) -> Option<AdamsUnits> {
         let (force, length) = self.force.zip(self.length)?;
-        Some(AdamsUnits { force, mass: self.mass.unwrap_or(AdamsMassUnit::Kilogram), length })
+        Some(AdamsUnits {
+            force,
+            mass: self.mass.unwrap_or(AdamsMassUnit::Kilogram),
+            length,
+        })
     }
 }

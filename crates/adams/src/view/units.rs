@@ -43,12 +43,18 @@ pub(super) const TIMES: &[((), &str)] = &[((), "sec"), ((), "second")];
 
 /// The word that is written for a unit.
 pub(super) fn word<U: PartialEq>(words: &[(U, &'static str)], unit: &U) -> &'static str {
-    words.iter().find(|(one, _)| one == unit).map_or("", |(_, word)| word)
+    words
+        .iter()
+        .find(|(one, _)| one == unit)
+        .map_or("", |(_, word)| word)
 }
 
 /// The unit of a full word in upper or lower case.
 pub(super) fn unit<U: Copy>(words: &[(U, &str)], text: &str) -> Option<U> {
-    let same: Vec<(U, &str)> =
-        words.iter().filter(|(_, word)| word.eq_ignore_ascii_case(text)).copied().collect();
+    let same: Vec<(U, &str)> = words
+        .iter()
+        .filter(|(_, word)| word.eq_ignore_ascii_case(text))
+        .copied()
+        .collect();
     lookup(&same, text)
 }

@@ -50,15 +50,24 @@ pub fn write(tables: &Tables, remarks: &[String]) -> Result<String, Error> {
     }
     let model = tables.title.as_deref().unwrap_or("MODEL_1");
     if !plain(model) {
-        return Err(Error::Name { statement: StatementId::new("MODEL", 0) });
+        return Err(Error::Name {
+            statement: StatementId::new("MODEL", 0),
+        });
     }
     out.command("model create", &[("model_name", vec![format!(".{model}")])]);
     for (k, spline) in tables.splines.iter().enumerate() {
         let statement = StatementId::new("SPLINE", spline.id);
-        if spline.id == 0 || tables.splines[..k].iter().any(|other| other.id == spline.id) {
+        if spline.id == 0
+            || tables.splines[..k]
+                .iter()
+                .any(|other| other.id == spline.id)
+        {
             return Err(Error::Id { statement });
         }
-        let name = spline.name.clone().unwrap_or_else(|| default_name(spline.id));
+        let name = spline
+            .name
+            .clone()
+            .unwrap_or_else(|| default_name(spline.id));
         let entries = entries(spline, &format!(".{model}.{name}"));
         let short = 12 + model.len() + name.len() < WIDTH - 12;
         if !plain(&name) || !short || !spline.units.as_deref().is_none_or(plain) {
@@ -71,15 +80,32 @@ pub fn write(tables: &Tables, remarks: &[String]) -> Result<String, Error> {
 
 /// The keys of a spline and their values.
 fn entries<'s>(spline: &Spline, name: &str) -> Vec<(&'s str, Vec<String>)> {
-    let list = |values: &[f64]| values.iter().map(|&value| number::write(value)).collect::<Vec<_>>();
-    let mut all = vec![("spline_name", vec![name.to_owned()]), ("adams_id", vec![spline.id.to_string()])];
-    all.extend(spline.units.iter().map(|units| ("units", vec![units.clone()])));
+    let list = |values: &[f64]| {
+        values
+            .iter()
+            .map(|&value| number::write(value))
+            .collect::<Vec<_>>()
+    };
+    let mut all = vec![
+        ("spline_name", vec![name.to_owned()]),
+        ("adams_id", vec![spline.id.to_string()]),
+    ];
+    all.extend(
+        spline
+            .units
+            .iter()
+            .map(|units| ("units", vec![units.clone()])),
+    );
     all.push(("x", list(spline.curves.x())));
     all.push(("y", list(&spline.curves.y().concat())));
     if !spline.curves.z().is_empty() {
         all.push(("z", list(spline.curves.z())));
     }
-    let answer = if spline.linear_extrapolate { "yes" } else { "no" };
+    let answer = if spline.linear_extrapolate {
+        "yes"
+    } else {
+        "no"
+    };
     all.push(("linear_extrapolate", vec![answer.to_owned()]));
     all
 }
@@ -110,7 +136,9 @@ impl Out {
             line.push(' ');
             line.push_str(word);
             if line.len() > WIDTH || !line.is_ascii() {
-                return Err(Error::Long { statement: StatementId::new("!", 0) });
+                return Err(Error::Long {
+                    statement: StatementId::new("!", 0),
+                });
             }
         }
         self.line(&line);

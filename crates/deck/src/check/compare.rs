@@ -42,7 +42,8 @@ impl CheckDifference {
     /// Whether the difference is within its limit and the deck was solved at every state.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.limit.is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
+        self.limit
+            .is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
     }
 }
 
@@ -84,12 +85,23 @@ pub fn expected_forces(
         }
     }
     for (s, foundation) in foundations.iter().enumerate() {
-        let Some(compliance) = &foundation.compliance else { continue };
+        let Some(compliance) = &foundation.compliance else {
+            continue;
+        };
         let (mut probes, mut loads) = (Vec::new(), Vec::new());
-        for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
+        for (w, wheel) in plan
+            .wheels
+            .iter()
+            .enumerate()
+            .filter(|(_, wheel)| wheel.structure == s)
+        {
             let x = position(case, wheel.body, wheel.hub);
             let mut add = |axis: Axis, load: f64, slot: VariableSlot| {
-                probes.push(Probe { rail: wheel.rail, x, axis });
+                probes.push(Probe {
+                    rail: wheel.rail,
+                    x,
+                    axis,
+                });
                 loads.push((w, load, slot));
             };
             add(Axis::Vertical, -forces.vertical[w], VariableSlot::Rise);
@@ -101,19 +113,29 @@ pub fn expected_forces(
         compliance.fill(&probes, &mut influence)?;
         for (i, &(w, own, slot)) in loads.iter().enumerate() {
             let of = |matrix: &DMatrix<f64>| -> f64 {
-                loads.iter().enumerate().map(|(j, (_, load, _))| matrix[(i, j)] * load).sum()
+                loads
+                    .iter()
+                    .enumerate()
+                    .map(|(j, (_, load, _))| matrix[(i, j)] * load)
+                    .sum()
             };
             let moved = of(&influence.value);
             variables.push((variable(w, slot), moved));
             if slot == VariableSlot::Shift {
-                variables.push((variable(w, VariableSlot::Sideways), side(plan, case, w) - moved));
+                variables.push((
+                    variable(w, VariableSlot::Sideways),
+                    side(plan, case, w) - moved,
+                ));
             }
             if plan.form == DeckForm::Factored {
                 out[w][0] += own * of(&influence.slope);
             }
         }
     }
-    Ok(ExpectedForces { forces: out, variables })
+    Ok(ExpectedForces {
+        forces: out,
+        variables,
+    })
 }
 
 /// Rail coordinate of a wheel.
@@ -142,15 +164,26 @@ fn solve(
 ) -> Result<Solution, adams::Error> {
     model.solve(state).or_else(|error| {
         let mut set = set.clone();
-        for statement in set.statements.iter_mut().filter(|one| one.keyword == "VARIABLE") {
-            let known = expected.variables.iter().find(|(id, _)| statement.id == Some(*id));
+        for statement in set
+            .statements
+            .iter_mut()
+            .filter(|one| one.keyword == "VARIABLE")
+        {
+            let known = expected
+                .variables
+                .iter()
+                .find(|(id, _)| statement.id == Some(*id));
             let Some((_, value)) = known else { continue };
             statement.arguments.retain(|argument| argument.name != "IC");
-            let argument =
-                StatementArgument { name: "IC".to_owned(), value: ArgumentValue::Numbers(vec![*value]) };
+            let argument = StatementArgument {
+                name: "IC".to_owned(),
+                value: ArgumentValue::Numbers(vec![*value]),
+            };
             statement.arguments.push(argument);
         }
-        AdamsModel::new(&set).and_then(|model| model.solve(state)).map_err(|_| error)
+        AdamsModel::new(&set)
+            .and_then(|model| model.solve(state))
+            .map_err(|_| error)
     })
 }
 
@@ -166,9 +199,17 @@ pub fn compare(
     states: impl Iterator<Item = ModelState>,
 ) -> Result<CheckDifference, Error> {
     let model = AdamsModel::new(set)?;
-    let mut out =
-        CheckDifference { what, states: 0, limit: asked, worst: [0.0; 6], largest: 0.0, failed: None };
-    let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
+    let mut out = CheckDifference {
+        what,
+        states: 0,
+        limit: asked,
+        worst: [0.0; 6],
+        largest: 0.0,
+        failed: None,
+    };
+    let radius = (0..plan.wheels.len())
+        .map(|w| plan.kind(w).radius)
+        .fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
     for (state, expected) in states.zip(expected) {
         out.states += 1;
@@ -181,7 +222,10 @@ pub fn compare(
             }
         };
         for (w, expected) in expected.forces.iter().enumerate() {
-            let found = solution.loads.get(&("GFORCE", number(w))).map(|load| load.components);
+            let found = solution
+                .loads
+                .get(&("GFORCE", number(w)))
+                .map(|load| load.components);
             for (k, expected) in expected.iter().enumerate() {
                 let found = found.map_or(f64::MAX, |components| components[k]);
                 out.worst[k] = out.worst[k].max(scaled(k, (found - expected).abs()));

@@ -55,8 +55,9 @@ pub struct StateCounts {
 
 impl StateCounts {
     fn of(cases: &[CheckCase]) -> StateCounts {
-        let count =
-            |is: &dyn Fn(&ContactForces) -> bool| cases.iter().filter(|case| is(&case.forces)).count();
+        let count = |is: &dyn Fn(&ContactForces) -> bool| {
+            cases.iter().filter(|case| is(&case.forces)).count()
+        };
         StateCounts {
             all: cases.len(),
             loaded: count(&|forces| forces.vertical.iter().all(|force| *force > 0.0)),
@@ -106,21 +107,49 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
         .collect::<Result<_, _>>()?;
     let sample = count.min(SAMPLE);
     let mut forces = Vec::new();
-    let small = cases.iter().map(|case| state(plan, case, Turns::Small, None));
+    let small = cases
+        .iter()
+        .map(|case| state(plan, case, Turns::Small, None));
     let what = ("forces at random states", Some(FORCE_LIMIT));
     forces.push(compare::compare(plan, &stepped, what, &expected, small)?);
 
     let mut carried = stepped.clone();
     let part = poses::mount_rails(&mut carried);
     let mut random = Random::new(2);
-    let carriers: Vec<CarrierPose> = (0..sample).map(|_| poses::random_carrier(part, &mut random)).collect();
-    let moving = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
-    let what = ("the same, rails on a moving part", Some(CARRIED_FORCE_LIMIT));
-    forces.push(compare::compare(plan, &carried, what, &expected[..sample], moving)?);
+    let carriers: Vec<CarrierPose> = (0..sample)
+        .map(|_| poses::random_carrier(part, &mut random))
+        .collect();
+    let moving = cases
+        .iter()
+        .zip(&carriers)
+        .map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
+    let what = (
+        "the same, rails on a moving part",
+        Some(CARRIED_FORCE_LIMIT),
+    );
+    forces.push(compare::compare(
+        plan,
+        &carried,
+        what,
+        &expected[..sample],
+        moving,
+    )?);
 
-    let finite = cases[..sample].iter().map(|case| state(plan, case, Turns::Finite, None));
+    let finite = cases[..sample]
+        .iter()
+        .map(|case| state(plan, case, Turns::Finite, None));
     let what = ("the same, finite rotations", None);
-    forces.push(compare::compare(plan, &stepped, what, &expected[..sample], finite)?);
+    forces.push(compare::compare(
+        plan,
+        &stepped,
+        what,
+        &expected[..sample],
+        finite,
+    )?);
     let path = path::path(plan, &model, &foundations)?;
-    Ok(CheckReport { states: StateCounts::of(&cases), forces, path })
+    Ok(CheckReport {
+        states: StateCounts::of(&cases),
+        forces,
+        path,
+    })
 }

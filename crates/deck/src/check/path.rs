@@ -42,7 +42,13 @@ impl SweepDifference {
     /// Relative differences of heights and forces.
     #[must_use]
     pub fn relative(&self) -> [f64; 2] {
-        let of = |difference: f64, most: f64| if difference == 0.0 { 0.0 } else { difference / most };
+        let of = |difference: f64, most: f64| {
+            if difference == 0.0 {
+                0.0
+            } else {
+                difference / most
+            }
+        };
         [of(self.height, self.deepest), of(self.force, self.largest)]
     }
 
@@ -69,9 +75,16 @@ pub(super) fn path(
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / f64::from(INTERVALS);
-    let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
-    let mut out =
-        SweepDifference { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
+    let run =
+        sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
+    let mut out = SweepDifference {
+        places: 0,
+        height: 0.0,
+        deepest: 0.0,
+        force: 0.0,
+        largest: 0.0,
+        failed: None,
+    };
     if let Status::StepTooSmall(t) | Status::Failed(t, _) = run.status {
         out.failed = Some(format!("the simulator stopped at t = {t}"));
         return Ok(Some(out));
@@ -88,7 +101,11 @@ pub(super) fn path(
     for (b, body) in plan.bodies.iter().enumerate() {
         let expected = run.history.column(Channel::Displacement(b, BodyDof::Y));
         for (one, expected) in found.iter().zip(expected) {
-            let y = one.state.parts.get(&body.part).map_or(f64::MAX, |pose| pose.origin[1]);
+            let y = one
+                .state
+                .parts
+                .get(&body.part)
+                .map_or(f64::MAX, |pose| pose.origin[1]);
             out.height = out.height.max((y - body.position[0] - expected).abs());
             out.deepest = out.deepest.max(expected.abs());
         }

@@ -41,16 +41,27 @@ pub fn state(
 ) -> ModelState {
     let mut parts = BTreeMap::new();
     let instant = &case.instant;
-    let bodies: Vec<Pose> = (0..plan.bodies.len()).map(|b| body(plan, case, b, turns)).collect();
+    let bodies: Vec<Pose> = (0..plan.bodies.len())
+        .map(|b| body(plan, case, b, turns))
+        .collect();
     for (own, pose) in plan.bodies.iter().zip(&bodies) {
         parts.insert(own.part, *pose);
     }
     for (w, wheel) in plan.wheels.iter().enumerate() {
-        let Some((part, _)) = wheel.spin else { continue };
+        let Some((part, _)) = wheel.spin else {
+            continue;
+        };
         let body = &bodies[wheel.body];
         let hub = Vector3::from(wheel.hub);
-        let spin = Vector3::new(body.angular_velocity[0], body.angular_velocity[1], instant.spin[w]);
-        let (origin, velocity) = (body.origin + body.rotation * hub, body.velocity + body.rate * hub);
+        let spin = Vector3::new(
+            body.angular_velocity[0],
+            body.angular_velocity[1],
+            instant.spin[w],
+        );
+        let (origin, velocity) = (
+            body.origin + body.rotation * hub,
+            body.velocity + body.rate * hub,
+        );
         parts.insert(part, Pose::moving(origin, body.rotation, velocity, spin));
     }
     if let Some(carrier) = carrier {
@@ -66,7 +77,11 @@ pub fn state(
             differentials.insert(id, case.forces.penetration[c] - lengths[c] * case.rate[c]);
         }
     }
-    ModelState { time: instant.time, parts, differentials }
+    ModelState {
+        time: instant.time,
+        parts,
+        differentials,
+    }
 }
 
 fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
@@ -75,7 +90,10 @@ fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
     let [height, side] = plan.bodies[b].position;
     let origin = Vector3::new(x, height + y, side + z);
     let velocity = Vector3::new(vx, vy, vz);
-    let (turn, spin) = (Vector3::new(roll, yaw, pitch), Vector3::new(by_roll, by_yaw, by_pitch));
+    let (turn, spin) = (
+        Vector3::new(roll, yaw, pitch),
+        Vector3::new(by_roll, by_yaw, by_pitch),
+    );
     match turns {
         Turns::Small => Pose {
             origin,
@@ -105,23 +123,48 @@ fn carried(by: &Pose, pose: &Pose) -> Pose {
 /// Moves every MARKER of the ground to a new PART of unit mass, which carries the rails; returns its identifier.
 /// The forces between wheels and rails must not change.
 pub fn mount_rails(set: &mut DataSet) -> u32 {
-    let parts = set.statements.iter().filter(|one| one.keyword == "PART").filter_map(|one| one.id);
-    let markers = set.statements.iter().filter(|one| one.keyword == "MARKER").filter_map(|one| one.id);
-    let (part, cm) = (parts.max().unwrap_or(GROUND) + 1, markers.max().unwrap_or_default() + 1);
-    for statement in set.statements.iter_mut().filter(|one| one.keyword == "MARKER") {
-        for argument in statement.arguments.iter_mut().filter(|argument| argument.name == "PART") {
+    let parts = set
+        .statements
+        .iter()
+        .filter(|one| one.keyword == "PART")
+        .filter_map(|one| one.id);
+    let markers = set
+        .statements
+        .iter()
+        .filter(|one| one.keyword == "MARKER")
+        .filter_map(|one| one.id);
+    let (part, cm) = (
+        parts.max().unwrap_or(GROUND) + 1,
+        markers.max().unwrap_or_default() + 1,
+    );
+    for statement in set
+        .statements
+        .iter_mut()
+        .filter(|one| one.keyword == "MARKER")
+    {
+        for argument in statement
+            .arguments
+            .iter_mut()
+            .filter(|argument| argument.name == "PART")
+        {
             if argument.value == ArgumentValue::Whole(i64::from(GROUND)) {
                 argument.value = ArgumentValue::Whole(i64::from(part));
             }
         }
     }
-    let at = set.statements.iter().position(|one| one.keyword == "PART").map_or(0, |first| first + 1);
+    let at = set
+        .statements
+        .iter()
+        .position(|one| one.keyword == "PART")
+        .map_or(0, |first| first + 1);
     let carrier = Statement::new("PART", part)
         .named("carrier_of_the_rails")
         .numbers("MASS", &[1.0])
         .reference("CM", cm)
         .numbers("IP", &[1.0, 1.0, 1.0]);
-    let centre = Statement::new("MARKER", cm).named("carrier_cm").reference("PART", part);
+    let centre = Statement::new("MARKER", cm)
+        .named("carrier_cm")
+        .reference("PART", part);
     set.statements.splice(at..at, [carrier, centre]);
     part
 }
@@ -133,5 +176,8 @@ pub fn random_carrier(part: u32, random: &mut Random) -> CarrierPose {
     let rows = rotation(vector(2.0));
     let [origin, velocity, spin] = [vector(10.0), vector(1.0), vector(1.0)].map(Vector3::from);
     let turn = Matrix3::from_fn(|i, j| rows[i][j]);
-    CarrierPose { part, pose: Pose::moving(origin, turn, velocity, spin) }
+    CarrierPose {
+        part,
+        pose: Pose::moving(origin, turn, velocity, spin),
+    }
 }

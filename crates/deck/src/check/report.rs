@@ -21,13 +21,17 @@ impl CheckReport {
         ];
         for row in &self.forces {
             let [fx, fy, fz, tx, _, tz] = row.worst;
-            let limit = row.limit.map_or_else(|| "-".to_owned(), |limit| format!("{limit:.0e}"));
+            let limit = row
+                .limit
+                .map_or_else(|| "-".to_owned(), |limit| format!("{limit:.0e}"));
             lines.push(format!(
                 "{:<34} {:>7} {fx:>9.1e} {fy:>9.1e} {fz:>9.1e} {tx:>9.1e} {tz:>9.1e} {limit:>8}",
                 row.what, row.states
             ));
             if let Some((why, count)) = &row.failed {
-                lines.push(format!("  the deck could not be solved at {count} of these states: {why}"));
+                lines.push(format!(
+                    "  the deck could not be solved at {count} of these states: {why}"
+                ));
             }
         }
         match &self.path {
@@ -54,9 +58,13 @@ impl CheckReport {
             .iter()
             .map(|row| {
                 let worst = COMPONENTS.iter().zip(row.worst);
-                let worst: Map<String, Value> =
-                    worst.map(|(name, worst)| ((*name).to_owned(), json!(worst))).collect();
-                let failed = row.failed.as_ref().map(|(why, count)| json!({ "why": why, "count": count }));
+                let worst: Map<String, Value> = worst
+                    .map(|(name, worst)| ((*name).to_owned(), json!(worst)))
+                    .collect();
+                let failed = row
+                    .failed
+                    .as_ref()
+                    .map(|(why, count)| json!({ "why": why, "count": count }));
                 json!({
                     "what": row.what, "states": row.states, "asked": row.limit, "difference": worst,
                     "largest_force": row.largest, "failed": failed, "holds": row.holds(),

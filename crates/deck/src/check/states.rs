@@ -70,7 +70,9 @@ pub fn states(
         if out.len() == count {
             break;
         }
-        let Some(instant) = scales.instant(plan, &mut random) else { continue };
+        let Some(instant) = scales.instant(plan, &mut random) else {
+            continue;
+        };
         match complete(plan, foundations, instant, &mut random) {
             Ok(Some(case)) => out.push(case),
             Ok(None) => {}
@@ -80,7 +82,11 @@ pub fn states(
     if out.len() == count {
         return Ok(out);
     }
-    Err(Error::States { found: out.len(), count, last })
+    Err(Error::States {
+        found: out.len(),
+        count,
+        last,
+    })
 }
 
 /// Adds the penetrations that are state variables and the contact forces to a state; `None` if the state is rejected.
@@ -92,7 +98,8 @@ fn complete(
 ) -> Result<Option<CheckCase>, sim::Error> {
     let scene = &plan.input.scene;
     let one = |instant: &Instant| {
-        contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
+        contact_forces(scene, foundations, std::slice::from_ref(instant))
+            .map(|mut all| all.swap_remove(0))
     };
     let open = one(&instant)?;
     let mut most = vec![f64::INFINITY; plan.contacts.len()];
@@ -108,14 +115,23 @@ fn complete(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         if contact.diff.is_some() && instant.penetration[c].is_some() {
             let point = law.at(p, 0.0);
-            if point.by_rate < MIN_RAMP * law.damping || force < MIN_FORCE * point.force || force > most[c] {
+            if point.by_rate < MIN_RAMP * law.damping
+                || force < MIN_FORCE * point.force
+                || force > most[c]
+            {
                 return false;
             }
         }
         law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
     });
-    let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
-    Ok(fits.then_some(CheckCase { instant, forces, rate }))
+    let rate = (0..plan.contacts.len())
+        .map(|c| rate(plan, &instant, &forces, c))
+        .collect();
+    Ok(fits.then_some(CheckCase {
+        instant,
+        forces,
+        rate,
+    }))
 }
 
 /// Returns (contact, penetration, force) for each closed contact whose penetration is a state variable.
@@ -125,11 +141,16 @@ fn complete(
 /// that p decreases by at most a factor of ten in an iteration. Contacts that open are removed, and the remaining
 /// system is solved again. The rates p' are zero in the first solution. In the second solution each rate is random,
 /// with a damper force of at most the fraction [`DAMPER_FORCE`] of the spring force.
-fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
+fn penetrations(
+    plan: &DeckPlan<'_>,
+    open: &ContactForces,
+    random: &mut Random,
+) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
     let approach = |c: usize| open.penetration[c];
-    let mut active: Vec<usize> =
-        (0..plan.contacts.len()).filter(|&c| plan.contacts[c].diff.is_some() && approach(c) > 0.0).collect();
+    let mut active: Vec<usize> = (0..plan.contacts.len())
+        .filter(|&c| plan.contacts[c].diff.is_some() && approach(c) > 0.0)
+        .collect();
     let mut rate = vec![0.0; plan.contacts.len()];
     let mut found = Vec::new();
     for damped in [false, true] {
@@ -138,24 +159,30 @@ fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) 
             for _ in 0..ITERATIONS {
                 let point = |i: usize| law(active[i]).at(p[i], rate[active[i]]);
                 let count = |i: usize| plan.contacts[active[i]].wheels.len() as f64;
-                let compliance = |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
+                let compliance =
+                    |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
                 let size = active.len();
                 let residual = DVector::from_fn(size, |r, _| {
                     p[r] - approach(active[r])
-                        + (0..size).map(|i| compliance(r, i) * point(i).force).sum::<f64>()
+                        + (0..size)
+                            .map(|i| compliance(r, i) * point(i).force)
+                            .sum::<f64>()
                 });
                 let matrix = DMatrix::from_fn(size, size, |r, i| {
                     f64::from(u8::from(r == i)) + compliance(r, i) * point(i).by_penetration
                 });
-                let Some(step) = matrix.lu().solve(&residual) else { break };
+                let Some(step) = matrix.lu().solve(&residual) else {
+                    break;
+                };
                 // the force and the slope of a law with an exponent are zero at p <= 0, where Newton's method would
                 // stop
                 p = DVector::from_fn(size, |i, _| (p[i] - step[i]).max(0.1 * p[i]));
             }
             found = active.iter().copied().zip(p.iter().copied()).collect();
             // a contact is open if its penetration was reduced in every iteration
-            let is_closed =
-                |(c, p): &(usize, f64)| *p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
+            let is_closed = |(c, p): &(usize, f64)| {
+                *p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0
+            };
             let before = active.len();
             found.retain(is_closed);
             active = found.iter().map(|(c, _)| *c).collect();
@@ -165,11 +192,15 @@ fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) 
         }
         if !damped {
             for (c, p) in &found {
-                rate[*c] = random.around(DAMPER_FORCE) * law(*c).at(*p, 0.0).force / law(*c).damping;
+                rate[*c] =
+                    random.around(DAMPER_FORCE) * law(*c).at(*p, 0.0).force / law(*c).damping;
             }
         }
     }
-    found.into_iter().map(|(c, p)| (c, p, law(c).at(p, rate[c]).force)).collect()
+    found
+        .into_iter()
+        .map(|(c, p)| (c, p, law(c).at(p, rate[c]).force))
+        .collect()
 }
 
 /// Rate of penetration of contact `c` that corresponds to its force and penetration.
@@ -199,35 +230,60 @@ struct Scales {
 
 impl Scales {
     fn of(plan: &DeckPlan<'_>) -> Scales {
-        let mut out = Scales { sink: vec![], arms: vec![], side: vec![], speed: vec![], range: vec![] };
+        let mut out = Scales {
+            sink: vec![],
+            arms: vec![],
+            side: vec![],
+            speed: vec![],
+            range: vec![],
+        };
         for (b, body) in plan.input.scene.bodies.iter().enumerate() {
-            let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
+            let own: Vec<usize> = (0..plan.wheels.len())
+                .filter(|&w| plan.wheels[w].body == b)
+                .collect();
             let weight = body.mass * plan.input.scene.gravity.max(f64::MIN_POSITIVE);
             let of_wheel = weight / own.len().max(1) as f64;
-            let largest = |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
-            let sink =
-                largest(&|w| plan.kind(w).normal.penetration(of_wheel) + plan.start.deflection[w].abs());
+            let largest =
+                |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
+            let sink = largest(&|w| {
+                plan.kind(w).normal.penetration(of_wheel) + plan.start.deflection[w].abs()
+            });
             let damped = |w: usize| {
                 let law = &plan.kind(w).normal;
-                if law.damping > 0.0 { law.stiffness * sink.powf(law.exponent) / law.damping } else { 0.0 }
+                if law.damping > 0.0 {
+                    law.stiffness * sink.powf(law.exponent) / law.damping
+                } else {
+                    0.0
+                }
             };
             out.sink.push(sink);
-            out.arms
-                .push([largest(&|w| plan.wheels[w].hub[0].abs()), largest(&|w| plan.wheels[w].hub[2].abs())]);
-            out.side
-                .push(largest(&|w| plan.kind(w).flange.as_ref().map_or(0.0, |f| 2.0 * f.clearance + sink)));
+            out.arms.push([
+                largest(&|w| plan.wheels[w].hub[0].abs()),
+                largest(&|w| plan.wheels[w].hub[2].abs()),
+            ]);
+            out.side.push(largest(&|w| {
+                plan.kind(w)
+                    .flange
+                    .as_ref()
+                    .map_or(0.0, |f| 2.0 * f.clearance + sink)
+            }));
             let slip = largest(&|w| plan.kind(w).friction.as_ref().map_or(0.0, |f| f.slip));
             let fall = largest(&damped);
             out.speed.push([
                 if fall > 0.0 { fall } else { DEFAULT_SPEED },
                 if slip > 0.0 { slip } else { DEFAULT_SPEED },
             ]);
-            let range = own.iter().fold([f64::NEG_INFINITY, f64::INFINITY], |range, &w| {
-                let rail = plan.scene.rails[plan.datums[plan.wheels[w].datum].rail].range;
-                let margin = MARGIN * (rail[1] - rail[0]);
-                let x = plan.wheels[w].hub[0];
-                [range[0].max(rail[0] + margin - x), range[1].min(rail[1] - margin - x)]
-            });
+            let range = own
+                .iter()
+                .fold([f64::NEG_INFINITY, f64::INFINITY], |range, &w| {
+                    let rail = plan.scene.rails[plan.datums[plan.wheels[w].datum].rail].range;
+                    let margin = MARGIN * (rail[1] - rail[0]);
+                    let x = plan.wheels[w].hub[0];
+                    [
+                        range[0].max(rail[0] + margin - x),
+                        range[1].min(rail[1] - margin - x),
+                    ]
+                });
             out.range.push(range);
         }
         out
@@ -241,17 +297,39 @@ impl Scales {
         for (b, body) in scene.bodies.iter().enumerate() {
             let [length, width] = self.arms[b];
             let sink = self.sink[b];
-            let rotation = |arm: f64| if arm > 0.0 { (sink / arm).min(MAX_ROTATION) } else { MAX_ROTATION };
+            let rotation = |arm: f64| {
+                if arm > 0.0 {
+                    (sink / arm).min(MAX_ROTATION)
+                } else {
+                    MAX_ROTATION
+                }
+            };
             let [fall, slide] = self.speed[b];
-            let size = [0.0, 0.0, self.side[b], rotation(width), rotation(length), rotation(length)];
+            let size = [
+                0.0,
+                0.0,
+                self.side[b],
+                rotation(width),
+                rotation(length),
+                rotation(length),
+            ];
             let rate = [5.0 * slide, fall, fall, fall, fall, fall];
             let mut own = body.start;
             let mut rates = [0.0; 6];
             for k in 0..6 {
                 let (shift, pace) = match k {
-                    0 => (random.between(self.range[b][0], self.range[b][1]), random.around(rate[0])),
-                    1 => (random.between(-1.5 * sink, 0.3 * sink), random.around(rate[1])),
-                    3 | 5 => (random.around(size[k]), random.around(rate[k] / length.max(width).max(1.0))),
+                    0 => (
+                        random.between(self.range[b][0], self.range[b][1]),
+                        random.around(rate[0]),
+                    ),
+                    1 => (
+                        random.between(-1.5 * sink, 0.3 * sink),
+                        random.around(rate[1]),
+                    ),
+                    3 | 5 => (
+                        random.around(size[k]),
+                        random.around(rate[k] / length.max(width).max(1.0)),
+                    ),
                     4 => {
                         let yaw = if length > 0.0 {
                             (self.side[b] / length).min(MAX_ROTATION)
@@ -291,6 +369,12 @@ impl Scales {
             });
         }
         let penetration = vec![None; plan.contacts.len()];
-        Some(Instant { time, displacement, speed, spin, penetration })
+        Some(Instant {
+            time,
+            displacement,
+            speed,
+            spin,
+            penetration,
+        })
     }
 }

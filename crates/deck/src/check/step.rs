@@ -41,8 +41,12 @@ pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
         let implicit = |one: &&mut Statement| {
             one.keyword == "DIFF" && one.id == Some(id) && one.get("IMPLICIT").is_some()
         };
-        let Some(diff) = set.statements.iter_mut().find(implicit) else { continue };
-        let Some(ArgumentValue::Function(residual)) = diff.get("FUNCTION").cloned() else { continue };
+        let Some(diff) = set.statements.iter_mut().find(implicit) else {
+            continue;
+        };
+        let Some(ArgumentValue::Function(residual)) = diff.get("FUNCTION").cloned() else {
+            continue;
+        };
         diff.arguments.retain(|argument| argument.name == "IC");
         *diff = diff.clone().function("FUNCTION", "0.0");
         let start = match diff.get("IC") {
@@ -54,7 +58,9 @@ pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
         let rate = format!("(({now}-PAST({id}))/{})", adams::number::write(length));
         let replaced = |text: &str| {
             let text = text.replace(' ', "");
-            let text = text.replace(&format!("DIF1({id})"), &rate).replace(&format!("DIF({id})"), &now);
+            let text = text
+                .replace(&format!("DIF1({id})"), &rate)
+                .replace(&format!("DIF({id})"), &now);
             text.replace(&format!("PAST({id})"), &format!("DIF({id})"))
         };
         for argument in set.statements.iter_mut().flat_map(|one| &mut one.arguments) {
@@ -63,7 +69,10 @@ pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
             }
         }
         let function = format!("{now}-({})", replaced(&residual));
-        set.statements
-            .push(Statement::new("VARIABLE", own).numbers("IC", &[start]).function("FUNCTION", function));
+        set.statements.push(
+            Statement::new("VARIABLE", own)
+                .numbers("IC", &[start])
+                .function("FUNCTION", function),
+        );
     }
 }

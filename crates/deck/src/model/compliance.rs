@@ -70,7 +70,13 @@ impl RailCompliance {
     #[must_use]
     pub fn rigid(structure: &Structure, form: DeckForm) -> RailCompliance {
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        RailCompliance { name, rails, form, directions: Vec::new(), tables: Tables::Rigid }
+        RailCompliance {
+            name,
+            rails,
+            form,
+            directions: Vec::new(),
+            tables: Tables::Rigid,
+        }
     }
 
     /// The compliance in `directions` from the influence `blocks`. Identifiers of SPLINEs are taken from `ids`;
@@ -93,7 +99,10 @@ impl RailCompliance {
         };
         let blocks: Vec<InfluenceBlock> = blocks.iter().filter(used).cloned().collect();
         for direction in &directions {
-            if !blocks.iter().any(|block| block.deflection == *direction && block.load == *direction) {
+            if !blocks
+                .iter()
+                .any(|block| block.deflection == *direction && block.load == *direction)
+            {
                 return Err(format!(
                     "no {} table of rail {}",
                     word(direction.1),
@@ -104,7 +113,10 @@ impl RailCompliance {
         for &(rail, _) in &directions {
             let outline = &structure.rails[rail];
             if outline.stations.len() < SplineValues::MIN_POINTS {
-                return Err(format!("rail {} has fewer than four stations", outline.name));
+                return Err(format!(
+                    "rail {} has fewer than four stations",
+                    outline.name
+                ));
             }
         }
         let tables = match form {
@@ -129,7 +141,13 @@ impl RailCompliance {
             DeckForm::Akispl | DeckForm::Symmetrised | DeckForm::Paper => families(blocks, ids)?,
         };
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        Ok(RailCompliance { name, rails, form, directions, tables })
+        Ok(RailCompliance {
+            name,
+            rails,
+            form,
+            directions,
+            tables,
+        })
     }
 
     /// Whether the rails are flexible.
@@ -142,7 +160,11 @@ impl RailCompliance {
     #[must_use]
     pub fn rank(&self) -> Option<usize> {
         match &self.tables {
-            Tables::Factored(factored, ..) => factored.factors().iter().map(splines::TableFactor::rank).max(),
+            Tables::Factored(factored, ..) => factored
+                .factors()
+                .iter()
+                .map(splines::TableFactor::rank)
+                .max(),
             _ => None,
         }
     }
@@ -152,7 +174,10 @@ impl RailCompliance {
     /// # Errors
     /// [`Error::Tables`] for tables that cannot be interpolated.
     pub fn foundation(&self) -> Result<Foundation, Error> {
-        let fail = |source| Error::Tables { structure: self.name.clone(), source };
+        let fail = |source| Error::Tables {
+            structure: self.name.clone(),
+            source,
+        };
         let rails = self.rails.len();
         match &self.tables {
             Tables::Rigid => {
@@ -160,7 +185,10 @@ impl RailCompliance {
                     range: Some(rail.range),
                     breaks: Vec::new(),
                 };
-                Ok(Foundation { rails: self.rails.iter().map(extent).collect(), ..Foundation::rigid() })
+                Ok(Foundation {
+                    rails: self.rails.iter().map(extent).collect(),
+                    ..Foundation::rigid()
+                })
             }
             Tables::Families(_, blocks) => {
                 let kind = if self.form == DeckForm::Symmetrised {
@@ -171,7 +199,9 @@ impl RailCompliance {
                 let reading = TableReading::new(kind, blocks).map_err(fail)?;
                 Ok(Foundation::massless(Box::new(reading), rails))
             }
-            Tables::Factored(factored, ..) => Ok(Foundation::massless(Box::new(factored.clone()), rails)),
+            Tables::Factored(factored, ..) => {
+                Ok(Foundation::massless(Box::new(factored.clone()), rails))
+            }
         }
     }
 
@@ -185,11 +215,24 @@ impl RailCompliance {
             Tables::Rigid => {}
             Tables::Families(families, _) => {
                 for family in families {
-                    let (a, b) = (self.direction_name(family.deflection), self.direction_name(family.load));
+                    let (a, b) = (
+                        self.direction_name(family.deflection),
+                        self.direction_name(family.load),
+                    );
                     let name = if a == b { a } else { format!("{a}_from_{b}") };
                     let table = &family.table;
-                    let rows = table.values().row_iter().map(|row| row.iter().copied().collect()).collect();
-                    out.push(spline(family.id, &name, table.x().to_vec(), table.z().to_vec(), rows)?);
+                    let rows = table
+                        .values()
+                        .row_iter()
+                        .map(|row| row.iter().copied().collect())
+                        .collect();
+                    out.push(spline(
+                        family.id,
+                        &name,
+                        table.x().to_vec(),
+                        table.z().to_vec(),
+                        rows,
+                    )?);
                 }
             }
             Tables::Factored(factored, first, _) => {
@@ -202,14 +245,23 @@ impl RailCompliance {
                                 id - first + 1
                             );
                             let values = column.iter().copied().collect();
-                            out.push(spline(id, &name, curves.stations.clone(), Vec::new(), vec![values])?);
+                            out.push(spline(
+                                id,
+                                &name,
+                                curves.stations.clone(),
+                                Vec::new(),
+                                vec![values],
+                            )?);
                         }
                     }
                 }
             }
         }
         if let Some(statement) = out.first_mut() {
-            let range = self.directions.first().map_or([0.0; 2], |direction| self.rails[direction.0].range);
+            let range = self
+                .directions
+                .first()
+                .map_or([0.0; 2], |direction| self.rails[direction.0].range);
             statement.remarks = remark::tables(self.form, range);
         }
         Ok(out)
@@ -218,14 +270,21 @@ impl RailCompliance {
     /// VARIABLEs of the products, q_k = sum over the loads of F phi_k(x), which all wheels use.
     #[must_use]
     pub fn products(&self, loads: &[LoadedMarker]) -> Vec<Statement> {
-        let Tables::Factored(factored, first, number) = &self.tables else { return Vec::new() };
+        let Tables::Factored(factored, first, number) = &self.tables else {
+            return Vec::new();
+        };
         let mut out = Vec::new();
         for (f, (factor, first)) in factored.factors().iter().zip(first).enumerate() {
             for k in 0..factor.rank() {
                 let mut sum = TermList::default();
                 for load in loads {
-                    let Some(curve) = curve(factor, first, load.direction, k) else { continue };
-                    sum.add(load.negative, &format!("{}*CUBSPL({},0,{curve})", load.force, load.place));
+                    let Some(curve) = curve(factor, first, load.direction, k) else {
+                        continue;
+                    };
+                    sum.add(
+                        load.negative,
+                        &format!("{}*CUBSPL({},0,{curve})", load.force, load.place),
+                    );
                 }
                 out.push(
                     Statement::new("VARIABLE", product(number + f, k))
@@ -251,14 +310,18 @@ impl RailCompliance {
         let mut sum = TermList::default();
         match &self.tables {
             Tables::Families(families, _) if !slope => {
-                let find =
-                    |a: RailAxis, b: RailAxis| families.iter().find(|f| f.deflection == a && f.load == b);
+                let find = |a: RailAxis, b: RailAxis| {
+                    families.iter().find(|f| f.deflection == a && f.load == b)
+                };
                 for load in loads {
-                    let Some(family) = find(direction, load.direction) else { continue };
+                    let Some(family) = find(direction, load.direction) else {
+                        continue;
+                    };
                     let (x, z, id) = (&load.place, place, family.id);
                     let read = match self.form {
                         DeckForm::Symmetrised => {
-                            let back = find(load.direction, direction).map_or(id, |family| family.id);
+                            let back =
+                                find(load.direction, direction).map_or(id, |family| family.id);
                             format!("0.5*(AKISPL({x},{z},{id})+AKISPL({z},{x},{back}))")
                         }
                         DeckForm::Paper => format!("AKISPL({x},{x},{id})"),
@@ -271,7 +334,9 @@ impl RailCompliance {
                 let order = if slope { ",1" } else { "" };
                 for (f, (factor, first)) in factored.factors().iter().zip(first).enumerate() {
                     for k in 0..factor.rank() {
-                        let Some(curve) = curve(factor, first, direction, k) else { continue };
+                        let Some(curve) = curve(factor, first, direction, k) else {
+                            continue;
+                        };
                         let q = value(product(number + f, k));
                         sum.add(false, &format!("{q}*CUBSPL({place},0,{curve}{order})"));
                     }
@@ -289,8 +354,16 @@ impl RailCompliance {
 }
 
 /// Identifier of the SPLINE of curve `k` in a direction; `None` where the factor does not have the direction.
-fn curve(factor: &splines::TableFactor, first: &[u32], direction: RailAxis, k: usize) -> Option<u32> {
-    let at = factor.curves.iter().position(|curves| curves.direction == direction)?;
+fn curve(
+    factor: &splines::TableFactor,
+    first: &[u32],
+    direction: RailAxis,
+    k: usize,
+) -> Option<u32> {
+    let at = factor
+        .curves
+        .iter()
+        .position(|curves| curves.direction == direction)?;
     Some(first[at] + crate::words::ids::number(k) - 1)
 }
 
@@ -299,16 +372,30 @@ fn curve(factor: &splines::TableFactor, first: &[u32], direction: RailAxis, k: u
 fn families(blocks: Vec<InfluenceBlock>, ids: &mut NextId) -> Result<Tables, String> {
     let mut all: Vec<(RailAxis, RailAxis, splines::SplineTable)> = Vec::new();
     for direct in [true, false] {
-        for block in blocks.iter().filter(|block| (block.deflection == block.load) == direct) {
+        for block in blocks
+            .iter()
+            .filter(|block| (block.deflection == block.load) == direct)
+        {
             all.push((block.deflection, block.load, block.table.clone()));
             if !direct {
-                let opposite = block.table.transposed().map_err(|error| error.to_string())?;
+                let opposite = block
+                    .table
+                    .transposed()
+                    .map_err(|error| error.to_string())?;
                 all.push((block.load, block.deflection, opposite));
             }
         }
     }
-    let family = |(deflection, load, table)| Family { deflection, load, table, id: ids.take() };
-    Ok(Tables::Families(all.into_iter().map(family).collect(), blocks))
+    let family = |(deflection, load, table)| Family {
+        deflection,
+        load,
+        table,
+        id: ids.take(),
+    };
+    Ok(Tables::Families(
+        all.into_iter().map(family).collect(),
+        blocks,
+    ))
 }
 
 /// A SPLINE statement with its name in Adams View.
@@ -325,7 +412,14 @@ pub(crate) fn spline(
         fault,
     })?;
     let (name, units) = (Some(plain(name)), Some("no_units".to_owned()));
-    Ok(Spline { id, name, units, linear_extrapolate: true, curves }.statement())
+    Ok(Spline {
+        id,
+        name,
+        units,
+        linear_extrapolate: true,
+        curves,
+    }
+    .statement())
 }
 
 /// The word for an axis in names.

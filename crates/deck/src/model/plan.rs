@@ -138,7 +138,10 @@ impl DeckPlan<'_> {
     /// # Errors
     /// [`Error::Tables`] for tables that cannot be interpolated.
     pub fn foundations(&self) -> Result<Vec<Foundation>, Error> {
-        self.compliances.iter().map(RailCompliance::foundation).collect()
+        self.compliances
+            .iter()
+            .map(RailCompliance::foundation)
+            .collect()
     }
 }
 
@@ -204,10 +207,14 @@ fn wheels(
 ) -> Vec<WheelPlan> {
     let mut parts = NextId::from(number(scene.bodies.len()) + GROUND);
     let mut wheels = Vec::new();
-    let mut trucks = scene.trucks.iter().zip(of_truck).flat_map(|(truck, &datum)| {
-        let count: usize = truck.tree.iter().map(|node| node.wheels().len()).sum();
-        std::iter::repeat_n(datum, count)
-    });
+    let mut trucks = scene
+        .trucks
+        .iter()
+        .zip(of_truck)
+        .flat_map(|(truck, &datum)| {
+            let count: usize = truck.tree.iter().map(|node| node.wheels().len()).sum();
+            std::iter::repeat_n(datum, count)
+        });
     for (c, contact) in contacts.iter().enumerate() {
         let given = &input.scene.contacts[c];
         for (w, offset) in contact.wheels.clone().zip(&given.offsets) {
@@ -224,7 +231,9 @@ fn wheels(
                 datum: trucks.next().unwrap_or_default(),
                 hub: [x + offset, y, z],
                 marker: markers.take(),
-                spin: input.wheels[w].spins.then(|| (parts.take(), markers.take())),
+                spin: input.wheels[w]
+                    .spins
+                    .then(|| (parts.take(), markers.take())),
                 tread: (rolls && kind.flange.is_some()).then(|| markers.take()),
                 float: markers.take(),
             });
@@ -236,7 +245,11 @@ fn wheels(
 /// Refuses a scene by the first item that decks do not support.
 fn refuse_unsupported(scene: &Scene, file: &str) -> Result<(), Error> {
     match unsupported(scene).0.into_iter().next() {
-        Some(fault) => Err(refusal(file, fault.expected, fault.hint.as_deref().unwrap_or_default())),
+        Some(fault) => Err(refusal(
+            file,
+            fault.expected,
+            fault.hint.as_deref().unwrap_or_default(),
+        )),
         None => Ok(()),
     }
 }
@@ -258,10 +271,20 @@ fn compliances(
     let mut out = Vec::new();
     let mut factors = 0;
     for (s, structure) in scene.structures.iter().enumerate() {
-        let refuse =
-            |why: String, hint: &str| refusal(file, format!("structure \"{}\": {why}", structure.name), hint);
+        let refuse = |why: String, hint: &str| {
+            refusal(
+                file,
+                format!("structure \"{}\": {why}", structure.name),
+                hint,
+            )
+        };
         let mut directions: Vec<RailAxis> = Vec::new();
-        for contact in input.scene.contacts.iter().filter(|contact| contact.structure == s) {
+        for contact in input
+            .scene
+            .contacts
+            .iter()
+            .filter(|contact| contact.structure == s)
+        {
             directions.push((contact.rail, Axis::Vertical));
             if input.scene.wheels[contact.wheel].flange.is_some() {
                 directions.push((contact.rail, Axis::Lateral));
@@ -269,7 +292,10 @@ fn compliances(
         }
         match structure.foundation {
             scene::Foundation::Influence if !directions.is_empty() => {
-                let blocks = foundations::influence_blocks(structure, solution_of(known, &structure.origin))?;
+                let blocks = foundations::influence_blocks(
+                    structure,
+                    solution_of(known, &structure.origin),
+                )?;
                 let compliance = RailCompliance::new(
                     structure,
                     directions,
@@ -296,18 +322,33 @@ fn compliances(
 /// Determines the positions of rails and bodies in ground. The first truck of a body whose rail already has a frame
 /// fixes the position of the body. A rail that another body requires at a different position has an additional frame.
 /// Returns the frames and the index of the frame of each truck.
-fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<Datum>, Vec<usize>) {
+fn datums(
+    scene: &Scene,
+    bodies: &mut [BodyPlan],
+    markers: &mut NextId,
+) -> (Vec<Datum>, Vec<usize>) {
     let mut datums: Vec<Datum> = Vec::new();
     let mut of_truck = vec![0; scene.trucks.len()];
     for (b, body) in bodies.iter_mut().enumerate() {
-        let trucks = || scene.trucks.iter().enumerate().filter(move |(_, truck)| truck.body == b);
-        let below = |truck: &scene::Truck| [truck.at[1] - scene.wheels[truck.wheel].radius, truck.at[2]];
+        let trucks = || {
+            scene
+                .trucks
+                .iter()
+                .enumerate()
+                .filter(move |(_, truck)| truck.body == b)
+        };
+        let below =
+            |truck: &scene::Truck| [truck.at[1] - scene.wheels[truck.wheel].radius, truck.at[2]];
         let fixed = trucks().find_map(|(_, truck)| {
             let datum = datums.iter().find(|datum| datum.rail == truck.rail)?;
             let [y, z] = below(truck);
             Some([datum.at[0] - y, datum.at[1] - z])
         });
-        let free = || trucks().next().map(|(_, truck)| below(truck).map(|value| 0.0 - value));
+        let free = || {
+            trucks()
+                .next()
+                .map(|(_, truck)| below(truck).map(|value| 0.0 - value))
+        };
         body.position = fixed.or_else(free).unwrap_or_default();
         for (t, truck) in trucks() {
             let [y, z] = below(truck);
@@ -317,7 +358,11 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
                 datum.rail == truck.rail && near(datum.at[0], at[0]) && near(datum.at[1], at[1])
             };
             of_truck[t] = datums.iter().position(same).unwrap_or_else(|| {
-                datums.push(Datum { marker: markers.take(), rail: truck.rail, at });
+                datums.push(Datum {
+                    marker: markers.take(),
+                    rail: truck.rail,
+                    at,
+                });
                 datums.len() - 1
             });
         }

@@ -25,12 +25,14 @@ fn structures(scene: &Scene, faults: &mut Faults) {
         let at = list.key(&structure.name);
         let name = &structure.name;
         if structure.longitudinal {
-            let why = format!("a deck cannot have compliance along its rails: structure \"{name}\"");
+            let why =
+                format!("a deck cannot have compliance along its rails: structure \"{name}\"");
             faults.add(Fault::new(&at.key("longitudinal"), why).hint("leave `longitudinal` out"));
         }
         if !structure.irregularities.is_empty() {
             let why = format!("a deck cannot have uneven rails: structure \"{name}\"");
-            faults.add(Fault::new(&at.key("irregularities"), why).hint("leave `irregularities` out"));
+            faults
+                .add(Fault::new(&at.key("irregularities"), why).hint("leave `irregularities` out"));
         }
         if structure.carrier.is_some() {
             let why = format!("structure \"{name}\": a deck cannot have structures on bodies");
@@ -44,8 +46,11 @@ fn structures(scene: &Scene, faults: &mut Faults) {
             | scene::Foundation::Full { .. }
             | scene::Foundation::Ties { .. } => {
                 let word = structure.foundation.word();
-                let why = format!("structure \"{name}\": a deck cannot have the foundation \"{word}\"");
-                faults.add(Fault::new(&at.key("foundation"), why).hint("use \"influence\" or \"rigid\""));
+                let why =
+                    format!("structure \"{name}\": a deck cannot have the foundation \"{word}\"");
+                faults.add(
+                    Fault::new(&at.key("foundation"), why).hint("use \"influence\" or \"rigid\""),
+                );
             }
         }
     }
@@ -66,7 +71,10 @@ fn stations(scene: &Scene, faults: &mut Faults) {
                 scene::Origin::Spec { .. } => "spec",
                 scene::Origin::Tables { .. } => "tables",
             };
-            let why = format!("rail {} needs at least {least} stations for a deck", on_scene.name);
+            let why = format!(
+                "rail {} needs at least {least} stations for a deck",
+                on_scene.name
+            );
             let fault = Fault::new(&list.key(&structure.name).key(key), why).got(stations);
             faults.add(fault.hint("a SPLINE has four x values or more"));
         }
@@ -80,14 +88,22 @@ fn bodies(scene: &Scene, faults: &mut Faults) {
         let at = list.key(&body.name);
         let mut add = |what: &str, hint: &str| {
             faults.add(
-                Fault::new(&at, format!("body \"{}\": a deck cannot have {what}", body.name)).hint(hint),
+                Fault::new(
+                    &at,
+                    format!("body \"{}\": a deck cannot have {what}", body.name),
+                )
+                .hint(hint),
             );
         };
         if body.in_space {
-            add("bodies in space", "leave it out, and add a PART to the deck by hand");
+            add(
+                "bodies in space",
+                "leave it out, and add a PART to the deck by hand",
+            );
         }
         if body.pinned.is_some() {
-            let hint = "model its mass with the body that carries it, and give the truck a nested `tree`";
+            let hint =
+                "model its mass with the body that carries it, and give the truck a nested `tree`";
             add("bodies pinned to others", hint);
         }
         let hint = "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand";
@@ -105,24 +121,51 @@ fn actions(scene: &Scene, faults: &mut Faults) {
         faults.add(Fault::new(&root.key(list).index(index), why).hint(hint));
     };
     for (index, rope) in scene.ropes.iter().enumerate() {
-        let hint = "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand";
-        add("ropes", index, format!("a deck cannot have ropes: \"{}\"", rope.name), hint);
+        let hint =
+            "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand";
+        add(
+            "ropes",
+            index,
+            format!("a deck cannot have ropes: \"{}\"", rope.name),
+            hint,
+        );
     }
     for (index, event) in scene.events.iter().enumerate() {
         let hint = "leave `events` out, and add a SENSOR to the deck by hand";
-        add("events", index, format!("a deck cannot have events: \"{}\"", event.name), hint);
+        add(
+            "events",
+            index,
+            format!("a deck cannot have events: \"{}\"", event.name),
+            hint,
+        );
     }
     for (index, stop) in scene.stops.iter().enumerate() {
         let hint = "leave `stops` out, and add an SFORCE with IMPACT to the deck by hand";
-        add("stops", index, format!("a deck cannot have stops: \"{}\"", stop.name), hint);
+        add(
+            "stops",
+            index,
+            format!("a deck cannot have stops: \"{}\"", stop.name),
+            hint,
+        );
     }
     for (index, load) in scene.loads.iter().enumerate() {
-        let why = format!("body \"{}\": a deck cannot have its load", scene.bodies[load.body].name);
-        add("loads", index, why, "leave `loads` out, and add an SFORCE to the deck by hand");
+        let why = format!(
+            "body \"{}\": a deck cannot have its load",
+            scene.bodies[load.body].name
+        );
+        add(
+            "loads",
+            index,
+            why,
+            "leave `loads` out, and add an SFORCE to the deck by hand",
+        );
     }
     let motions = root.key("motions");
     for spin in &scene.spins {
-        let why = format!("a deck cannot have prescribed spins: truck \"{}\"", scene.trucks[spin.truck].name);
+        let why = format!(
+            "a deck cannot have prescribed spins: truck \"{}\"",
+            scene.trucks[spin.truck].name
+        );
         let hint = "leave the motion out, and add a MOTION to the deck by hand";
         faults.add(Fault::new(&motions, why).hint(hint));
     }

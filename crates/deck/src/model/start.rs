@@ -33,12 +33,18 @@ impl Start {
     /// # Errors
     /// [`Error::Start`] for a scene that cannot start.
     pub fn of(scene: &sim::Scene, foundations: &[Foundation]) -> Result<Start, Error> {
-        let run = sim::run(scene, foundations, &mut |_| ControlFlow::Break(())).map_err(Error::Start)?;
+        let run =
+            sim::run(scene, foundations, &mut |_| ControlFlow::Break(())).map_err(Error::Start)?;
         let history = &run.history;
         let at = |channel: Channel| history.column(channel).first().copied().unwrap_or_default();
         let bodies = 0..scene.bodies.len();
-        let count: usize = scene.contacts.iter().map(|contact| contact.offsets.len()).sum();
-        let of_wheels = |channel: fn(usize) -> Channel| (0..count).map(|w| at(channel(w))).collect();
+        let count: usize = scene
+            .contacts
+            .iter()
+            .map(|contact| contact.offsets.len())
+            .sum();
+        let of_wheels =
+            |channel: fn(usize) -> Channel| (0..count).map(|w| at(channel(w))).collect();
         Ok(Start {
             displacement: bodies
                 .clone()
@@ -85,7 +91,11 @@ pub fn euler(r: [[f64; 3]; 3]) -> [f64; 3] {
     if tilt == 0.0 {
         return [r[1][0].atan2(r[0][0]), 0.0, 0.0];
     }
-    [r[0][2].atan2(-r[1][2]), tilt.atan2(r[2][2]), r[2][0].atan2(r[2][1])]
+    [
+        r[0][2].atan2(-r[1][2]),
+        tilt.atan2(r[2][2]),
+        r[2][0].atan2(r[2][1]),
+    ]
 }
 
 /// The vector `v` rotated by `r`.
@@ -104,7 +114,13 @@ mod tests {
 
     #[test]
     fn angles_3_1_3_reproduce_the_rotation() {
-        for vector in [[0.0, 0.0, 0.02], [0.01, -0.03, 0.02], [1.0, -0.4, 0.7], [0.0, 0.0, -2.0], [0.0; 3]] {
+        for vector in [
+            [0.0, 0.0, 0.02],
+            [0.01, -0.03, 0.02],
+            [1.0, -0.4, 0.7],
+            [0.0, 0.0, -2.0],
+            [0.0; 3],
+        ] {
             let r = rotation(vector);
             let [a, b, c] = euler(r);
             let about_z = |t: f64| rotation([0.0, 0.0, t]);
@@ -120,6 +136,8 @@ mod tests {
     #[test]
     fn a_small_rotation_is_its_cross_product() {
         let rotated = rotated(rotation([0.0, 0.0, 1e-6]), [2.0, 1.0, 0.0]);
-        assert!((rotated[0] - (2.0 - 1e-6)).abs() < 1e-11 && (rotated[1] - (1.0 + 2e-6)).abs() < 1e-11);
+        assert!(
+            (rotated[0] - (2.0 - 1e-6)).abs() < 1e-11 && (rotated[1] - (1.0 + 2e-6)).abs() < 1e-11
+        );
     }
 }

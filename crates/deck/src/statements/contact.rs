@@ -55,13 +55,22 @@ struct WrittenRemarks {
 
 /// Adds the remark `text` to the statement unless it has been written before.
 fn once(written: &mut bool, statement: Statement, text: &str) -> Statement {
-    if std::mem::replace(written, true) { statement } else { statement.remark(text) }
+    if std::mem::replace(written, true) {
+        statement
+    } else {
+        statement.remark(text)
+    }
 }
 
 /// Forces on the rails of structure `s`.
 pub(crate) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
     let mut out = Vec::new();
-    for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
+    for (w, wheel) in plan
+        .wheels
+        .iter()
+        .enumerate()
+        .filter(|(_, wheel)| wheel.structure == s)
+    {
         let at = value(variable(w, VariableSlot::Place));
         let first = plan.contacts[wheel.contact].wheels.start;
         let load = |axis, slot, owner, negative| LoadedMarker {
@@ -80,19 +89,28 @@ pub(crate) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
 
 /// A VARIABLE of wheel `w`, named after the wheel.
 fn named(plan: &DeckPlan<'_>, w: usize, slot: VariableSlot, what: &str) -> Statement {
-    Statement::new("VARIABLE", variable(w, slot)).named(plain(&format!("{}_{what}", plan.wheels[w].name)))
+    Statement::new("VARIABLE", variable(w, slot))
+        .named(plain(&format!("{}_{what}", plan.wheels[w].name)))
 }
 
 /// Adds the initial value `at` to the statement; it is 0 in the form of the paper.
 fn starting(plan: &DeckPlan<'_>, statement: Statement, at: f64) -> Statement {
-    statement.numbers("IC", &[if plan.form == DeckForm::Paper { 0.0 } else { at }])
+    statement.numbers(
+        "IC",
+        &[if plan.form == DeckForm::Paper {
+            0.0
+        } else {
+            at
+        }],
+    )
 }
 
 /// The rail coordinate of a wheel, and the displacements of the rail under it.
 fn place(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
-    let statement = named(plan, w, VariableSlot::Place, "place").numbers("IC", &[plan.start.place[w]]);
+    let statement =
+        named(plan, w, VariableSlot::Place, "place").numbers("IC", &[plan.start.place[w]]);
     out.push(statement.function("FUNCTION", format!("DX({},{rail},{rail})", wheel.marker)));
     let at = value(variable(w, VariableSlot::Place));
     let compliance = &plan.compliances[wheel.structure];
@@ -100,12 +118,19 @@ fn place(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
     if !compliance.is_flexible() {
         return;
     }
-    if let Some(text) = compliance.displacement(plan.direction(w, Axis::Vertical), &at, &loads, false) {
-        let statement = starting(plan, named(plan, w, VariableSlot::Rise, "rise"), -plan.start.deflection[w]);
+    if let Some(text) =
+        compliance.displacement(plan.direction(w, Axis::Vertical), &at, &loads, false)
+    {
+        let statement = starting(
+            plan,
+            named(plan, w, VariableSlot::Rise, "rise"),
+            -plan.start.deflection[w],
+        );
         out.push(once(&mut written.cross, statement, remark::CROSS).function("FUNCTION", text));
     }
     if plan.kind(w).flange.is_some()
-        && let Some(text) = compliance.displacement(plan.direction(w, Axis::Lateral), &at, &loads, false)
+        && let Some(text) =
+            compliance.displacement(plan.direction(w, Axis::Lateral), &at, &loads, false)
     {
         out.push(named(plan, w, VariableSlot::Shift, "shift").function("FUNCTION", text));
     }
@@ -148,11 +173,17 @@ fn vertical(plan: &DeckPlan<'_>, c: usize, written: &mut WrittenRemarks, out: &m
             .named(plain(&format!("{}_gap", plan.wheels[first].name)))
             .numbers("IC", &[plan.start.penetration[first], 0.0])
             .flag("IMPLICIT");
-        let text = format!("DIF({id})-{}", value(variable(first, VariableSlot::Penetration)));
+        let text = format!(
+            "DIF({id})-{}",
+            value(variable(first, VariableSlot::Penetration))
+        );
         out.push(once(&mut written.gap, statement, remark::GAP).function("FUNCTION", text));
     }
-    let statement =
-        starting(plan, named(plan, first, VariableSlot::Press, "press"), plan.start.vertical[first]);
+    let statement = starting(
+        plan,
+        named(plan, first, VariableSlot::Press, "press"),
+        plan.start.vertical[first],
+    );
     let law = &kind.normal;
     let mut statement = if plan.form == DeckForm::Paper {
         once(&mut written.law, statement, remark::PAPER)
@@ -179,7 +210,11 @@ fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
         sum.add(false, &height(plan, w));
     }
     let text = sum.text();
-    if wheels.len() == 1 { format!("({text})") } else { mean(text, wheels.len()) }
+    if wheels.len() == 1 {
+        format!("({text})")
+    } else {
+        mean(text, wheels.len())
+    }
 }
 
 /// Mean upward velocity of the wheels of a contact, which is the negative rate of penetration on a rigid rail.
@@ -210,12 +245,18 @@ fn press(plan: &DeckPlan<'_>, c: usize) -> String {
     let ramped = law.depth > 0.0 && law.damping > 0.0;
     if ramped && !law.bilateral {
         let (radius, exponent) = (number(kind.radius), number(law.exponent));
-        let rate = contact.diff.map_or_else(|| speed(plan, c), |id| format!("-DIF1({id})"));
+        let rate = contact
+            .diff
+            .map_or_else(|| speed(plan, c), |id| format!("-DIF1({id})"));
         let depth = number(law.depth);
         return format!("IMPACT({radius}-{p},{rate},{radius},{k},{exponent},{damping},{depth})");
     }
     let spring = spring(law, &p);
-    let damper = if ramped { format!("STEP({p},0,0,{},{damping})", number(law.depth)) } else { damping };
+    let damper = if ramped {
+        format!("STEP({p},0,0,{},{damping})", number(law.depth))
+    } else {
+        damping
+    };
     let force = match contact.diff {
         Some(id) => format!("{spring}+{damper}*DIF1({id})"),
         None if law.damping > 0.0 => format!("{spring}-{damper}*({})", speed(plan, c)),
@@ -251,13 +292,19 @@ fn arm(plan: &DeckPlan<'_>, w: usize) -> String {
 
 /// Lateral displacement and flange force of wheel `w`.
 fn flange(plan: &DeckPlan<'_>, w: usize, out: &mut Vec<Statement>) {
-    let Some(flange) = &plan.kind(w).flange else { return };
+    let Some(flange) = &plan.kind(w).flange else {
+        return;
+    };
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
     let mut text = format!("DZ({},{rail},{rail})", wheel.marker);
     if let Some(tread) = wheel.tread {
         let radius = number(plan.kind(w).radius);
-        text.push_str(&format!("+{}/{radius}*DZ({tread},{},{rail})", arm(plan, w), wheel.marker));
+        text.push_str(&format!(
+            "+{}/{radius}*DZ({tread},{},{rail})",
+            arm(plan, w),
+            wheel.marker
+        ));
     }
     if plan.compliances[wheel.structure].is_flexible() {
         text.push_str(&format!("-{}", value(variable(w, VariableSlot::Shift))));
@@ -266,28 +313,55 @@ fn flange(plan: &DeckPlan<'_>, w: usize, out: &mut Vec<Statement>) {
     let side = value(variable(w, VariableSlot::Sideways));
     let gap = number(flange.clearance);
     let release = flange.release.map_or(String::new(), |[from, to]| {
-        format!("*STEP({},{},1,{},0)", arm(plan, w), number(from), number(to))
+        format!(
+            "*STEP({},{},1,{},0)",
+            arm(plan, w),
+            number(from),
+            number(to)
+        )
     });
     let overlap = format!("(MAX(0,{side}-{gap})+MIN(0,{side}+{gap}))");
-    let statement = starting(plan, named(plan, w, VariableSlot::Flange, "flange"), plan.start.lateral[w]);
-    out.push(statement.function("FUNCTION", format!("{}{release}*{overlap}", number(flange.stiffness))));
+    let statement = starting(
+        plan,
+        named(plan, w, VariableSlot::Flange, "flange"),
+        plan.start.lateral[w],
+    );
+    out.push(statement.function(
+        "FUNCTION",
+        format!("{}{release}*{overlap}", number(flange.stiffness)),
+    ));
 }
 
 /// Friction force of wheel `w`.
 fn friction(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
-    let (Some((_, centre)), Some(friction)) = (plan.wheels[w].spin, &plan.kind(w).friction) else { return };
+    let (Some((_, centre)), Some(friction)) = (plan.wheels[w].spin, &plan.kind(w).friction) else {
+        return;
+    };
     let (hub, rail) = (plan.wheels[w].marker, plan.datum(w));
-    let press = value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, VariableSlot::Press));
-    let fourth = if plan.form == DeckForm::Paper { String::new() } else { format!(",{rail}") };
-    let slide = format!("VX({hub},{rail},{rail}{fourth})+WZ({centre},{rail},{rail})*{}", arm(plan, w));
+    let press = value(variable(
+        plan.contacts[plan.wheels[w].contact].wheels.start,
+        VariableSlot::Press,
+    ));
+    let fourth = if plan.form == DeckForm::Paper {
+        String::new()
+    } else {
+        format!(",{rail}")
+    };
+    let slide = format!(
+        "VX({hub},{rail},{rail}{fourth})+WZ({centre},{rail},{rail})*{}",
+        arm(plan, w)
+    );
     let slip = number(friction.slip);
     let saturation = match friction.law {
         FrictionLaw::Step => format!("STEP({slide},-{slip},-1,{slip},1)"),
         FrictionLaw::Coulomb => format!("TANH(({slide})/{slip})"),
     };
     let text = format!("{}*{press}*{saturation}", number(friction.coefficient));
-    let mut statement =
-        starting(plan, named(plan, w, VariableSlot::Traction, "traction"), plan.start.traction[w]);
+    let mut statement = starting(
+        plan,
+        named(plan, w, VariableSlot::Traction, "traction"),
+        plan.start.traction[w],
+    );
     if plan.form != DeckForm::Paper {
         statement = once(&mut written.velocity, statement, remark::VELOCITY);
     }
@@ -305,8 +379,22 @@ fn slope(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
     // the negative sign arises because vertical displacements are positive upwards and the vertical force acts
     // downwards
     for (axis, slot, press, negative, what, acts) in [
-        (Axis::Vertical, VariableSlot::Slope, variable(first, VariableSlot::Press), true, "slope", true),
-        (Axis::Lateral, VariableSlot::Tilt, variable(w, VariableSlot::Flange), false, "tilt", lateral),
+        (
+            Axis::Vertical,
+            VariableSlot::Slope,
+            variable(first, VariableSlot::Press),
+            true,
+            "slope",
+            true,
+        ),
+        (
+            Axis::Lateral,
+            VariableSlot::Tilt,
+            variable(w, VariableSlot::Flange),
+            false,
+            "tilt",
+            lateral,
+        ),
     ] {
         if !acts || !compliance.is_flexible() {
             continue;
@@ -315,7 +403,11 @@ fn slope(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
             continue;
         };
         let sign = if negative { "-" } else { "" };
-        let statement = once(&mut written.slope, named(plan, w, slot, what), remark::SLOPE);
+        let statement = once(
+            &mut written.slope,
+            named(plan, w, slot, what),
+            remark::SLOPE,
+        );
         out.push(statement.function("FUNCTION", format!("{sign}{}*({text})", value(press))));
     }
 }
@@ -323,7 +415,10 @@ fn slope(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
 /// The GFORCE of wheel `w`.
 fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let wheel = &plan.wheels[w];
-    let press = variable(plan.contacts[wheel.contact].wheels.start, VariableSlot::Press);
+    let press = variable(
+        plan.contacts[wheel.contact].wheels.start,
+        VariableSlot::Press,
+    );
     let arm = arm(plan, w);
     let lateral = plan.kind(w).flange.is_some();
     let traction = wheel.spin.is_some();
@@ -339,8 +434,11 @@ fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
             along.add(false, &value(variable(w, VariableSlot::Tilt)));
         }
     }
-    let side =
-        if lateral { format!("-{}", value(variable(w, VariableSlot::Flange))) } else { "0.0".to_owned() };
+    let side = if lateral {
+        format!("-{}", value(variable(w, VariableSlot::Flange)))
+    } else {
+        "0.0".to_owned()
+    };
     let roll = if lateral {
         format!("{arm}*{}", value(variable(w, VariableSlot::Flange)))
     } else {
@@ -354,7 +452,12 @@ fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let mut statement = Statement::new("GFORCE", ids::number(w)).named(plain(&wheel.name));
     if w == 0 {
         statement = statement.remark(remark::FORCE);
-        if !sloped && plan.compliances.iter().any(crate::model::compliance::RailCompliance::is_flexible) {
+        if !sloped
+            && plan
+                .compliances
+                .iter()
+                .any(crate::model::compliance::RailCompliance::is_flexible)
+        {
             statement = statement.remark(remark::NO_SLOPE);
         }
     }

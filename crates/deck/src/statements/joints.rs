@@ -43,7 +43,10 @@ impl Restraints<'_> {
     /// Returns a marker on `part` at `at` whose z axis points along axis 0, 1 or 2; writes it unless it exists
     /// already.
     fn marker(&mut self, part: u32, at: [f64; 3], axis: usize, name: &str) -> u32 {
-        let known = self.made.iter().find(|made| (made.0, made.1, made.2) == (part, axis, at));
+        let known = self
+            .made
+            .iter()
+            .find(|made| (made.0, made.1, made.2) == (part, axis, at));
         if let Some(made) = known {
             return made.3;
         }
@@ -55,7 +58,10 @@ impl Restraints<'_> {
             .reference("PART", part)
             .numbers("QP", &at);
         if axis != 2 {
-            statement = statement.with("REULER", ArgumentValue::Degrees(MARKER_ANGLES[axis].to_vec()));
+            statement = statement.with(
+                "REULER",
+                ArgumentValue::Degrees(MARKER_ANGLES[axis].to_vec()),
+            );
         }
         self.out.push(statement);
         id
@@ -64,7 +70,11 @@ impl Restraints<'_> {
     fn prim(&mut self, kind: &str, [i, j]: [u32; 2], name: String) {
         let id = self.prims.take();
         self.out.push(
-            Statement::new("JPRIM", id).named(plain(&name)).flag(kind).reference("I", i).reference("J", j),
+            Statement::new("JPRIM", id)
+                .named(plain(&name))
+                .flag(kind)
+                .reference("I", i)
+                .reference("J", j),
         );
     }
 }
@@ -84,7 +94,10 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
         restraints.out.push(
             Statement::new("JOINT", id)
                 .named(plain(&format!("plane_{}", body.name)))
-                .remark(format!("{}: z, roll and yaw are held by its track", body.name))
+                .remark(format!(
+                    "{}: z, roll and yaw are held by its track",
+                    body.name
+                ))
                 .flag("PLANAR")
                 .reference("I", own.origin)
                 .reference("J", own.track),
@@ -95,7 +108,11 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
         let mut at = [0.0, height, side];
         at[axis] += start[axis];
         let j = restraints.marker(GROUND, at, axis, &format!("hold_{}", body.name));
-        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{}", DOFS[axis], body.name));
+        restraints.prim(
+            "INPLANE",
+            [own.origin, j],
+            format!("hold_{}_of_{}", DOFS[axis], body.name),
+        );
     }
     let rotations: Vec<usize> = (0..3).filter(|&axis| restrained[3 + axis]).collect();
     restrain_rotations(own, &body.name, &rotations, is_planar, restraints);
@@ -131,12 +148,18 @@ fn restrain_rotations(
         [i, j]
     };
     match rotations[..] {
-        [_, _, _] if !is_planar => {
-            restraints.prim("ORIENTATION", [own.origin, own.track], format!("hold_turns_of_{name}"))
-        }
+        [_, _, _] if !is_planar => restraints.prim(
+            "ORIENTATION",
+            [own.origin, own.track],
+            format!("hold_turns_of_{name}"),
+        ),
         [a, c] if !is_planar => {
             let markers = pair([3 - a - c; 2], restraints);
-            restraints.prim("PARALLEL_AXES", markers, format!("hold_two_turns_of_{name}"));
+            restraints.prim(
+                "PARALLEL_AXES",
+                markers,
+                format!("hold_two_turns_of_{name}"),
+            );
         }
         [] => {}
         _ if is_planar && rotations.len() == 2 => {}
@@ -144,7 +167,11 @@ fn restrain_rotations(
             // roll: y of the body stays perpendicular to z of the track; yaw: x to z; pitch: x to y
             let axis = rotations.last().copied().unwrap_or_default();
             let markers = pair([[1, 2], [0, 2], [0, 1]][axis], restraints);
-            restraints.prim("PERPENDICULAR", markers, format!("hold_{}_of_{name}", DOFS[3 + axis]));
+            restraints.prim(
+                "PERPENDICULAR",
+                markers,
+                format!("hold_{}_of_{name}", DOFS[3 + axis]),
+            );
         }
     }
 }
@@ -158,7 +185,12 @@ pub(crate) fn motion_expression(profile: &Profile) -> String {
     let mut starts = vec![0.0];
     starts.extend_from_slice(profile.breaks());
     let pieces: Vec<(f64, String)> = (0..starts.len())
-        .map(|k| (starts[k], piece(profile, starts[k], starts.get(k + 1).copied())))
+        .map(|k| {
+            (
+                starts[k],
+                piece(profile, starts[k], starts.get(k + 1).copied()),
+            )
+        })
         .collect();
     tree(&pieces)
 }
@@ -182,7 +214,11 @@ fn piece(profile: &Profile, start: f64, end: Option<f64>) -> String {
     // within an interval the acceleration is linear in time
     let middle = end.map_or(start + 1.0, |end| f64::midpoint(start, end));
     let jerk = (profile.at(middle).a - at.a) / (middle - start);
-    let s = if start == 0.0 { "TIME".to_owned() } else { format!("(TIME-{})", expression_number(start)) };
+    let s = if start == 0.0 {
+        "TIME".to_owned()
+    } else {
+        format!("(TIME-{})", expression_number(start))
+    };
     let mut text = adams::number::write(at.x);
     for (power, factor) in [(1, at.v), (2, at.a / 2.0), (3, jerk / 6.0)] {
         if factor != 0.0 {

@@ -29,11 +29,18 @@ pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
 }
 
 fn marker(id: u32, part: u32, at: [f64; 3], name: &str) -> Statement {
-    Statement::new("MARKER", id).named(plain(name)).reference("PART", part).numbers("QP", &at)
+    Statement::new("MARKER", id)
+        .named(plain(name))
+        .reference("PART", part)
+        .numbers("QP", &at)
 }
 
 fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
-    let mut out = vec![Statement::new("PART", GROUND).named("ground").flag("GROUND")];
+    let mut out = vec![
+        Statement::new("PART", GROUND)
+            .named("ground")
+            .flag("GROUND"),
+    ];
     for (d, datum) in plan.datums.iter().enumerate() {
         let [y, z] = datum.at;
         let name = &plan.scene.rails[datum.rail].name;
@@ -45,7 +52,12 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
     }
     for (plan_body, body) in plan.bodies.iter().zip(&plan.scene.bodies) {
         let [y, z] = plan_body.position;
-        out.push(marker(plan_body.track, GROUND, [0.0, y, z], &format!("track_{}", body.name)));
+        out.push(marker(
+            plan_body.track,
+            GROUND,
+            [0.0, y, z],
+            &format!("track_{}", body.name),
+        ));
     }
     for wheel in &plan.wheels {
         let name = plain(&format!("float_{}", wheel.name));
@@ -63,49 +75,93 @@ fn place(plan: &DeckPlan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
 }
 
 fn placed(id: u32, name: &str, at: [f64; 3], turn: [[f64; 3]; 3]) -> Statement {
-    let statement = Statement::new("PART", id).named(plain(name)).numbers("QG", &at);
+    let statement = Statement::new("PART", id)
+        .named(plain(name))
+        .numbers("QG", &at);
     let angles = euler(turn);
-    if angles == [0.0; 3] { statement } else { statement.numbers("REULER", &angles) }
+    if angles == [0.0; 3] {
+        statement
+    } else {
+        statement.numbers("REULER", &angles)
+    }
 }
 
 /// Adds the speed along the rail at time 0 to a PART statement.
 fn moving(statement: Statement, speed: f64) -> Statement {
-    if speed == 0.0 { statement } else { statement.numbers("VX", &[speed]) }
+    if speed == 0.0 {
+        statement
+    } else {
+        statement.numbers("VX", &[speed])
+    }
 }
 
 fn body(plan: &DeckPlan<'_>, b: usize, out: &mut Vec<Statement>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let (at, turn) = place(plan, b);
     let unit = mass_factor(plan.scene.units);
-    let spinning = plan.wheels.iter().filter(|wheel| wheel.body == b && wheel.spin.is_some()).count();
+    let spinning = plan
+        .wheels
+        .iter()
+        .filter(|wheel| wheel.body == b && wheel.spin.is_some())
+        .count();
     let mass = body.mass * unit * (1.0 - WHEEL_MASS * spinning as f64);
     let statement = placed(own.part, &body.name, at, turn)
         .numbers("MASS", &[mass])
         .reference("CM", own.cm)
         .numbers("IP", &body.inertia.map(|inertia| inertia * unit));
     out.push(moving(statement, plan.start.speed[b]));
-    out.push(marker(own.origin, own.part, [0.0; 3], &format!("{}_origin", body.name)));
-    out.push(marker(own.cm, own.part, body.cg, &format!("{}_cm", body.name)));
-    for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.body == b) {
-        out.push(marker(wheel.marker, own.part, wheel.hub, &format!("hub_{}", wheel.name)));
+    out.push(marker(
+        own.origin,
+        own.part,
+        [0.0; 3],
+        &format!("{}_origin", body.name),
+    ));
+    out.push(marker(
+        own.cm,
+        own.part,
+        body.cg,
+        &format!("{}_cm", body.name),
+    ));
+    for (w, wheel) in plan
+        .wheels
+        .iter()
+        .enumerate()
+        .filter(|(_, wheel)| wheel.body == b)
+    {
+        out.push(marker(
+            wheel.marker,
+            own.part,
+            wheel.hub,
+            &format!("hub_{}", wheel.name),
+        ));
         if let Some(tread) = wheel.tread {
             let [x, y, z] = wheel.hub;
             let at = [x, y - plan.kind(w).radius, z];
-            out.push(marker(tread, own.part, at, &format!("tread_{}", wheel.name)));
+            out.push(marker(
+                tread,
+                own.part,
+                at,
+                &format!("tread_{}", wheel.name),
+            ));
         }
     }
 }
 
 fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
-    let Some((part, centre)) = wheel.spin else { return };
+    let Some((part, centre)) = wheel.spin else {
+        return;
+    };
     let unit = mass_factor(plan.scene.units);
     let (origin, turn) = place(plan, wheel.body);
     let arm = rotated(turn, wheel.hub);
     let at = std::array::from_fn(|i| origin[i] + arm[i]);
     let inertia = plan.kind(w).spin_inertia.unwrap_or_default() * unit;
     let mut statement = placed(part, &wheel.name, at, turn)
-        .numbers("MASS", &[plan.scene.bodies[wheel.body].mass * unit * WHEEL_MASS])
+        .numbers(
+            "MASS",
+            &[plan.scene.bodies[wheel.body].mass * unit * WHEEL_MASS],
+        )
         .reference("CM", centre)
         .numbers("IP", &[0.0, 0.0, inertia]);
     if !*written {
@@ -113,7 +169,12 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statem
         statement = statement.remark(remark::SPIN);
     }
     out.push(moving(statement, plan.start.speed[wheel.body]));
-    out.push(marker(centre, part, [0.0; 3], &format!("centre_{}", wheel.name)));
+    out.push(marker(
+        centre,
+        part,
+        [0.0; 3],
+        &format!("centre_{}", wheel.name),
+    ));
     out.push(
         Statement::new("JOINT", crate::words::ids::number(w))
             .named(plain(&format!("axle_{}", wheel.name)))
@@ -132,14 +193,29 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statem
 pub(crate) fn mass_factor(units: Units) -> f64 {
     match units.to_adams().mass {
         adams::AdamsMassUnit::Slug => {
-            let slugs = Units { length: Length::Foot, force: Force::Pound };
-            Scale { from: units, to: slugs }.factor(Dimension::MASS)
+            let slugs = Units {
+                length: Length::Foot,
+                force: Force::Pound,
+            };
+            Scale {
+                from: units,
+                to: slugs,
+            }
+            .factor(Dimension::MASS)
         }
         adams::AdamsMassUnit::Pound => {
-            let kilograms = Scale { from: units, to: Units::SI }.factor(Dimension::MASS);
+            let kilograms = Scale {
+                from: units,
+                to: Units::SI,
+            }
+            .factor(Dimension::MASS);
             kilograms * (KILOGRAM as f64) / (POUND as f64)
         }
-        _ => Scale { from: units, to: Units::SI }.factor(Dimension::MASS),
+        _ => Scale {
+            from: units,
+            to: Units::SI,
+        }
+        .factor(Dimension::MASS),
     }
 }
 
@@ -164,7 +240,10 @@ mod tests {
             (Length::Metre, Force::Pound, 4.448_221_615_260_5),
         ] {
             let found = mass_factor(Units { length, force });
-            assert!((found / expected - 1.0).abs() < 8e-16, "{length:?} {force:?}: {found} {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < 8e-16,
+                "{length:?} {force:?}: {found} {expected}"
+            );
         }
     }
 }

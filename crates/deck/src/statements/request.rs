@@ -47,13 +47,19 @@ pub(crate) fn statements(
         for w in wheels {
             down.add(
                 false,
-                &value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, VariableSlot::Press)),
+                &value(variable(
+                    plan.contacts[plan.wheels[w].contact].wheels.start,
+                    VariableSlot::Press,
+                )),
             );
             if plan.kind(w).flange.is_some() {
                 side.add(false, &value(variable(w, VariableSlot::Flange)));
             }
         }
-        let parts = vec![("down".to_owned(), down.text()), ("lateral".to_owned(), side.text())];
+        let parts = vec![
+            ("down".to_owned(), down.text()),
+            ("lateral".to_owned(), side.text()),
+        ];
         let mut statement = request(ids.take(), &format!("carried_by_{}", rail.name), parts);
         if !std::mem::replace(&mut written, true) {
             statement = statement.remark(remark::REACTION);
@@ -68,7 +74,10 @@ pub(crate) fn statements(
 
 /// A REQUEST of named expressions.
 fn request(id: u32, name: &str, parts: Vec<(String, String)>) -> Statement {
-    let quoted: Vec<String> = parts.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+    let quoted: Vec<String> = parts
+        .iter()
+        .map(|(name, _)| format!("\"{name}\""))
+        .collect();
     let mut statement = Statement::new("REQUEST", id)
         .named(plain(name))
         .with("CNAMES", ArgumentValue::Word(quoted.join(", ")))
@@ -83,7 +92,8 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, id: u32) -> Statement {
     let own = &plan.wheels[w];
     let first = plan.contacts[own.contact].wheels.start;
     let mut parts = Vec::new();
-    let mut add = |name: &str, at: usize, slot| parts.push((name.to_owned(), value(variable(at, slot))));
+    let mut add =
+        |name: &str, at: usize, slot| parts.push((name.to_owned(), value(variable(at, slot))));
     add("place", w, VariableSlot::Place);
     add("penetr", first, VariableSlot::Penetration);
     add("down", first, VariableSlot::Press);
@@ -108,13 +118,19 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
     for (word, function) in [("x", "DX"), ("y", "DY"), ("z", "DZ")] {
         parts.push((word.to_owned(), format!("{function}({i},{j},{j})")));
     }
-    for (k, (word, function)) in [("roll", "AX"), ("yaw", "AY"), ("pitch", "AZ")].into_iter().enumerate() {
+    for (k, (word, function)) in [("roll", "AX"), ("yaw", "AY"), ("pitch", "AZ")]
+        .into_iter()
+        .enumerate()
+    {
         if plan.scene.bodies[b].free[3 + k] {
             parts.push((word.to_owned(), format!("{function}({i},{j})")));
         }
     }
     if matches!(plan.scene.bodies[b].motion, BodyMotion::Prescribed(_)) {
-        parts.push(("drive".to_owned(), format!("MOTION({},0,2,{j})", crate::words::ids::number(b))));
+        parts.push((
+            "drive".to_owned(),
+            format!("MOTION({},0,2,{j})", crate::words::ids::number(b)),
+        ));
     }
     request(id, &format!("motion_of_{name}"), parts)
 }
@@ -130,8 +146,11 @@ fn reactions(
     out: &mut Vec<Statement>,
 ) -> Result<(), Error> {
     let structure = &plan.scene.structures[s];
-    let effects = solution_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
-    let Some(effects) = effects.filter(|_| plan.compliances[s].is_flexible()) else { return Ok(()) };
+    let effects =
+        solution_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
+    let Some(effects) = effects.filter(|_| plan.compliances[s].is_flexible()) else {
+        return Ok(());
+    };
     let loads = contact::loads(plan, s);
     let mut named = Vec::new();
     for reaction in &effects.reactions {
@@ -139,8 +158,13 @@ fn reactions(
         let mut sum = TermList::default();
         let mut lines: Vec<(crate::model::compliance::RailAxis, u32)> = Vec::new();
         for load in &loads {
-            let Some(line) = line(plan, s, reaction, load) else { continue };
-            let known = lines.iter().find(|(direction, _)| *direction == load.direction).map(|(_, id)| *id);
+            let Some(line) = line(plan, s, reaction, load) else {
+                continue;
+            };
+            let known = lines
+                .iter()
+                .find(|(direction, _)| *direction == load.direction)
+                .map(|(_, id)| *id);
             let id = match known {
                 Some(id) => id,
                 None => {
@@ -152,31 +176,51 @@ fn reactions(
                         rail.name,
                         crate::model::compliance::word(load.direction.1)
                     );
-                    out.push(spline(id, &full, rail.stations.clone(), Vec::new(), vec![line])?);
+                    out.push(spline(
+                        id,
+                        &full,
+                        rail.stations.clone(),
+                        Vec::new(),
+                        vec![line],
+                    )?);
                     lines.push((load.direction, id));
                     id
                 }
             };
-            sum.add(load.negative, &format!("{}*AKISPL({},0,{id})", load.force, load.place));
+            sum.add(
+                load.negative,
+                &format!("{}*AKISPL({},0,{id})", load.force, load.place),
+            );
         }
         if !lines.is_empty() {
             named.push((name, sum.text()));
         }
     }
     for (k, parts) in named.chunks(REACTIONS_PER_REQUEST).enumerate() {
-        out.push(request(ids.take(), &format!("reactions_of_{}_{}", structure.name, k + 1), parts.to_vec()));
+        out.push(request(
+            ids.take(),
+            &format!("reactions_of_{}_{}", structure.name, k + 1),
+            parts.to_vec(),
+        ));
     }
     Ok(())
 }
 
 /// Influence line of a reaction along the rail of a load; `None` if the load has no effect on the reaction.
-fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker) -> Option<Vec<f64>> {
+fn line(
+    plan: &DeckPlan<'_>,
+    s: usize,
+    reaction: &Reaction,
+    load: &LoadedMarker,
+) -> Option<Vec<f64>> {
     let (rail, axis): (usize, Axis) = load.direction;
     let rails = &plan.scene.structures[s].rails;
     let first: usize = rails[..rail].iter().map(|rail| rail.stations.len()).sum();
     let (_, all) = reaction.lines.iter().find(|(known, _)| *known == axis)?;
     let own = all.get(first..first + rails[rail].stations.len())?;
-    own.iter().any(|value| value.abs() > NEGLIGIBLE).then(|| own.to_vec())
+    own.iter()
+        .any(|value| value.abs() > NEGLIGIBLE)
+        .then(|| own.to_vec())
 }
 
 /// The name of a reaction, such as `uy_60` for a girder and `uy_p12` for a frame.
@@ -185,6 +229,14 @@ fn label(reaction: &Reaction) -> String {
         ReactionPoint::Along(x) => plain(&format!("{x}")),
         ReactionPoint::Point(point) => format!("p{point}"),
     };
-    let spring = if reaction.spring.is_some() { "_spring" } else { "" };
-    format!("{}_{}{spring}", reaction.dof, place.chars().take(8).collect::<String>())
+    let spring = if reaction.spring.is_some() {
+        "_spring"
+    } else {
+        ""
+    };
+    format!(
+        "{}_{}{spring}",
+        reaction.dof,
+        place.chars().take(8).collect::<String>()
+    )
 }

@@ -31,8 +31,14 @@ impl DeckForm {
     /// form includes the force along the rail, without which a free body gains energy.
     #[must_use]
     pub fn of_readings(readings: impl IntoIterator<Item = TableInterpolation>) -> DeckForm {
-        let akispl = readings.into_iter().any(|reading| reading == TableInterpolation::Akispl);
-        if akispl { DeckForm::Akispl } else { DeckForm::Factored }
+        let akispl = readings
+            .into_iter()
+            .any(|reading| reading == TableInterpolation::Akispl);
+        if akispl {
+            DeckForm::Akispl
+        } else {
+            DeckForm::Factored
+        }
     }
 
     /// The word for the form on the command line.

@@ -40,7 +40,9 @@ pub fn product(factor: usize, k: usize) -> u32 {
 /// The identifier of an index; identifiers are counted from 1.
 #[must_use]
 pub fn number(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(u32::MAX - 1).saturating_add(1)
+    u32::try_from(index)
+        .unwrap_or(u32::MAX - 1)
+        .saturating_add(1)
 }
 
 /// Generator of successive identifiers.

@@ -60,7 +60,8 @@ pub(crate) const INTEGRATOR: &str = "GSTIFF with SI2: velocities are under error
 and steps may become small at impacts without an ill-conditioned Jacobian. HHT has no error control of DIFF states.";
 
 /// At the GFORCE of the first wheel.
-pub(crate) const FORCE: &str = "GFORCE: on the wheel at I, along the axes of RM, the rail's marker.";
+pub(crate) const FORCE: &str =
+    "GFORCE: on the wheel at I, along the axes of RM, the rail's marker.";
 
 /// At the paper's form.
 pub(crate) const PAPER: &str = "The paper's own form, for comparison alone: linear force that also pulls, damper \

@@ -14,10 +14,15 @@ pub(crate) fn plain(name: &str) -> String {
 pub(crate) fn distinct(statements: &mut [adams::Statement]) {
     let mut seen: Vec<(String, String)> = Vec::new();
     for statement in statements {
-        let Some(name) = &mut statement.name else { continue };
+        let Some(name) = &mut statement.name else {
+            continue;
+        };
         let mut own = name.clone();
         let mut number = 1;
-        while seen.iter().any(|(keyword, known)| *keyword == statement.keyword && *known == own) {
+        while seen
+            .iter()
+            .any(|(keyword, known)| *keyword == statement.keyword && *known == own)
+        {
             number += 1;
             own = format!("{name}_{number}");
         }
@@ -30,7 +35,11 @@ pub(crate) fn distinct(statements: &mut [adams::Statement]) {
 #[must_use]
 pub(crate) fn number(value: f64) -> String {
     let text = adams::number::write(value);
-    if value.is_sign_negative() { format!("({text})") } else { text }
+    if value.is_sign_negative() {
+        format!("({text})")
+    } else {
+        text
+    }
 }
 
 /// `VARVAL(id)`.
@@ -57,12 +66,20 @@ impl TermList {
     /// The expression; `0.0` without terms.
     #[must_use]
     pub fn text(self) -> String {
-        if self.0.is_empty() { "0.0".to_owned() } else { self.0 }
+        if self.0.is_empty() {
+            "0.0".to_owned()
+        } else {
+            self.0
+        }
     }
 }
 
 /// The mean of `count` terms whose sum is `sum`.
 #[must_use]
 pub(crate) fn mean(sum: String, count: usize) -> String {
-    if count == 1 { sum } else { format!("({sum})/{count}") }
+    if count == 1 {
+        sum
+    } else {
+        format!("({sum})/{count}")
+    }
 }

@@ -18,12 +18,30 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
     let mut extremes = Vec::new();
     let mut deflections = Vec::new();
     for (index, case) in result.cases.iter().enumerate() {
-        let of = OfCase { design, number: index + 1, names: train_names(design, index) };
-        extremes.extend(case.envelopes.extremes.iter().map(|extreme| of.span(extreme)));
-        extremes.extend(case.reactions.iter().flat_map(|reaction| of.reaction(reaction)));
+        let of = OfCase {
+            design,
+            number: index + 1,
+            names: train_names(design, index),
+        };
+        extremes.extend(
+            case.envelopes
+                .extremes
+                .iter()
+                .map(|extreme| of.span(extreme)),
+        );
+        extremes.extend(
+            case.reactions
+                .iter()
+                .flat_map(|reaction| of.reaction(reaction)),
+        );
         let sections = design.sections.iter().zip(&case.sections);
         extremes.extend(sections.flat_map(|(section, found)| of.section(section, found)));
-        deflections.extend(case.envelopes.deflections.iter().map(|deflection| of.deflection(deflection)));
+        deflections.extend(
+            case.envelopes
+                .deflections
+                .iter()
+                .map(|deflection| of.deflection(deflection)),
+        );
     }
     let cases: Vec<Value> = design
         .cases
@@ -126,8 +144,9 @@ impl OfCase<'_> {
     fn section(&self, section: &DesignSection, found: &[Governing; 2]) -> [Value; 2] {
         [0, 1].map(|k| {
             let g = &found[k];
-            let word =
-                formats::spec::COMPONENTS.iter().find(|(_, component)| *component == section.component);
+            let word = formats::spec::COMPONENTS
+                .iter()
+                .find(|(_, component)| *component == section.component);
             let mut out = json!({
                 "case": self.number,
                 "section": section.name,

@@ -19,8 +19,16 @@ struct Places {
 
 impl Places {
     fn new(unknown: &[Option<usize>]) -> Places {
-        let mut out = Places { first: 0, count: 0, columns: [0; COLUMNS] };
-        for (column, place) in unknown.iter().enumerate().filter_map(|(k, place)| Some((k, (*place)?))) {
+        let mut out = Places {
+            first: 0,
+            count: 0,
+            columns: [0; COLUMNS],
+        };
+        for (column, place) in unknown
+            .iter()
+            .enumerate()
+            .filter_map(|(k, place)| Some((k, (*place)?)))
+        {
             if out.count == 0 {
                 out.first = place;
             }
@@ -50,7 +58,10 @@ pub(crate) struct BlockSums<T: Real> {
 impl<T: Real> BlockSums<T> {
     /// Zero over the columns of `bodies`, with room for some couplings.
     pub fn new(bodies: usize, couplings: usize) -> BlockSums<T> {
-        BlockSums { own: vec![Matrix6::zeros(); bodies], couplings: Vec::with_capacity(couplings) }
+        BlockSums {
+            own: vec![Matrix6::zeros(); bodies],
+            couplings: Vec::with_capacity(couplings),
+        }
     }
 
     /// Adds a symmetric block to the columns of one body.
@@ -84,7 +95,9 @@ impl<T: Real> BlockSums<T> {
     /// has no place, except on the diagonal.
     pub fn upper(&self, unknown: &[Option<usize>], scale: &[f64]) -> CsMat<T> {
         let places: Vec<Places> = unknown.chunks_exact(COLUMNS).map(Places::new).collect();
-        let mut order: Vec<usize> = (0..self.own.len()).filter(|&body| places[body].count > 0).collect();
+        let mut order: Vec<usize> = (0..self.own.len())
+            .filter(|&body| places[body].count > 0)
+            .collect();
         order.sort_unstable_by_key(|&body| places[body].first);
         let (starts, sorted) = self.by_later_body(&places);
 
@@ -99,8 +112,11 @@ impl<T: Real> BlockSums<T> {
             blocks.clear();
             for &coupling in &sorted[starts[body]..starts[body + 1]] {
                 let (pair, block) = &self.couplings[coupling];
-                let (before, block) =
-                    if pair[1] == body { (pair[0], *block) } else { (pair[1], block.transpose()) };
+                let (before, block) = if pair[1] == body {
+                    (pair[0], *block)
+                } else {
+                    (pair[1], block.transpose())
+                };
                 match blocks.get_mut(index[before]) {
                     Some((known, sum)) if *known == before => *sum += block,
                     _ => {
@@ -118,7 +134,10 @@ impl<T: Real> BlockSums<T> {
                 let to = T::from(scale[column]);
                 for (other, block) in &blocks {
                     let entries = &block.data.0[j];
-                    for (row, i) in places[*other].unknowns().take_while(|&(row, _)| row <= column) {
+                    for (row, i) in places[*other]
+                        .unknowns()
+                        .take_while(|&(row, _)| row <= column)
+                    {
                         let sum = entries[i];
                         if sum != T::zero() || row == column {
                             rows.push(row);
@@ -137,10 +156,16 @@ impl<T: Real> BlockSums<T> {
     fn by_later_body(&self, places: &[Places]) -> (Vec<usize>, Vec<usize>) {
         let later = |pair: [usize; 2]| {
             let [a, b] = pair.map(|body| &places[body]);
-            (a.count > 0 && b.count > 0).then_some(if a.first > b.first { pair[0] } else { pair[1] })
+            (a.count > 0 && b.count > 0).then_some(if a.first > b.first {
+                pair[0]
+            } else {
+                pair[1]
+            })
         };
         let mut starts = vec![0; self.own.len() + 1];
-        self.pairs().filter_map(later).for_each(|body| starts[body + 1] += 1);
+        self.pairs()
+            .filter_map(later)
+            .for_each(|body| starts[body + 1] += 1);
         (0..self.own.len()).for_each(|body| starts[body + 1] += starts[body]);
         let mut next = starts.clone();
         let mut sorted = vec![0; starts[self.own.len()]];
@@ -183,7 +208,9 @@ mod tests {
                 } else {
                     sums.add_coupling(pair, block);
                     dense.fixed_view_mut::<6, 6>(row, column).add_assign(&block);
-                    dense.fixed_view_mut::<6, 6>(column, row).add_assign(&block.transpose());
+                    dense
+                        .fixed_view_mut::<6, 6>(column, row)
+                        .add_assign(&block.transpose());
                 }
             }
             let mut order: Vec<usize> = (0..bodies).collect();
@@ -195,7 +222,10 @@ mod tests {
                     columns.push(6 * body + k);
                 }
             }
-            let scale: Vec<f64> = columns.iter().map(|&column| [0.5, 1.0, 4.0][column % 3]).collect();
+            let scale: Vec<f64> = columns
+                .iter()
+                .map(|&column| [0.5, 1.0, 4.0][column % 3])
+                .collect();
             let upper = sums.upper(&unknown, &scale);
             assert!(upper.iter().all(|(_, (i, j))| i <= j), "the upper triangle");
             for j in 0..columns.len() {

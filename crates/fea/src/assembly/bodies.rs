@@ -70,15 +70,25 @@ impl<T: Real> Bodies<T> {
         let of_lowest = |(body, point): (usize, usize)| {
             group.clear();
             group.push(point);
-            group.extend(std::iter::from_fn(|| others.next_if(|other| other.0 == body)).map(|other| other.1));
+            group.extend(
+                std::iter::from_fn(|| others.next_if(|other| other.0 == body)).map(|other| other.1),
+            );
             if group.len() == 1 {
                 Body::lone(point, &fixed[point])
             } else {
                 Body::new(m, &group, &fixed, &mut arms)
             }
         };
-        let list = lowest_points.into_iter().enumerate().map(of_lowest).collect();
-        Bodies { list, of_point, arms }
+        let list = lowest_points
+            .into_iter()
+            .enumerate()
+            .map(of_lowest)
+            .collect();
+        Bodies {
+            list,
+            of_point,
+            arms,
+        }
     }
 
     /// Makes the rotational columns of some bodies those about other axes.
@@ -203,17 +213,31 @@ impl<T: Real> Body<T> {
     /// elimination solves the constraints for as many of the motions; the others are free.
     ///
     /// All of it is computed in double-doubles, and rounded at the end.
-    fn new(m: &Model, group: &[usize], fixed: &[DofSet], arms: &mut [Vector3<Extended>]) -> Body<T> {
+    fn new(
+        m: &Model,
+        group: &[usize],
+        fixed: &[DofSet],
+        arms: &mut [Vector3<Extended>],
+    ) -> Body<T> {
         let count = |point: usize| fixed[point].iter().filter(|&&fixed| fixed).count();
-        let reference = group.iter().copied().fold(group[0], |a, b| if count(b) > count(a) { b } else { a });
+        let reference = group
+            .iter()
+            .copied()
+            .fold(group[0], |a, b| if count(b) > count(a) { b } else { a });
         let at = |point: usize| vector::<Extended>(m.points[point]);
         let mut size = 0.0_f64;
         for &point in group {
             arms[point] = at(point) - at(reference);
-            size = arms[point].iter().fold(size, |a, x| a.max(x.double().abs()));
+            size = arms[point]
+                .iter()
+                .fold(size, |a, x| a.max(x.double().abs()));
         }
         // Rotations are measured by the displacement of the farthest point: then all motions have one unit.
-        let scale = if size > 0.0 { Extended::from(size) } else { Extended::one() };
+        let scale = if size > 0.0 {
+            Extended::from(size)
+        } else {
+            Extended::one()
+        };
         let unit = |k: usize| if k < 3 { Extended::one() } else { scale };
         let mut rows: Vec<[Extended; 6]> = Vec::new();
         let mut names = Vec::new();
@@ -222,8 +246,13 @@ impl<T: Real> Body<T> {
             let motion: Matrix6<Extended> = arm(&arms[point]);
             for (dof, _) in fixed[point].iter().enumerate().filter(|(_, fixed)| **fixed) {
                 let zero = Extended::zero();
-                let entry =
-                    |k: usize| if motion[(dof, k)] == zero { zero } else { motion[(dof, k)] / unit(k) };
+                let entry = |k: usize| {
+                    if motion[(dof, k)] == zero {
+                        zero
+                    } else {
+                        motion[(dof, k)] / unit(k)
+                    }
+                };
                 rows.push(std::array::from_fn(entry));
                 names.push((point, dof));
             }
@@ -242,7 +271,14 @@ impl<T: Real> Body<T> {
             basis.column_mut(pivot).fill(T::zero());
         }
         let constraints = pivots.iter().map(|&(row, _)| names[row]).collect();
-        Body { reference, basis, is_free: pivots.is_empty(), free, unstiffened: [false; 6], constraints }
+        Body {
+            reference,
+            basis,
+            is_free: pivots.is_empty(),
+            free,
+            unstiffened: [false; 6],
+            constraints,
+        }
     }
 }
 
@@ -257,7 +293,13 @@ fn gauss_jordan(rows: &mut [[Extended; 6]]) -> Vec<(usize, usize)> {
         for &(other, pivot) in &pivots {
             eliminate(&mut rest, &rows[other], pivot);
         }
-        let pivot = (0..6).fold(0, |a, b| if rest[b].magnitude() > rest[a].magnitude() { b } else { a });
+        let pivot = (0..6).fold(0, |a, b| {
+            if rest[b].magnitude() > rest[a].magnitude() {
+                b
+            } else {
+                a
+            }
+        });
         if rest[pivot].double().abs() <= DEPENDENT * before {
             continue;
         }
@@ -265,7 +307,11 @@ fn gauss_jordan(rows: &mut [[Extended; 6]]) -> Vec<(usize, usize)> {
         let factor = rest[pivot];
         for value in &mut rest {
             let small = value.double().abs() <= DEPENDENT * before;
-            *value = if small { Extended::zero() } else { quotient(*value, factor) };
+            *value = if small {
+                Extended::zero()
+            } else {
+                quotient(*value, factor)
+            };
         }
         // Jordan step: earlier rows no longer depend on the new pivot.
         for &(other, _) in &pivots {

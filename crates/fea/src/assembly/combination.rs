@@ -34,14 +34,20 @@ impl<T: Real> Default for Combination<T> {
 impl<T: Real> Combination<T> {
     /// An empty combination with room for some terms.
     pub fn with_capacity(terms: usize) -> Combination<T> {
-        Combination { terms: Vec::with_capacity(terms) }
+        Combination {
+            terms: Vec::with_capacity(terms),
+        }
     }
 
     /// The combination of different columns: column, value, and the sum of the magnitudes that it was added up from.
     pub fn of_columns(columns: impl Iterator<Item = (usize, T, f64)> + Clone) -> Combination<T> {
         let terms = columns.filter(|term| term.1 != T::zero());
         let mut out = Combination::with_capacity(terms.clone().count());
-        out.terms.extend(terms.map(|(column, value, size)| Term { column, value, size }));
+        out.terms.extend(terms.map(|(column, value, size)| Term {
+            column,
+            value,
+            size,
+        }));
         out
     }
 
@@ -62,7 +68,11 @@ impl<T: Real> Combination<T> {
             term.value += value;
             term.size += size;
         } else {
-            self.terms.push(Term { column, value, size });
+            self.terms.push(Term {
+                column,
+                value,
+                size,
+            });
         }
     }
 
@@ -88,17 +98,29 @@ impl Combination {
     /// Terms that are more than the rounding of what cancelled.
     pub fn significant(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let more = |term: &&Term<f64>| term.value.abs() > CANCELLED * term.size;
-        self.terms.iter().filter(more).map(|term| (term.column, term.value))
+        self.terms
+            .iter()
+            .filter(more)
+            .map(|term| (term.column, term.value))
     }
 
     /// Value for given motions of the bodies, or forces on them, six for each body.
     pub fn evaluate(&self, bodies: &[SVector<f64, 6>]) -> f64 {
-        self.terms().map(|(column, value)| value * bodies[column / 6][column % 6]).sum()
+        self.terms()
+            .map(|(column, value)| value * bodies[column / 6][column % 6])
+            .sum()
     }
 
     /// Sum of the products of equal terms.
     pub fn dot(&self, other: &Combination) -> f64 {
-        let factor = |column: usize| other.terms().find(|term| term.0 == column).map_or(0.0, |term| term.1);
-        self.terms().map(|(column, value)| value * factor(column)).sum()
+        let factor = |column: usize| {
+            other
+                .terms()
+                .find(|term| term.0 == column)
+                .map_or(0.0, |term| term.1)
+        };
+        self.terms()
+            .map(|(column, value)| value * factor(column))
+            .sum()
     }
 }

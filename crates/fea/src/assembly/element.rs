@@ -60,8 +60,9 @@ impl Geometry {
     /// The geometry of a member of a checked model.
     fn new(m: &Model, member: &Member) -> Result<Geometry, EntryFault> {
         let [[p, q], [a, b]] = [member.points.map(|point| m.points[point]), member.offsets];
-        let along: Vector3<Extended> =
-            Vector3::from(std::array::from_fn(|k| exact_sum([q[k], -p[k], b[k], -a[k]])));
+        let along: Vector3<Extended> = Vector3::from(std::array::from_fn(|k| {
+            exact_sum([q[k], -p[k], b[k], -a[k]])
+        }));
         let length = norm(&along);
         let sizes = (0..3).flat_map(|k| [(p[k] + a[k]).abs(), (q[k] + b[k]).abs()]);
         let far = sizes.fold(0.0_f64, f64::max);
@@ -69,10 +70,16 @@ impl Geometry {
         if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
             return Err(EntryFault::NoLength);
         }
-        let Triad { axes, error } = local_axes(along / length, vector(member.orientation), member.kind)
-            .ok_or(EntryFault::Orientation)?;
+        let Triad { axes, error } =
+            local_axes(along / length, vector(member.orientation), member.kind)
+                .ok_or(EntryFault::Orientation)?;
         // The first axis keeps all its digits.
-        Ok(Geometry { far, axes, axes_error: [0.0, error, error], length })
+        Ok(Geometry {
+            far,
+            axes,
+            axes_error: [0.0, error, error],
+            length,
+        })
     }
 }
 
@@ -99,7 +106,13 @@ impl Geometry {
 
 /// Axes with components of at most `size` set to zero.
 pub(crate) fn without_rounding(axes: &Matrix3<Extended>, size: f64) -> Matrix3<Extended> {
-    axes.map(|a| if a.double().abs() <= size { Extended::zero() } else { a })
+    axes.map(|a| {
+        if a.double().abs() <= size {
+            Extended::zero()
+        } else {
+            a
+        }
+    })
 }
 
 /// Motion of the flexible ends of a member with releases, local axes.
@@ -185,7 +198,10 @@ impl<T: Real> Element<T> {
     /// As [`Element::all`].
     pub fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
         let member = &m.members[index];
-        let invalid = |fault| Error::Invalid { entry: ModelEntry::Member(index), fault };
+        let invalid = |fault| Error::Invalid {
+            entry: ModelEntry::Member(index),
+            fault,
+        };
         let geometry = Geometry::new(m, member).map_err(invalid)?;
         let length = T::rounded(geometry.length);
         let (axes, axes_error) = geometry.rounded_axes();
@@ -222,14 +238,20 @@ impl<T: Real> Element<T> {
 
     /// Local stiffness between the tips of the rigid offsets, releases condensed.
     pub fn stiffness(&self) -> Matrix12<T> {
-        self.released.as_ref().map_or_else(|| self.unreleased_stiffness(), |released| released.stiffness)
+        self.released.as_ref().map_or_else(
+            || self.unreleased_stiffness(),
+            |released| released.stiffness,
+        )
     }
 
     /// The same before releases.
     pub fn unreleased_stiffness(&self) -> Matrix12<T> {
         let mut stiffness = stiffness(&self.flexibility, self.length);
         if self.is_string {
-            add_string(&mut stiffness, T::from(self.flexibility.tension) / self.length);
+            add_string(
+                &mut stiffness,
+                T::from(self.flexibility.tension) / self.length,
+            );
         }
         stiffness
     }
@@ -258,7 +280,11 @@ impl Element {
     /// flexible ends, local axes; `None` where it adds nothing.
     ///
     /// It is N times the deflection from the first end, or its slope ([`ForceComponent::under_tension`]).
-    pub fn tension_row(&self, place: f64, component: ForceComponent) -> Option<RowSVector<f64, 12>> {
+    pub fn tension_row(
+        &self,
+        place: f64,
+        component: ForceComponent,
+    ) -> Option<RowSVector<f64, 12>> {
         let tension = self.flexibility.tension;
         let (plane, factors) = component.under_tension().filter(|_| tension != 0.0)?;
         let own = &bending_planes(&self.flexibility)[plane];
@@ -271,7 +297,12 @@ impl Element {
             return None;
         };
         deflection[0] -= 1.0;
-        let at = [own.deflection, own.rotation, own.deflection + 6, own.rotation + 6];
+        let at = [
+            own.deflection,
+            own.rotation,
+            own.deflection + 6,
+            own.rotation + 6,
+        ];
         let mut row = RowSVector::<f64, 12>::zeros();
         for (k, sign) in [1.0, own.sign, 1.0, own.sign].into_iter().enumerate() {
             row[at[k]] = tension * sign * (factors[0] * deflection[k] + factors[1] * slope[k]);
@@ -286,10 +317,15 @@ impl Element {
             return;
         }
         for plane in bending_planes(&self.flexibility) {
-            let Some(column) = self.column(&plane) else { continue };
+            let Some(column) = self.column(&plane) else {
+                continue;
+            };
             let factor = column.uniform_end_moment();
             for row in [plane.rotation, plane.rotation + 6] {
-                forces.row_mut(row).iter_mut().for_each(|force| *force *= factor);
+                forces
+                    .row_mut(row)
+                    .iter_mut()
+                    .for_each(|force| *force *= factor);
             }
         }
     }
@@ -301,11 +337,16 @@ impl Element {
         mass: f64,
         section: &splines::InternalForce,
     ) -> Option<(usize, f64)> {
-        let (plane, factors) =
-            section.component.under_tension().filter(|_| self.flexibility.tension != 0.0)?;
+        let (plane, factors) = section
+            .component
+            .under_tension()
+            .filter(|_| self.flexibility.tension != 0.0)?;
         let own = &bending_planes(&self.flexibility)[plane];
         let [deflected, slope] = self.column(own)?.under_uniform_load(section.place);
-        Some((own.deflection, mass * (factors[0] * deflected + factors[1] * slope)))
+        Some((
+            own.deflection,
+            mass * (factors[0] * deflected + factors[1] * slope),
+        ))
     }
 
     /// The plane under the axial force; `None` where it has no bending stiffness.
@@ -316,7 +357,9 @@ impl Element {
 
     /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.
     pub fn recovery(&self) -> Matrix12 {
-        self.released.as_ref().map_or(Matrix12::identity(), |released| released.recovery)
+        self.released
+            .as_ref()
+            .map_or(Matrix12::identity(), |released| released.recovery)
     }
 }
 
@@ -328,7 +371,8 @@ pub(crate) fn vector<T: Real>(v: [f64; 3]) -> Vector3<T> {
 /// Length of a vector; exact for one along a global axis.
 pub(crate) fn norm(v: &Vector3<Extended>) -> Extended {
     if only_component(v).is_some() {
-        v.iter().fold(Extended::zero(), |sum, x| sum + x.magnitude())
+        v.iter()
+            .fold(Extended::zero(), |sum, x| sum + x.magnitude())
     } else {
         v.dot(v).root()
     }
@@ -369,7 +413,13 @@ impl Triad {
     pub fn new(x: Vector3<Extended>, y: Vector3<Extended>) -> Option<Triad> {
         let zero = Extended::zero();
         let clean = |v: Vector3<Extended>| {
-            v.map(|a| if a.double().abs() <= 4.0 * Extended::ROUNDING { zero } else { a })
+            v.map(|a| {
+                if a.double().abs() <= 4.0 * Extended::ROUNDING {
+                    zero
+                } else {
+                    a
+                }
+            })
         };
         let size = norm(&y);
         if let Some(along) = only_component(&x) {
@@ -385,13 +435,17 @@ impl Triad {
         let x = clean(x);
         let normal = y - x * x.dot(&y);
         let least = norm(&normal);
-        if !(size > zero && size.double().is_finite() && least.double() > PARALLEL * size.double()) {
+        if !(size > zero && size.double().is_finite() && least.double() > PARALLEL * size.double())
+        {
             return None;
         }
         let y = clean(normal / least);
         let z = clean(x.cross(&y));
         let error = 4.0 * size.double() / least.double();
-        Some(Triad { axes: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]), error })
+        Some(Triad {
+            axes: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]),
+            error,
+        })
     }
 }
 
@@ -400,27 +454,56 @@ impl Triad {
     fn along_coordinates(index: [usize; 2], signs: [Extended; 2]) -> Triad {
         let axis = |k: usize| {
             let mut axis = Vector3::zeros();
-            axis[index[k]] = if signs[k] < Extended::zero() { -1.0 } else { 1.0 };
+            axis[index[k]] = if signs[k] < Extended::zero() {
+                -1.0
+            } else {
+                1.0
+            };
             axis
         };
         let (x, y): (Vector3<f64>, Vector3<f64>) = (axis(0), axis(1));
         let axes = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
         // Adding 0.0 turns -0.0 into 0.0.
-        Triad { axes: axes.map(|a| Extended::from(a + 0.0)), error: 0.0 }
+        Triad {
+            axes: axes.map(|a| Extended::from(a + 0.0)),
+            error: 0.0,
+        }
     }
 }
 
 /// Local axes of a member. Trusses and rods do not use their y axis: without an orientation any normal will do.
-fn local_axes(x: Vector3<Extended>, orientation: Vector3<Extended>, kind: MemberKind) -> Option<Triad> {
-    let least = (0..3).fold(0, |a, b| if x[b].magnitude() < x[a].magnitude() { b } else { a });
+fn local_axes(
+    x: Vector3<Extended>,
+    orientation: Vector3<Extended>,
+    kind: MemberKind,
+) -> Option<Triad> {
+    let least = (0..3).fold(0, |a, b| {
+        if x[b].magnitude() < x[a].magnitude() {
+            b
+        } else {
+            a
+        }
+    });
     let any = || Triad::new(x, Matrix3::identity().column(least).into());
-    Triad::new(x, orientation).or_else(|| if kind == MemberKind::Beam { None } else { any() })
+    Triad::new(x, orientation).or_else(|| {
+        if kind == MemberKind::Beam {
+            None
+        } else {
+            any()
+        }
+    })
 }
 
 /// The flexibility of a member that resists its change of length, twist with the flexibility `torsion`, and no bending.
 fn without_bending(torsion: f64, f: Flexibility) -> Flexibility {
     let none = f64::INFINITY;
-    Flexibility { axial: f.axial, torsion, bending_y: none, bending_z: none, ..Flexibility::default() }
+    Flexibility {
+        axial: f.axial,
+        torsion,
+        bending_y: none,
+        bending_z: none,
+        ..Flexibility::default()
+    }
 }
 
 /// Adds the resistance of a string, the axial force divided by the length, against transverse displacements of the ends.
@@ -444,14 +527,22 @@ fn add_string<T: Real>(k: &mut Matrix12<T>, string: T) {
 fn stiffness<T: Real>(f: &Flexibility, length: T) -> Matrix12<T> {
     let mut k = Matrix12::zeros();
     // An infinite flexibility leaves exact zeros, by which unstiffened degrees of freedom are recognised.
-    for (at, stiffness) in [(0, inverse(f.axial, length)), (3, inverse(f.torsion, length))] {
+    for (at, stiffness) in [
+        (0, inverse(f.axial, length)),
+        (3, inverse(f.torsion, length)),
+    ] {
         k[(at, at)] = stiffness;
         k[(at + 6, at + 6)] = stiffness;
         k[(at, at + 6)] = -stiffness;
         k[(at + 6, at)] = -stiffness;
     }
     for plane in bending_planes(f) {
-        let at = [plane.deflection, plane.rotation, plane.deflection + 6, plane.rotation + 6];
+        let at = [
+            plane.deflection,
+            plane.rotation,
+            plane.deflection + 6,
+            plane.rotation + 6,
+        ];
         for (i, row) in bending_stiffness(&plane, length).iter().enumerate() {
             for (j, &value) in row.iter().enumerate() {
                 k[(at[i], at[j])] = value;
@@ -472,7 +563,10 @@ fn bending_stiffness<T: Real>(plane: &BendingPlane, length: T) -> [[T; 4]; 4] {
     let phi = number(12.0) * ei * number(plane.shear) / square;
     let r = ei / (square * length * (T::one() + phi));
     let (a, b) = (number(12.0) * r, number(plane.sign * 6.0) * length * r);
-    let (c, d) = ((number(4.0) + phi) * square * r, (number(2.0) - phi) * square * r);
+    let (c, d) = (
+        (number(4.0) + phi) * square * r,
+        (number(2.0) - phi) * square * r,
+    );
     [[a, b, -a, b], [b, c, -b, d], [-a, -b, a, -b], [b, d, -b, c]]
 }
 
@@ -493,7 +587,11 @@ fn stability_stiffness<T: Real>(plane: &BendingPlane, length: T) -> [[T; 4]; 4] 
 
 /// 1/(flexibility factor), 0 for an infinite flexibility.
 fn inverse<T: Real>(flexibility: f64, factor: T) -> T {
-    if flexibility.is_finite() { T::one() / (T::from(flexibility) * factor) } else { T::zero() }
+    if flexibility.is_finite() {
+        T::one() / (T::from(flexibility) * factor)
+    } else {
+        T::zero()
+    }
 }
 
 /// Static condensation of the released degrees of freedom r of a member, one after the other:
@@ -541,5 +639,12 @@ fn condense<T: Real>(mut k: Matrix12<T>, releases: &[DofSet; 2]) -> Result<Relea
     // Symmetric to the last bit, whatever the order of the products above.
     let stiffness = (k + k.transpose()) * T::from(0.5);
     let ends = releases.map(|set| set.contains(&true));
-    Ok(Released { ends, stiffness, recovery, compliance, growth, negative })
+    Ok(Released {
+        ends,
+        stiffness,
+        recovery,
+        compliance,
+        growth,
+        negative,
+    })
 }

@@ -21,8 +21,15 @@ pub(crate) fn end_motions<T: Real>(
     element: &Element<T>,
     bodies: &Bodies<T>,
 ) -> ([Matrix6<T>; 2], [Matrix6; 2]) {
-    let sizes = Matrix3::from_fn(|i, j| element.axes[(i, j)].double().abs() + element.axes_error[i]);
-    let clean = |v: T, b: f64| if v.double().abs() <= CANCELLED * T::ROUNDING * b { T::zero() } else { v };
+    let sizes =
+        Matrix3::from_fn(|i, j| element.axes[(i, j)].double().abs() + element.axes_error[i]);
+    let clean = |v: T, b: f64| {
+        if v.double().abs() <= CANCELLED * T::ROUNDING * b {
+            T::zero()
+        } else {
+            v
+        }
+    };
     let mut ends = [diagonal_blocks(&element.axes.zip_map(&sizes, clean)); 2];
     let mut bulks = [diagonal_blocks(&sizes); 2];
     for (end, (value, bulk)) in ends.iter_mut().zip(&mut bulks).enumerate() {
@@ -40,7 +47,8 @@ pub(crate) fn end_motions<T: Real>(
 pub(crate) fn block_diagonal<T: Real>(blocks: &[Matrix6<T>; 2]) -> Matrix12<T> {
     let mut out = Matrix12::zeros();
     for (end, block) in blocks.iter().enumerate() {
-        out.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(block);
+        out.fixed_view_mut::<6, 6>(6 * end, 6 * end)
+            .copy_from(block);
     }
     out
 }
@@ -56,7 +64,11 @@ pub(crate) fn product<T: Real, const N: usize>(
     b: &SMatrix<T, N, N>,
 ) -> SMatrix<T, N, N> {
     let mut out = SMatrix::<T, N, N>::zeros();
-    out.data.0.iter_mut().zip(&b.data.0).for_each(|(out, factors)| *out = combined(&a.data.0, factors));
+    out.data
+        .0
+        .iter_mut()
+        .zip(&b.data.0)
+        .for_each(|(out, factors)| *out = combined(&a.data.0, factors));
     out
 }
 
@@ -74,9 +86,16 @@ pub(super) fn congruence<T: Real>(k: &Matrix12<T>, b: &[Matrix6<T>; 2]) -> Matri
 /// A B for B with two diagonal blocks.
 fn times_blocks<T: Real>(a: &Matrix12<T>, b: &[Matrix6<T>; 2]) -> Matrix12<T> {
     let mut out = Matrix12::zeros();
-    let ends = out.data.0.chunks_exact_mut(6).zip(a.data.0.chunks_exact(6)).zip(b);
+    let ends = out
+        .data
+        .0
+        .chunks_exact_mut(6)
+        .zip(a.data.0.chunks_exact(6))
+        .zip(b);
     for ((out, columns), block) in ends {
-        out.iter_mut().zip(&block.data.0).for_each(|(out, factors)| *out = combined(columns, factors));
+        out.iter_mut()
+            .zip(&block.data.0)
+            .for_each(|(out, factors)| *out = combined(columns, factors));
     }
     out
 }
@@ -85,8 +104,16 @@ fn times_blocks<T: Real>(a: &Matrix12<T>, b: &[Matrix6<T>; 2]) -> Matrix12<T> {
 fn combined<T: Real, const N: usize>(columns: &[[T; N]], factors: &[T]) -> [T; N] {
     let zero = T::zero();
     let mut sum = [zero; N];
-    for (column, &factor) in columns.iter().zip(factors).filter(|(_, factor)| **factor != zero) {
-        for (sum, &value) in sum.iter_mut().zip(column).filter(|(_, value)| T::NATIVE || **value != zero) {
+    for (column, &factor) in columns
+        .iter()
+        .zip(factors)
+        .filter(|(_, factor)| **factor != zero)
+    {
+        for (sum, &value) in sum
+            .iter_mut()
+            .zip(column)
+            .filter(|(_, value)| T::NATIVE || **value != zero)
+        {
             *sum += value * factor;
         }
     }

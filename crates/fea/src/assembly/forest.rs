@@ -21,7 +21,12 @@ const NONE: usize = usize::MAX;
 pub(super) fn order_of_forest(graph: &Graph) -> Option<Vec<usize>> {
     let n = graph.len();
     let mut roots = roots_of_forest(graph)?;
-    let mut pieces = Pieces { graph, is_ordered: vec![false; n], above: vec![NONE; n], size: vec![0; n] };
+    let mut pieces = Pieces {
+        graph,
+        is_ordered: vec![false; n],
+        above: vec![NONE; n],
+        size: vec![0; n],
+    };
     let mut reached = Vec::with_capacity(n);
     let mut reversed = Vec::with_capacity(n);
     while let Some(root) = roots.pop() {
@@ -36,7 +41,12 @@ pub(super) fn order_of_forest(graph: &Graph) -> Option<Vec<usize>> {
         let centre = pieces.centre(&reached);
         pieces.is_ordered[centre] = true;
         reversed.push(centre);
-        roots.extend(graph.neighbours_of(centre).iter().filter(|other| !pieces.is_ordered[**other]));
+        roots.extend(
+            graph
+                .neighbours_of(centre)
+                .iter()
+                .filter(|other| !pieces.is_ordered[**other]),
+        );
     }
     reversed.reverse();
     Some(reversed)
@@ -117,8 +127,10 @@ mod tests {
     fn forests_are_ordered_and_loops_refused() {
         for n in [0, 1, 2, 7, 500] {
             // node k hangs on an earlier one, every tenth on none
-            let edges: Vec<[usize; 2]> =
-                (1..n).filter(|k| k % 10 != 0).map(|k| [k, (7 * k * k + 3) % k]).collect();
+            let edges: Vec<[usize; 2]> = (1..n)
+                .filter(|k| k % 10 != 0)
+                .map(|k| [k, (7 * k * k + 3) % k])
+                .collect();
             let mut order = order_of_forest(&Graph::new(n, &edges)).expect("no loops");
             order.sort_unstable();
             assert!(order.into_iter().eq(0..n), "{n}");

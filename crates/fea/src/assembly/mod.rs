@@ -27,8 +27,8 @@ mod turning;
 pub(crate) use bodies::{Bodies, arm};
 pub(crate) use combination::Combination;
 pub(crate) use element::{
-    BendingPlane, Element, Geometry, Matrix6, Matrix12, Released, Triad, bending_planes, diagonal_blocks,
-    vector, without_rounding,
+    BendingPlane, Element, Geometry, Matrix6, Matrix12, Released, Triad, bending_planes,
+    diagonal_blocks, vector, without_rounding,
 };
 pub(crate) use ends::{block_diagonal, end_motions, product, transformation};
 pub(crate) use precision::{Extended, Real, exact_sum};

@@ -42,12 +42,20 @@ pub(crate) fn order(graph: &Graph) -> (Vec<usize>, f64) {
 /// Amestoy, Davis and Duff (1996), SIAM J. Matrix Anal. Appl. 17.
 fn minimum_degree(graph: &Graph) -> Option<Vec<usize>> {
     let n = graph.len();
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &graph.starts, None, &graph.neighbours);
+    let pattern =
+        SymbolicSparseColMatRef::new_checked(n, n, &graph.starts, None, &graph.neighbours);
     let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
     let request = amd::order_maybe_unsorted_scratch::<usize>(n, graph.neighbours.len());
     let mut memory = MemBuffer::try_new(request).ok()?;
     let stack = MemStack::new(&mut memory);
-    amd::order_maybe_unsorted(&mut forward, &mut inverse, pattern, amd::Control::default(), stack).ok()?;
+    amd::order_maybe_unsorted(
+        &mut forward,
+        &mut inverse,
+        pattern,
+        amd::Control::default(),
+        stack,
+    )
+    .ok()?;
     Some(forward)
 }
 
@@ -88,7 +96,10 @@ fn nested_dissection(graph: &Graph) -> Vec<usize> {
 /// What a part of a graph is divided into.
 enum Division {
     /// Two sides, and the nodes between them.
-    Separated { sides: [Vec<usize>; 2], separator: Vec<usize> },
+    Separated {
+        sides: [Vec<usize>; 2],
+        separator: Vec<usize>,
+    },
     /// Parts that nothing connects.
     Components(Vec<Vec<usize>>),
     /// Every node touches every other.
@@ -119,7 +130,13 @@ struct Dissection<'a> {
 impl Dissection<'_> {
     fn new(graph: &Graph) -> Dissection<'_> {
         let n = graph.len();
-        Dissection { graph, part: vec![0; n], parts: 0, distance: vec![0; n], place: vec![0; n] }
+        Dissection {
+            graph,
+            part: vec![0; n],
+            parts: 0,
+            distance: vec![0; n],
+            place: vec![0; n],
+        }
     }
 
     fn divide(&mut self, part: &[usize]) -> Division {
@@ -166,7 +183,8 @@ impl Dissection<'_> {
     }
 
     fn unreach(&mut self, part: &[usize]) {
-        part.iter().for_each(|&node| self.distance[node] = usize::MAX);
+        part.iter()
+            .for_each(|&node| self.distance[node] = usize::MAX);
     }
 
     /// Breadth-first search within a part: the nodes that are connected to `start`, by increasing distance.
@@ -190,8 +208,11 @@ impl Dissection<'_> {
 
     /// The nodes by their distance `first` from one end less that from the other, at most `farthest`.
     fn by_difference(&self, nodes: &[usize], first: &[usize], farthest: usize) -> Vec<usize> {
-        let keys: Vec<usize> =
-            nodes.iter().zip(first).map(|(&node, first)| first + farthest - self.distance[node]).collect();
+        let keys: Vec<usize> = nodes
+            .iter()
+            .zip(first)
+            .map(|(&node, first)| first + farthest - self.distance[node])
+            .collect();
         let mut starts = vec![0; 2 * farthest + 2];
         keys.iter().for_each(|key| starts[key + 1] += 1);
         (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
@@ -207,7 +228,10 @@ impl Dissection<'_> {
     fn find_cut(&mut self, sorted: Vec<usize>, best: &mut Option<Cut>) {
         let n = sorted.len();
         let own = self.part[sorted[0]];
-        sorted.iter().enumerate().for_each(|(k, &node)| self.place[node] = k);
+        sorted
+            .iter()
+            .enumerate()
+            .for_each(|(k, &node)| self.place[node] = k);
         // Changes of the sizes of both separators from one place to the next.
         let mut changes = vec![[0_isize; 2]; n + 1];
         for (k, &node) in sorted.iter().enumerate() {
@@ -223,13 +247,19 @@ impl Dissection<'_> {
             changes[low + 1][1] += 1;
             changes[k + 1][1] -= 1;
         }
-        let mut found = best.as_ref().map_or((f64::INFINITY, None), |cut| (cut.ratio, None));
+        let mut found = best
+            .as_ref()
+            .map_or((f64::INFINITY, None), |cut| (cut.ratio, None));
         let mut sizes = [0_isize; 2];
         for (place, change) in changes.iter().enumerate().take(n) {
             for second in [0, 1] {
                 sizes[second] += change[second];
                 let size = sizes[second] as usize;
-                let sides = if second == 0 { [place - size, n - place] } else { [place, n - place - size] };
+                let sides = if second == 0 {
+                    [place - size, n - place]
+                } else {
+                    [place, n - place - size]
+                };
                 let ratio = size as f64 / (sides[0] * sides[1]) as f64;
                 // No sides give infinity, or no number.
                 if ratio < found.0 {
@@ -238,19 +268,36 @@ impl Dissection<'_> {
             }
         }
         if let (ratio, Some((place, second))) = found {
-            *best = Some(Cut { ratio, sorted, place, second });
+            *best = Some(Cut {
+                ratio,
+                sorted,
+                place,
+                second,
+            });
         }
     }
 
     fn separate(&mut self, cut: Cut) -> Division {
-        let Cut { sorted, place, second, .. } = cut;
+        let Cut {
+            sorted,
+            place,
+            second,
+            ..
+        } = cut;
         let own = self.part[sorted[0]];
-        sorted.iter().enumerate().for_each(|(k, &node)| self.place[node] = k);
-        let mut sides = [Vec::with_capacity(place), Vec::with_capacity(sorted.len() - place)];
+        sorted
+            .iter()
+            .enumerate()
+            .for_each(|(k, &node)| self.place[node] = k);
+        let mut sides = [
+            Vec::with_capacity(place),
+            Vec::with_capacity(sorted.len() - place),
+        ];
         let mut separator = Vec::new();
         for (k, &node) in sorted.iter().enumerate() {
             let side = k >= place;
-            let touches = |&other: &usize| self.part[other] == own && (self.place[other] >= place) != side;
+            let touches =
+                |&other: &usize| self.part[other] == own && (self.place[other] >= place) != side;
             if side == second && self.graph.neighbours_of(node).iter().any(touches) {
                 separator.push(node);
             } else {
@@ -280,7 +327,10 @@ impl Work {
     fn new(graph: &Graph, order: &[usize]) -> Work {
         let n = graph.len();
         let mut place = vec![0; n];
-        order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
+        order
+            .iter()
+            .enumerate()
+            .for_each(|(k, &node)| place[node] = k);
         let none = usize::MAX;
         let (mut parent, mut seen, mut count) = (vec![none; n], vec![none; n], vec![1.0; n]);
         for (k, &node) in order.iter().enumerate() {
@@ -304,7 +354,10 @@ impl Work {
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / n.max(1) as f64;
         let loads = 2.0 * LOADS * mean(&below) + LOADS * LOADS / 6.0 * mean(&depth);
-        Work { factor: count.iter().map(|c| c * c).sum(), loads }
+        Work {
+            factor: count.iter().map(|c| c * c).sum(),
+            loads,
+        }
     }
 }
 
@@ -321,7 +374,9 @@ mod tests {
             for j in 0..q {
                 for k in 0..r {
                     let next = [(i + 1, j, k), (i, j + 1, k), (i, j, k + 1)];
-                    let inside = next.into_iter().filter(|&(i, j, k)| i < p && j < q && k < r);
+                    let inside = next
+                        .into_iter()
+                        .filter(|&(i, j, k)| i < p && j < q && k < r);
                     edges.extend(inside.map(|(a, b, c)| [id(i, j, k), id(a, b, c)]));
                 }
             }
@@ -356,14 +411,25 @@ mod tests {
     fn orders_of_forests_are_as_good_as_the_others() {
         let runway: Vec<[usize; 2]> = (0..1000)
             .map(|k| [k, k + 1])
-            .chain((0..400).map(|k| if k % 4 == 0 { [10 * (k / 4), 1001 + k] } else { [1000 + k, 1001 + k] }))
+            .chain((0..400).map(|k| {
+                if k % 4 == 0 {
+                    [10 * (k / 4), 1001 + k]
+                } else {
+                    [1000 + k, 1001 + k]
+                }
+            }))
             .collect();
         let shuffled = |k: usize| (k * 617) % 1000;
         let girder: Vec<[usize; 2]> = (0..999).map(|k| [shuffled(k), shuffled(k + 1)]).collect();
-        let star: Vec<[usize; 2]> = (1..300).map(|k| [if k < 30 { 0 } else { k - 29 }, k]).collect();
+        let star: Vec<[usize; 2]> = (1..300)
+            .map(|k| [if k < 30 { 0 } else { k - 29 }, k])
+            .collect();
         for (n, edges) in [(1401, runway), (1000, girder), (300, star)] {
             let graph = Graph::new(n, &edges);
-            let others = [nested_dissection(&graph), minimum_degree(&graph).expect("small")];
+            let others = [
+                nested_dissection(&graph),
+                minimum_degree(&graph).expect("small"),
+            ];
             let least = others
                 .map(|order| Work::new(&graph, &order).total())
                 .into_iter()
@@ -382,7 +448,8 @@ mod tests {
 
     #[test]
     fn parts_that_nothing_connects_and_nodes_that_all_touch_are_ordered() {
-        let mut edges: Vec<[usize; 2]> = (0..20).flat_map(|a| (0..a).map(move |b| [a, b])).collect();
+        let mut edges: Vec<[usize; 2]> =
+            (0..20).flat_map(|a| (0..a).map(move |b| [a, b])).collect();
         edges.extend((21..60).map(|k| [k, k + 1]));
         let mut order = nested_dissection(&Graph::new(80, &edges));
         order.sort_unstable();

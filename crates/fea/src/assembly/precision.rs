@@ -119,7 +119,9 @@ pub(crate) fn exact_sum<const N: usize>(terms: [f64; N]) -> Extended {
         }
         expansion[count] = carried;
     }
-    expansion.into_iter().fold(Extended::zero(), |sum, part| sum + Extended::from(part))
+    expansion
+        .into_iter()
+        .fold(Extended::zero(), |sum, part| sum + Extended::from(part))
 }
 
 #[cfg(test)]

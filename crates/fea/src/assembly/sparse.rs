@@ -38,7 +38,10 @@ pub(crate) fn symmetric_product(upper: &CsMat<f64>, x: DVectorView<'_, f64>) -> 
 }
 
 /// Product of the symmetric matrix whose upper triangle is given with W vectors, side by side in each row.
-pub(crate) fn symmetric_product_lanes<const W: usize>(upper: &CsMat<f64>, x: &[[f64; W]]) -> Vec<[f64; W]> {
+pub(crate) fn symmetric_product_lanes<const W: usize>(
+    upper: &CsMat<f64>,
+    x: &[[f64; W]],
+) -> Vec<[f64; W]> {
     let mut out = vec![[0.0; W]; x.len()];
     for (j, column) in upper.outer_iterator().enumerate() {
         let (value, mut sum) = (x[j], [0.0; W]);
@@ -56,14 +59,18 @@ pub(crate) fn symmetric_product_lanes<const W: usize>(upper: &CsMat<f64>, x: &[[
 /// Start vector of power and inverse iterations: without structure, so that no eigenvector is orthogonal to
 /// it by symmetry.
 pub(crate) fn irregular_vector(n: usize) -> Vec<f64> {
-    (0..n).map(|k| 1.0 + 0.5 * ((k * 7919 % 1009) as f64 / 1009.0)).collect()
+    (0..n)
+        .map(|k| 1.0 + 0.5 * ((k * 7919 % 1009) as f64 / 1009.0))
+        .collect()
 }
 
 /// Takes steps of inverse iteration from `x`, each divided by its largest component. `solve` applies the inverse in place.
 pub(crate) fn inverse_iterations(x: &mut [f64], steps: usize, mut solve: impl FnMut(&mut [f64])) {
     for _ in 0..steps {
         solve(x);
-        let size = x.iter().fold(0.0_f64, |most, component| most.max(component.abs()));
+        let size = x
+            .iter()
+            .fold(0.0_f64, |most, component| most.max(component.abs()));
         x.iter_mut().for_each(|component| *component /= size);
     }
 }

@@ -82,8 +82,12 @@ impl<T: Real> Contributions<T> {
             diagonal: vec![0.0; 6 * count],
             bulk: vec![0.0; 6 * count],
         };
-        elements.iter().for_each(|element| out.add_member(element, bodies));
-        m.springs.iter().for_each(|spring| out.add_spring(spring, bodies));
+        elements
+            .iter()
+            .for_each(|element| out.add_member(element, bodies));
+        m.springs
+            .iter()
+            .for_each(|spring| out.add_spring(spring, bodies));
         out.rotational = (0..count).map(|body| out.sums.rotational(body)).collect();
         m.arms.iter().for_each(|arm| out.add_arm(arm, bodies));
         out
@@ -112,7 +116,9 @@ impl<T: Real> Contributions<T> {
         let k = congruence(local, &b);
         // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry. An error dB of the
         // transformation changes the entry by 2 B^T K dB + dB^T K dB.
-        let roots = element.diagonal_sizes(&unreleased).map(|size| (growth * size).sqrt());
+        let roots = element
+            .diagonal_sizes(&unreleased)
+            .map(|size| (growth * size).sqrt());
         for (end, &body) in pair.iter().enumerate() {
             let roots = &roots[6 * end..6 * end + 6];
             for i in 0..6 {
@@ -128,9 +134,11 @@ impl<T: Real> Contributions<T> {
                 self.diagonal[6 * body + i] += diagonal;
                 self.bulk[6 * body + i] += own * own + moved * lost;
             }
-            self.sums.add_own(body, &k.fixed_view::<6, 6>(6 * end, 6 * end).into_owned());
+            self.sums
+                .add_own(body, &k.fixed_view::<6, 6>(6 * end, 6 * end).into_owned());
         }
-        self.sums.add_coupling(pair, k.fixed_view::<6, 6>(0, 6).into_owned());
+        self.sums
+            .add_coupling(pair, k.fixed_view::<6, 6>(0, 6).into_owned());
     }
 
     fn add_spring(&mut self, spring: &GroundSpring, bodies: &Bodies<T>) {
@@ -167,7 +175,8 @@ impl<T: Real> Contributions<T> {
     /// Whether nothing seems to stiffen a column that no support fixes, or a rotation of a body about some axis.
     fn may_lack_stiffness(&self, bodies: &Bodies) -> bool {
         let columns = bodies.list.iter().enumerate();
-        let mut columns = columns.flat_map(|(body, own)| (0..6).map(move |k| (6 * body + k, own.free[k])));
+        let mut columns =
+            columns.flat_map(|(body, own)| (0..6).map(move |k| (6 * body + k, own.free[k])));
         columns.any(|(column, is_free)| is_free && self.diagonal[column] <= 0.0)
             || self.rotational.iter().any(|block| {
                 let doubles = block.map(|row| row.map(|x| x.double()));
@@ -176,13 +185,21 @@ impl<T: Real> Contributions<T> {
     }
 
     fn cancellation(&self, numbering: &Numbering) -> f64 {
-        numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c].abs()).fold(1.0, f64::max)
+        numbering
+            .column
+            .iter()
+            .map(|&c| self.bulk[c] / self.diagonal[c].abs())
+            .fold(1.0, f64::max)
     }
 
     fn stiffness(&self, numbering: Numbering) -> ScaledStiffness<T> {
         let cancellation = self.cancellation(&numbering);
         let upper = self.sums.upper(&numbering.unknown, &numbering.scale);
-        ScaledStiffness { upper, numbering, cancellation }
+        ScaledStiffness {
+            upper,
+            numbering,
+            cancellation,
+        }
     }
 }
 
@@ -196,18 +213,28 @@ impl ScaledStiffness {
     ///
     /// # Errors
     /// As [`Element::all`].
-    pub fn new(m: &Model, elements: &[Element], bodies: &mut Bodies) -> Result<ScaledStiffness, Error> {
+    pub fn new(
+        m: &Model,
+        elements: &[Element],
+        bodies: &mut Bodies,
+    ) -> Result<ScaledStiffness, Error> {
         let mut parts = Contributions::new(m, elements, bodies);
         // An axial force stiffens no rotation that nothing else stiffens: only where something seems to be missing, the
         // stiffness without the preload has to be known.
-        let unloaded =
-            if m.is_preloaded() && parts.may_lack_stiffness(bodies) { Some(m.unloaded()) } else { None };
+        let unloaded = if m.is_preloaded() && parts.may_lack_stiffness(bodies) {
+            Some(m.unloaded())
+        } else {
+            None
+        };
         let own = unloaded.as_ref().map(Element::all).transpose()?;
-        let mut elastic =
-            unloaded.as_ref().zip(own.as_ref()).map(|(m, own)| Contributions::new(m, own, bodies));
+        let mut elastic = unloaded
+            .as_ref()
+            .zip(own.as_ref())
+            .map(|(m, own)| Contributions::new(m, own, bodies));
         let turned = match (&unloaded, &own, &elastic) {
             (Some(unloaded), Some(own), Some(elastic)) => {
-                let armed = |body: usize| m.arms.iter().any(|arm| bodies.of_point[arm.point] == body);
+                let armed =
+                    |body: usize| m.arms.iter().any(|arm| bodies.of_point[arm.point] == body);
                 let mut turned = turned_axes(unloaded, own, bodies, elastic)?;
                 turned.retain(|axes| !armed(axes.body));
                 turned
@@ -218,20 +245,31 @@ impl ScaledStiffness {
         if !turned.is_empty() {
             bodies.turn(&turned);
             parts = Contributions::new(m, elements, bodies);
-            elastic = unloaded.as_ref().zip(own.as_ref()).map(|(m, own)| Contributions::new(m, own, bodies));
+            elastic = unloaded
+                .as_ref()
+                .zip(own.as_ref())
+                .map(|(m, own)| Contributions::new(m, own, bodies));
         }
         let is_stiffened = |column: usize| {
             parts.diagonal[column] > 0.0
-                || elastic.as_ref().is_some_and(|elastic| elastic.diagonal[column] > 0.0)
+                || elastic
+                    .as_ref()
+                    .is_some_and(|elastic| elastic.diagonal[column] > 0.0)
         };
         // Bodies that are held take no part in the elimination.
         let moves = |&body: &usize| bodies.list[body].free.contains(&true);
-        let edges: Vec<[usize; 2]> = parts.sums.pairs().filter(|pair| pair.iter().all(moves)).collect();
+        let edges: Vec<[usize; 2]> = parts
+            .sums
+            .pairs()
+            .filter(|pair| pair.iter().all(moves))
+            .collect();
         let mut unknown = vec![None; parts.diagonal.len()];
         let mut column = Vec::new();
         let (order, operations) = order(&Graph::new(bodies.list.len(), &edges));
         for body in order {
-            let Body { free, unstiffened, .. } = &bodies.list[body];
+            let Body {
+                free, unstiffened, ..
+            } = &bodies.list[body];
             let stiffened = |&k: &usize| free[k] && !unstiffened[k] && is_stiffened(6 * body + k);
             for k in (0..6).filter(stiffened) {
                 unknown[6 * body + k] = Some(column.len());
@@ -239,8 +277,17 @@ impl ScaledStiffness {
             }
         }
         // The scale comes from the doubles also where the stiffness is formed again in double-doubles.
-        let scale = column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
-        Ok(parts.stiffness(Numbering { unknown, column, turned, scale, operations }))
+        let scale = column
+            .iter()
+            .map(|&c| scale_of(parts.diagonal[c]))
+            .collect();
+        Ok(parts.stiffness(Numbering {
+            unknown,
+            column,
+            turned,
+            scale,
+            operations,
+        }))
     }
 
     /// The stiffness of a model that differs from one numbered before by its axial forces alone, over the same unknowns; `None`
@@ -253,7 +300,9 @@ impl ScaledStiffness {
     ) -> Option<ScaledStiffness> {
         let parts = Contributions::new(m, elements, bodies);
         let is_new = |column: usize| {
-            let Body { free, unstiffened, .. } = &bodies.list[column / 6];
+            let Body {
+                free, unstiffened, ..
+            } = &bodies.list[column / 6];
             let counts = free[column % 6] && !unstiffened[column % 6];
             counts && known.unknown[column].is_none() && parts.diagonal[column] > 0.0
         };
@@ -264,8 +313,15 @@ impl ScaledStiffness {
         if (0..known.unknown.len()).any(is_new) || m.arms.iter().any(turned) {
             return None;
         }
-        let scale = known.column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
-        Some(parts.stiffness(Numbering { scale, ..known.clone() }))
+        let scale = known
+            .column
+            .iter()
+            .map(|&c| scale_of(parts.diagonal[c]))
+            .collect();
+        Some(parts.stiffness(Numbering {
+            scale,
+            ..known.clone()
+        }))
     }
 
     /// Upper triangle of S K S + shift * identity.
@@ -309,8 +365,11 @@ fn turned_axes(
     parts: &Contributions<f64>,
 ) -> Result<Vec<TurnedAxes>, Error> {
     let count = bodies.list.len();
-    let doubtful: Vec<bool> =
-        parts.rotational.iter().map(|block| !unstiffened_axes(block, DOUBTFUL_PIVOT).is_empty()).collect();
+    let doubtful: Vec<bool> = parts
+        .rotational
+        .iter()
+        .map(|block| !unstiffened_axes(block, DOUBTFUL_PIVOT).is_empty())
+        .collect();
     if !doubtful.contains(&true) {
         return Ok(Vec::new());
     }

@@ -30,7 +30,10 @@ pub(crate) fn unstiffened_axes<T: Real>(block: &[[T; 3]; 3], tolerance: f64) -> 
     let mut a: [[T; 3]; 3] =
         std::array::from_fn(|i| std::array::from_fn(|j| scale[i] * block[i][j] * scale[j]));
     let mut pivots: Vec<usize> = Vec::new();
-    while let Some(&p) = rest.iter().max_by(|&&i, &&j| a[i][i].double().total_cmp(&a[j][j].double())) {
+    while let Some(&p) = rest
+        .iter()
+        .max_by(|&&i, &&j| a[i][i].double().total_cmp(&a[j][j].double()))
+    {
         if a[p][p].double() <= tolerance {
             break;
         }
@@ -55,7 +58,10 @@ pub(crate) fn unstiffened_axes<T: Real>(block: &[[T; 3]; 3], tolerance: f64) -> 
             }
             v[p] = -sum / a[p][p];
         }
-        Vector3::from(std::array::from_fn::<f64, 3, _>(|k| (scale[k] * v[k]).double())).normalize()
+        Vector3::from(std::array::from_fn::<f64, 3, _>(|k| {
+            (scale[k] * v[k]).double()
+        }))
+        .normalize()
     };
     rest.iter().map(axis).collect()
 }
@@ -74,14 +80,26 @@ impl TurnedAxes {
         let count = found.len();
         while found.len() < columns.len() {
             let parts = columns.iter().map(|&k| normal_part(&unit(k), &found));
-            let largest = parts.fold(Vector3::zeros(), |a, b| if b.norm() > a.norm() { b } else { a });
+            let largest = parts.fold(
+                Vector3::zeros(),
+                |a, b| if b.norm() > a.norm() { b } else { a },
+            );
             found.push(largest.normalize());
         }
-        let mut out = TurnedAxes { body, axes: Matrix3::identity(), unstiffened: [false; 3] };
+        let mut out = TurnedAxes {
+            body,
+            axes: Matrix3::identity(),
+            unstiffened: [false; 3],
+        };
         let mut places = columns;
         for (index, axis) in found.iter().enumerate() {
-            let nearest = (0..places.len())
-                .fold(0, |a, b| if axis[places[b]].abs() > axis[places[a]].abs() { b } else { a });
+            let nearest = (0..places.len()).fold(0, |a, b| {
+                if axis[places[b]].abs() > axis[places[a]].abs() {
+                    b
+                } else {
+                    a
+                }
+            });
             let place = places.remove(nearest);
             out.axes.set_column(place, axis);
             out.unstiffened[place] = index < count;
@@ -94,5 +112,7 @@ impl TurnedAxes {
 fn normal_part(v: &Vector3<f64>, others: &[Vector3<f64>]) -> Vector3<f64> {
     // Twice: the first pass may cancel.
     let once = others.iter().fold(*v, |v, other| v - other * other.dot(&v));
-    others.iter().fold(once, |v, other| v - other * other.dot(&v))
+    others
+        .iter()
+        .fold(once, |v, other| v - other * other.dot(&v))
 }

@@ -46,10 +46,20 @@ impl Certificate {
     ///
     /// # Source
     /// Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3 and algorithm 15.4.
-    pub(crate) fn new<T: Real>(stiffness: &ScaledStiffness<T>, factor: &Factor<T>) -> (Certificate, f64) {
+    pub(crate) fn new<T: Real>(
+        stiffness: &ScaledStiffness<T>,
+        factor: &Factor<T>,
+    ) -> (Certificate, f64) {
         let extended = T::ROUNDING < f64::EPSILON;
         if factor.len() == 0 {
-            return (Certificate { condition: 1.0, error_bound: 0.0, extended }, 0.0);
+            return (
+                Certificate {
+                    condition: 1.0,
+                    error_bound: 0.0,
+                    extended,
+                },
+                0.0,
+            );
         }
         let norm = stiffness.norm();
         let inverse = estimate_inverse_norm(factor);
@@ -59,8 +69,19 @@ impl Certificate {
         // The factor and the two solves each round a sum as long as the longest row, and a quotient by its reciprocal.
         let factored = 3.0 * effective_roundings(longest + 2) * growth;
         let shift = T::ROUNDING * (formed + factored) * inverse_bound;
-        let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
-        (Certificate { condition: norm * inverse, error_bound, extended }, inverse_bound)
+        let error_bound = if shift < 0.5 {
+            shift / (1.0 - shift)
+        } else {
+            f64::INFINITY
+        };
+        (
+            Certificate {
+                condition: norm * inverse,
+                error_bound,
+                extended,
+            },
+            inverse_bound,
+        )
     }
 }
 
@@ -88,23 +109,36 @@ fn estimate_inverse_norm<T: Real>(factor: &Factor<T>) -> f64 {
     let solve = |x: &mut Vec<f64>| {
         let mut wide: Vec<T> = x.iter().map(|&value| T::from(value)).collect();
         factor.solve(&mut wide);
-        x.iter_mut().zip(wide).for_each(|(x, value)| *x = value.double());
+        x.iter_mut()
+            .zip(wide)
+            .for_each(|(x, value)| *x = value.double());
     };
     let one_norm = |x: &[f64]| x.iter().map(|v| v.abs()).sum::<f64>();
     // The mean of the unit vectors, and a vector with alternating signs: one solve for both.
     let step = 1.0 / (n.max(2) - 1) as f64;
-    let alternating = |k: usize| (1.0 + k as f64 * step) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let mut starts: Vec<[T; 2]> =
-        (0..n).map(|k| [T::from(1.0 / n as f64), T::from(alternating(k))]).collect();
+    let alternating =
+        |k: usize| (1.0 + k as f64 * step) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let mut starts: Vec<[T; 2]> = (0..n)
+        .map(|k| [T::from(1.0 / n as f64), T::from(alternating(k))])
+        .collect();
     factor.solve_lanes(&mut starts);
     let mut x: Vec<f64> = starts.iter().map(|start| start[0].double()).collect();
     let alternating: f64 = starts.iter().map(|start| start[1].double().abs()).sum();
     let mut best = one_norm(&x);
     let mut last = usize::MAX;
     for _ in 0..ESTIMATE_STEPS {
-        let mut gradient: Vec<f64> = x.iter().map(|v| if *v < 0.0 { -1.0 } else { 1.0 }).collect();
+        let mut gradient: Vec<f64> = x
+            .iter()
+            .map(|v| if *v < 0.0 { -1.0 } else { 1.0 })
+            .collect();
         solve(&mut gradient);
-        let largest = (0..n).fold(0, |a, b| if gradient[b].abs() > gradient[a].abs() { b } else { a });
+        let largest = (0..n).fold(0, |a, b| {
+            if gradient[b].abs() > gradient[a].abs() {
+                b
+            } else {
+                a
+            }
+        });
         if largest == last {
             break;
         }
@@ -134,9 +168,15 @@ mod tests {
         let matrix = inverse.clone().try_inverse().expect("positive definite");
         let starts = (0..=n).map(|column| column * (column + 1) / 2).collect();
         let rows = (0..n).flat_map(|column| 0..=column).collect();
-        let values = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).map(|at| matrix[at]).collect();
-        let factor = Factor::new(&CsMat::new_csc((n, n), starts, rows, values)).expect("positive definite");
-        let norm = (0..n).map(|j| inverse.column(j).iter().map(|x| x.abs()).sum()).fold(0.0, f64::max);
+        let values = (0..n)
+            .flat_map(|j| (0..=j).map(move |i| (i, j)))
+            .map(|at| matrix[at])
+            .collect();
+        let factor =
+            Factor::new(&CsMat::new_csc((n, n), starts, rows, values)).expect("positive definite");
+        let norm = (0..n)
+            .map(|j| inverse.column(j).iter().map(|x| x.abs()).sum())
+            .fold(0.0, f64::max);
         [estimate_inverse_norm(&factor), norm]
     }
 
@@ -149,7 +189,10 @@ mod tests {
             let n = 2 + case % 9;
             let a = DMatrix::from_fn(n, n, |_, _| random.f64() - 0.5);
             let [found, norm] = estimated(&(&a * a.transpose() + DMatrix::identity(n, n) * 0.01));
-            assert!(found <= norm * (1.0 + 1e-9) && found > norm / ESTIMATE_MARGIN, "{found} of {norm}");
+            assert!(
+                found <= norm * (1.0 + 1e-9) && found > norm / ESTIMATE_MARGIN,
+                "{found} of {norm}"
+            );
             sharp += usize::from(found > norm * (1.0 - 1e-9));
         }
         assert!(sharp >= 200, "{sharp} of 300");

@@ -65,7 +65,11 @@ impl<T: Real> Factor<T> {
         if !T::NATIVE {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
         }
-        let Analysis { pattern, symbolic, mut values } = analyse(upper, params)?;
+        let Analysis {
+            pattern,
+            symbolic,
+            mut values,
+        } = analyse(upper, params)?;
         let request = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
         let mut memory = MemBuffer::try_new(request).map_err(|_| FactorError::TooLarge(0))?;
         symbolic
@@ -82,15 +86,28 @@ impl<T: Real> Factor<T> {
         let (panel_of, panels, reciprocals) = match symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(columns) => {
                 let of = |&start: &usize| T::one() / values[start];
-                ((0..n).collect(), n, columns.col_ptr()[..n].iter().map(of).collect())
+                (
+                    (0..n).collect(),
+                    n,
+                    columns.col_ptr()[..n].iter().map(of).collect(),
+                )
             }
             SymbolicCholeskyRaw::Supernodal(s) => {
                 let spans = s.supernode_begin().iter().zip(s.supernode_end());
-                let all = spans.enumerate().flat_map(|(k, (a, b))| std::iter::repeat_n(k, b - a)).collect();
+                let all = spans
+                    .enumerate()
+                    .flat_map(|(k, (a, b))| std::iter::repeat_n(k, b - a))
+                    .collect();
                 (all, s.n_supernodes(), Vec::new())
             }
         };
-        Ok(Factor { symbolic, values, reciprocals, panel_of, panels })
+        Ok(Factor {
+            symbolic,
+            values,
+            reciprocals,
+            panel_of,
+            panels,
+        })
     }
 
     /// Number of rows and columns.
@@ -176,13 +193,19 @@ impl<T: Real> WithSimd for Growth<'_, T> {
                 lengths[panel.start + j] += j + 1;
             }
             let (own, below) = sums.split_at(panel.width);
-            rows[panel.start..][..panel.width].iter_mut().zip(own).for_each(|(row, sum)| *row += sum);
+            rows[panel.start..][..panel.width]
+                .iter_mut()
+                .zip(own)
+                .for_each(|(row, sum)| *row += sum);
             for (&row, sum) in panel.below.iter().zip(below) {
                 rows[row] += sum;
                 lengths[row] += panel.width;
             }
         }
-        (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
+        (
+            rows.into_iter().fold(0.0, f64::max),
+            lengths.into_iter().max().unwrap_or(0),
+        )
     }
 }
 
@@ -192,7 +215,9 @@ fn magnitude_sum<T: Real>(values: &[T]) -> f64 {
     let (parts, rest) = values.as_chunks::<8>();
     let mut sums = [0.0_f64; 8];
     for part in parts {
-        sums.iter_mut().zip(part).for_each(|(sum, value)| *sum += value.double().abs());
+        sums.iter_mut()
+            .zip(part)
+            .for_each(|(sum, value)| *sum += value.double().abs());
     }
     rest.iter().map(|value| value.double().abs()).sum::<f64>() + sums.iter().sum::<f64>()
 }
@@ -209,8 +234,17 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         if let SymbolicCholeskyRaw::Simplicial(columns) = self.factor.symbolic.raw() {
-            let Factor { values, reciprocals, .. } = self.factor;
-            solve_columns(columns.col_ptr(), columns.row_idx(), (values, reciprocals), self.x);
+            let Factor {
+                values,
+                reciprocals,
+                ..
+            } = self.factor;
+            solve_columns(
+                columns.col_ptr(),
+                columns.row_idx(),
+                (values, reciprocals),
+                self.x,
+            );
             return;
         }
         if W == 1 || W >= DENSE_LANES {
@@ -220,7 +254,10 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
         for lane in 0..W {
             let mut own: Vec<[T; 1]> = self.x.iter().map(|x| [x[lane]]).collect();
             self.factor.solve_panels(&mut own);
-            self.x.iter_mut().zip(own).for_each(|(x, [value])| x[lane] = value);
+            self.x
+                .iter_mut()
+                .zip(own)
+                .for_each(|(x, [value])| x[lane] = value);
         }
     }
 }
@@ -268,17 +305,24 @@ pub(crate) fn analyse<'a, T: Real>(
     let n = upper.cols();
     let storage = upper.indptr().into_raw_storage();
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, storage, None, upper.indices());
-    let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
-        .map_err(|_| FactorError::TooLarge(0))?;
+    let symbolic =
+        factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
+            .map_err(|_| FactorError::TooLarge(0))?;
     // The size is known before a number is allocated.
     let size = symbolic.len_val() as u64;
     if size.saturating_mul(size_of::<T>() as u64) > MEMORY_LIMIT {
         return Err(FactorError::TooLarge(size));
     }
     let mut values = Vec::new();
-    values.try_reserve_exact(symbolic.len_val()).map_err(|_| FactorError::TooLarge(size))?;
+    values
+        .try_reserve_exact(symbolic.len_val())
+        .map_err(|_| FactorError::TooLarge(size))?;
     values.resize(symbolic.len_val(), T::zero());
-    Ok(Analysis { pattern, symbolic, values })
+    Ok(Analysis {
+        pattern,
+        symbolic,
+        values,
+    })
 }
 
 /// Calls `each` with row, column and value of every entry of a factor.
@@ -296,7 +340,11 @@ pub(crate) fn for_each_entry<T: Copy>(
         let height = panel.width + panel.below.len();
         for j in 0..panel.width {
             for i in j..height {
-                let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
+                let row = if i < panel.width {
+                    panel.start + i
+                } else {
+                    panel.below[i - panel.width]
+                };
                 each(row, panel.start + j, panel.values[j * height + i]);
             }
         }
@@ -316,12 +364,22 @@ impl<'a, T> Panel<'a, T> {
         match symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(s) => {
                 let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
-                Panel { start: k, width: 1, below: &s.row_idx()[from + 1..to], values: &values[from..to] }
+                Panel {
+                    start: k,
+                    width: 1,
+                    below: &s.row_idx()[from + 1..to],
+                    values: &values[from..to],
+                }
             }
             SymbolicCholeskyRaw::Supernodal(s) => {
                 let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
                 let values = &values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
-                Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
+                Panel {
+                    start,
+                    width: end - start,
+                    below: s.supernode(k).pattern(),
+                    values,
+                }
             }
         }
     }
@@ -341,7 +399,12 @@ impl<'a, T: Real> Panel<'a, T> {
 
     /// The triangle, with anything above its diagonal.
     pub fn triangle(&self) -> MatRef<'a, T> {
-        MatRef::from_column_major_slice_with_stride(self.values, self.width, self.width, self.height())
+        MatRef::from_column_major_slice_with_stride(
+            self.values,
+            self.width,
+            self.width,
+            self.height(),
+        )
     }
 
     /// The rows of `below`; there must be some.
@@ -376,16 +439,27 @@ impl<'a, T: Real> Panel<'a, T> {
                 continue;
             }
             for (l, sum) in below.iter().zip(scratch.iter_mut()) {
-                sum.iter_mut().zip(&value).for_each(|(sum, value)| *sum += *l * *value);
+                sum.iter_mut()
+                    .zip(&value)
+                    .for_each(|(sum, value)| *sum += *l * *value);
             }
         }
         if dense && !self.below.is_empty() {
             // (L21 x)^T = x^T L21^T: a row of x is a column of its transpose, in one piece.
             let own = x[self.start..self.start + self.width].as_flattened();
-            let product =
-                MatMut::from_column_major_slice_mut(scratch.as_flattened_mut(), K, self.below.len());
+            let product = MatMut::from_column_major_slice_mut(
+                scratch.as_flattened_mut(),
+                K,
+                self.below.len(),
+            );
             let own = MatRef::from_column_major_slice(own, K, self.width);
-            multiply(product, Accum::Replace, own, self.lower().transpose(), T::one());
+            multiply(
+                product,
+                Accum::Replace,
+                own,
+                self.lower().transpose(),
+                T::one(),
+            );
         }
         for (&row, sum) in self.below.iter().zip(scratch.iter()) {
             subtract_scaled(&mut x[row], T::one(), sum);
@@ -415,7 +489,9 @@ impl<'a, T: Real> Panel<'a, T> {
 #[inline(always)]
 fn subtract_products<T: Real, const K: usize>(value: &mut [T; K], l: &[T], x: &[[T; K]]) {
     if K > 1 {
-        l.iter().zip(x).for_each(|(l, x)| subtract_scaled(value, *l, x));
+        l.iter()
+            .zip(x)
+            .for_each(|(l, x)| subtract_scaled(value, *l, x));
         return;
     }
     let ((parts, rest), (others, last)) = (l.as_chunks::<8>(), x.as_chunks::<8>());
@@ -428,5 +504,7 @@ fn subtract_products<T: Real, const K: usize>(value: &mut [T; K], l: &[T], x: &[
     if !parts.is_empty() {
         sums.iter().for_each(|sum| value[0] -= *sum);
     }
-    rest.iter().zip(last).for_each(|(l, x)| value[0] -= *l * x[0]);
+    rest.iter()
+        .zip(last)
+        .for_each(|(l, x)| value[0] -= *l * x[0]);
 }

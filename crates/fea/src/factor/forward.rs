@@ -46,7 +46,10 @@ impl<T: Real> Factor<T> {
     /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9 (paths); Liu (1992), SIAM Review 34 (dense blocks that
     /// go up the elimination tree).
     pub fn gram(&self, loads: &[SparseLoad]) -> Gram {
-        Arch::new().dispatch(Products { factor: self, loads })
+        Arch::new().dispatch(Products {
+            factor: self,
+            loads,
+        })
     }
 }
 
@@ -82,7 +85,14 @@ impl Paths {
     fn new<T: Real>(factor: &Factor<T>, loads: &[SparseLoad]) -> Paths {
         let panels = factor.panels;
         // The parent of a panel in the elimination tree is that of its first row below the diagonal.
-        let parent = |k: usize| factor.panel(k).below.iter().min().map_or(k, |&row| factor.panel_of[row]);
+        let parent = |k: usize| {
+            factor
+                .panel(k)
+                .below
+                .iter()
+                .min()
+                .map_or(k, |&row| factor.panel_of[row])
+        };
         let parents: Vec<usize> = (0..panels).map(parent).collect();
         let mut last = vec![usize::MAX; panels];
         let (mut path, mut ends) = (Vec::new(), Vec::with_capacity(loads.len()));
@@ -110,7 +120,11 @@ impl Paths {
             }
             from = end;
         }
-        Paths { starts, loads: by_panel, parents }
+        Paths {
+            starts,
+            loads: by_panel,
+            parents,
+        }
     }
 
     fn of(&self, panel: usize) -> &[usize] {
@@ -130,7 +144,10 @@ impl Paths {
         }
         let mut at = first;
         let place = |load: &usize| {
-            at += all[at..].iter().position(|other| other == load).expect("paths end at the root");
+            at += all[at..]
+                .iter()
+                .position(|other| other == load)
+                .expect("paths end at the root");
             at
         };
         Places::Apart(own.iter().map(place).collect())
@@ -172,7 +189,12 @@ impl<'a, T: Real> Solved<'a, T> {
                 values[offsets[k] + column * paths.count(k) + place] += T::from(value);
             }
         }
-        Solved { factor, paths, offsets, values }
+        Solved {
+            factor,
+            paths,
+            offsets,
+            values,
+        }
     }
 
     #[inline(always)]
@@ -190,19 +212,35 @@ impl<'a, T: Real> Solved<'a, T> {
             if dense && !panel.below.is_empty() {
                 scratch.clear();
                 scratch.resize(panel.below.len() * count, T::zero());
-                let product = MatMut::from_column_major_slice_mut(&mut scratch, count, panel.below.len());
+                let product =
+                    MatMut::from_column_major_slice_mut(&mut scratch, count, panel.below.len());
                 let own = MatRef::from_column_major_slice(own, count, panel.width);
-                multiply(product, Accum::Replace, own, panel.lower().transpose(), T::one());
+                multiply(
+                    product,
+                    Accum::Replace,
+                    own,
+                    panel.lower().transpose(),
+                    T::one(),
+                );
             }
             let behind = self.offsets[k + 1];
             for_each_run(self.factor, panel.below, |above_panel, rows| {
                 let places = self.paths.within(k, above_panel);
-                let (start, all) = (self.factor.panel(above_panel).start, self.paths.count(above_panel));
+                let (start, all) = (
+                    self.factor.panel(above_panel).start,
+                    self.paths.count(above_panel),
+                );
                 for row in rows {
-                    let from = self.offsets[above_panel] - behind + (panel.below[row] - start) * all;
+                    let from =
+                        self.offsets[above_panel] - behind + (panel.below[row] - start) * all;
                     let target = &mut above[from..from + all];
                     if dense {
-                        subtract(target, &places, T::one(), &scratch[row * count..(row + 1) * count]);
+                        subtract(
+                            target,
+                            &places,
+                            T::one(),
+                            &scratch[row * count..(row + 1) * count],
+                        );
                         continue;
                     }
                     for (j, own) in own.chunks_exact(count).enumerate() {
@@ -223,7 +261,11 @@ impl<'a, T: Real> Solved<'a, T> {
             let own = self.paths.of(slab.panel);
             let count = own.len();
             wide.clear();
-            wide.extend(self.values[slab.from..slab.from + slab.width * count].iter().map(|w| w.double()));
+            wide.extend(
+                self.values[slab.from..slab.from + slab.width * count]
+                    .iter()
+                    .map(|w| w.double()),
+            );
             if count < DENSE_LOADS || count * slab.width < DENSE_NUMBERS {
                 add_products(value.as_mut_slice(), loads, own, &wide);
                 continue;
@@ -236,8 +278,9 @@ impl<'a, T: Real> Solved<'a, T> {
                 if adjoin {
                     let first = (own[from]) * loads + own[from];
                     let target = &mut value.as_mut_slice()[first..];
-                    let target =
-                        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, loads);
+                    let target = MatMut::from_column_major_slice_with_stride_mut(
+                        target, rows, columns, loads,
+                    );
                     multiply(target, Accum::Add, a, b.transpose(), 1.0);
                     continue;
                 }
@@ -258,7 +301,10 @@ impl<'a, T: Real> Solved<'a, T> {
                 value[(i, j)] = value[(j, i)];
             }
         }
-        Gram { value, roundings: self.roundings(&slabs) }
+        Gram {
+            value,
+            roundings: self.roundings(&slabs),
+        }
     }
 
     /// Adjoining unknowns on the paths of the same loads, at most [`SLAB`] together, ascending.
@@ -327,7 +373,10 @@ fn for_each_run<T: Real>(
     let mut from = 0;
     while from < rows.len() {
         let panel = factor.panel_of[rows[from]];
-        let count = rows[from..].iter().take_while(|&&row| factor.panel_of[row] == panel).count();
+        let count = rows[from..]
+            .iter()
+            .take_while(|&&row| factor.panel_of[row] == panel)
+            .count();
         each(panel, from..from + count);
         from += count;
     }
@@ -349,7 +398,12 @@ fn solve_triangle<T: Real>(panel: &Panel<'_, T>, x: &mut [T], count: usize) {
         let reciprocal = T::one() / panel.entry(j, j);
         own.iter_mut().for_each(|value| *value *= reciprocal);
         for (i, target) in rest.chunks_exact_mut(count).enumerate() {
-            subtract(target, &Places::Adjoining(0), panel.entry(j + 1 + i, j), own);
+            subtract(
+                target,
+                &Places::Adjoining(0),
+                panel.entry(j + 1 + i, j),
+                own,
+            );
         }
     }
 }
@@ -361,7 +415,9 @@ fn add_products(value: &mut [f64], n: usize, own: &[usize], block: &[f64]) {
     for (j, &column) in own.iter().enumerate() {
         let target = &mut value[column * n..(column + 1) * n];
         for (i, &row) in own.iter().enumerate().skip(j) {
-            let products = block.chunks_exact(count).map(|unknown| unknown[i] * unknown[j]);
+            let products = block
+                .chunks_exact(count)
+                .map(|unknown| unknown[i] * unknown[j]);
             target[row] += products.sum::<f64>();
         }
     }
@@ -416,7 +472,11 @@ mod tests {
         for (n, width, panels) in [(40, 1, false), (300, 299, true)] {
             let (dense, upper) = definite(n, width);
             let factor = Factor::new(&precision(&upper)).expect("positive definite");
-            assert_eq!(factor.panels < n, panels && T::NATIVE, "another kind of factor than meant");
+            assert_eq!(
+                factor.panels < n,
+                panels && T::NATIVE,
+                "another kind of factor than meant"
+            );
             let inverse = dense.clone().try_inverse().expect("positive definite");
             let scale = inverse.amax();
             let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];

@@ -28,7 +28,11 @@ impl IndefiniteFactor {
     /// # Errors
     /// A factor that is too large.
     pub fn new(upper: &CsMat<f64>) -> Result<Option<IndefiniteFactor>, FactorError> {
-        let Analysis { pattern, symbolic, mut values } = analyse(upper, CholeskySymbolicParams::default())?;
+        let Analysis {
+            pattern,
+            symbolic,
+            mut values,
+        } = analyse(upper, CholeskySymbolicParams::default())?;
         let request = StackReq::any_of(&[
             symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
@@ -46,7 +50,11 @@ impl IndefiniteFactor {
         if done.is_err() {
             return Ok(None);
         }
-        Ok(Some(IndefiniteFactor { symbolic, values, memory }))
+        Ok(Some(IndefiniteFactor {
+            symbolic,
+            values,
+            memory,
+        }))
     }
 
     /// Number of negative pivots, and whether rounding cannot have changed it ([`negative_eigenvalues`]); `None` if a number
@@ -79,8 +87,12 @@ impl IndefiniteFactor {
 /// Higham, Accuracy and Stability of Numerical Algorithms (2002), theorems 10.3 and 11.3; Parlett, The
 /// Symmetric Eigenvalue Problem (1980), section 3.3.
 pub(crate) fn negative_eigenvalues(upper: &CsMat<f64>) -> Result<Option<usize>, FactorError> {
-    let Some(mut factor) = IndefiniteFactor::new(upper)? else { return Ok(None) };
-    Ok(factor.negative_pivots().and_then(|(count, is_certain)| is_certain.then_some(count)))
+    let Some(mut factor) = IndefiniteFactor::new(upper)? else {
+        return Ok(None);
+    };
+    Ok(factor
+        .negative_pivots()
+        .and_then(|(count, is_certain)| is_certain.then_some(count)))
 }
 
 struct FactorSize {
@@ -114,10 +126,16 @@ impl FactorSize {
                 lengths[row] += 1;
             }
         });
-        let growth = rows.into_iter().fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
+        let growth = rows
+            .into_iter()
+            .fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
         let longest = lengths.into_iter().max().unwrap_or(0);
         let negative = pivot.iter().filter(|&&d| d < 0.0).count();
-        growth.is_finite().then_some(FactorSize { negative, growth, longest })
+        growth.is_finite().then_some(FactorSize {
+            negative,
+            growth,
+            longest,
+        })
     }
 }
 
@@ -134,7 +152,11 @@ fn estimate_inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64])) -> f64 {
         solve(&mut x);
         norm = norm.max(x.iter().map(|v| v * v).sum::<f64>().sqrt());
     }
-    if norm.is_finite() { norm } else { f64::INFINITY }
+    if norm.is_finite() {
+        norm
+    } else {
+        f64::INFINITY
+    }
 }
 
 #[cfg(test)]

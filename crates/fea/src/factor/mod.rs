@@ -32,7 +32,13 @@ fn banded(
     width: usize,
     entry: impl Fn(usize, usize) -> f64,
 ) -> (nalgebra::DMatrix<f64>, sprs::CsMat<f64>) {
-    let within = |i: usize, j: usize| if i.abs_diff(j) <= width { entry(i, j) } else { 0.0 };
+    let within = |i: usize, j: usize| {
+        if i.abs_diff(j) <= width {
+            entry(i, j)
+        } else {
+            0.0
+        }
+    };
     let dense = nalgebra::DMatrix::from_fn(n, n, within);
     let mut upper = sprs::TriMat::new((n, n));
     for j in 0..n {

@@ -1,6 +1,8 @@
 //! Factoring in the precision that the accuracy needs, and names for what cannot be factored.
 
-use crate::assembly::{Bodies, Extended, Real, ScaledStiffness, inverse_iterations, irregular_vector};
+use crate::assembly::{
+    Bodies, Extended, Real, ScaledStiffness, inverse_iterations, irregular_vector,
+};
 use crate::dof::Dof;
 use crate::error::{EntryAttribute, Error};
 use crate::factor::certificate::Certificate;
@@ -76,7 +78,9 @@ impl Solver {
             Solver::Extended(factor) => {
                 let mut wide: Vec<Extended> = x.iter().map(|&value| value.into()).collect();
                 factor.solve(&mut wide);
-                x.iter_mut().zip(wide).for_each(|(x, value)| *x = value.double());
+                x.iter_mut()
+                    .zip(wide)
+                    .for_each(|(x, value)| *x = value.double());
             }
         }
     }
@@ -104,7 +108,11 @@ impl Factored {
                 Ok(factor) if factor.least_pivot() > LEAST_PIVOT => {
                     let (certificate, inverse_norm) = Certificate::new(stiffness, &factor);
                     if certificate.error_bound <= FACTOR_FRACTION * accuracy {
-                        return Ok(Factored { solver: Solver::Double(factor), certificate, inverse_norm });
+                        return Ok(Factored {
+                            solver: Solver::Double(factor),
+                            certificate,
+                            inverse_norm,
+                        });
                     }
                     // Double-doubles might meet the accuracy, but would take minutes.
                     if expensive {
@@ -115,7 +123,9 @@ impl Factored {
                     return Err(mechanism(stiffness, bodies));
                 }
                 Ok(_) | Err(FactorError::Indefinite) => {}
-                Err(FactorError::TooLarge(entries)) => return Err(too_large(unknowns, entries, DOUBLE)),
+                Err(FactorError::TooLarge(entries)) => {
+                    return Err(too_large(unknowns, entries, DOUBLE));
+                }
             }
         }
         let factored = Factored::extended(m, stiffness).map_err(|fault| match fault {
@@ -123,7 +133,12 @@ impl Factored {
             FactorError::TooLarge(entries) => too_large(unknowns, entries, 2 * DOUBLE),
         })?;
         if factored.certificate.error_bound > accuracy {
-            return Err(ill_conditioned(factored.certificate, accuracy, stiffness, bodies));
+            return Err(ill_conditioned(
+                factored.certificate,
+                accuracy,
+                stiffness,
+                bodies,
+            ));
         }
         Ok(factored)
     }
@@ -144,19 +159,28 @@ impl Factored {
             return Err(FactorError::Indefinite);
         }
         let (certificate, inverse_norm) = Certificate::new(&extended, &factor);
-        Ok(Factored { solver: Solver::Extended(factor), certificate, inverse_norm })
+        Ok(Factored {
+            solver: Solver::Extended(factor),
+            certificate,
+            inverse_norm,
+        })
     }
 }
 
 /// The error of a factor with too many entries; `entries` is 0 if the indices do not suffice.
 fn too_large(unknowns: usize, entries: u64, size: u64) -> Error {
-    allow(EntryAttribute::Factor, entries, size).err().unwrap_or(Error::NotFactorable { unknowns })
+    allow(EntryAttribute::Factor, entries, size)
+        .err()
+        .unwrap_or(Error::NotFactorable { unknowns })
 }
 
 /// The error of a stiffness without a factor.
 fn mechanism(stiffness: &ScaledStiffness, bodies: &Bodies) -> Error {
     let (point, freedom) = weakest(stiffness, bodies);
-    Error::Mechanism { point, dof: freedom }
+    Error::Mechanism {
+        point,
+        dof: freedom,
+    }
 }
 
 /// The error of a certificate that does not meet the accuracy asked for.
@@ -167,8 +191,18 @@ pub(crate) fn ill_conditioned(
     bodies: &Bodies,
 ) -> Error {
     let (point, freedom) = weakest(stiffness, bodies);
-    let Certificate { condition, error_bound: bound, .. } = certificate;
-    Error::IllConditioned { condition, bound, asked, point, dof: freedom }
+    let Certificate {
+        condition,
+        error_bound: bound,
+        ..
+    } = certificate;
+    Error::IllConditioned {
+        condition,
+        bound,
+        asked,
+        point,
+        dof: freedom,
+    }
 }
 
 /// Point and degree of freedom with the largest component, weighted by stiffness, in the motion with the
@@ -177,7 +211,9 @@ pub(crate) fn ill_conditioned(
 /// Three inverse iterations with the slightly shifted stiffness approximate this motion. Among equal
 /// components the one of the lowest column is named.
 fn weakest(stiffness: &ScaledStiffness, bodies: &Bodies) -> (usize, Dof) {
-    let factor = SHIFTS.iter().find_map(|&shift| Factor::new(&stiffness.shifted(shift)).ok());
+    let factor = SHIFTS
+        .iter()
+        .find_map(|&shift| Factor::new(&stiffness.shifted(shift)).ok());
     let mut x = irregular_vector(stiffness.len());
     if let Some(factor) = factor {
         inverse_iterations(&mut x, 3, |x| factor.solve(x));

@@ -30,7 +30,10 @@ impl FactoredFrame {
         let holds = self.restraints(m);
         let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
         let value = self.effects(m, &effects, at)?;
-        Ok(Reactions { restraints: holds, value })
+        Ok(Reactions {
+            restraints: holds,
+            value,
+        })
     }
 
     /// Influence lines: the effects of unit loads anywhere on the rails, with one solve for each effect.
@@ -45,8 +48,9 @@ impl FactoredFrame {
         let functionals = self.functionals(m, effects)?;
         let line = self.line()?;
         let states = &self.states()[..line.state_count()];
-        let unstiffened: Vec<usize> =
-            (0..6 * states.len()).filter(|&k| self.scaled(&states[k / 6][k % 6]).is_none()).collect();
+        let unstiffened: Vec<usize> = (0..6 * states.len())
+            .filter(|&k| self.scaled(&states[k / 6][k % 6]).is_none())
+            .collect();
         let mut rows = DMatrix::zeros(effects.len(), 6 * states.len());
         for (e, functional) in functionals.iter().enumerate() {
             let motions = self.motions(&self.scaled_where_stiffened(&functional.strain));
@@ -58,7 +62,10 @@ impl FactoredFrame {
         for k in unstiffened {
             rows.column_mut(k).fill(f64::INFINITY);
         }
-        let sections = functionals.into_iter().map(|functional| functional.section).collect();
+        let sections = functionals
+            .into_iter()
+            .map(|functional| functional.section)
+            .collect();
         Ok(InfluenceLines::new(line.clone(), rows, sections)?)
     }
 
@@ -68,7 +75,12 @@ impl FactoredFrame {
     /// # Errors
     /// As [`FactoredFrame::influence_lines`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that
     /// nothing resists.
-    pub fn effects(&self, m: &Model, effects: &[Effect], at: &[Probe]) -> Result<DMatrix<f64>, Error> {
+    pub fn effects(
+        &self,
+        m: &Model,
+        effects: &[Effect],
+        at: &[Probe],
+    ) -> Result<DMatrix<f64>, Error> {
         if effects.len() > at.len() {
             return self.effects_by_load(m, effects, at);
         }
@@ -81,19 +93,35 @@ impl FactoredFrame {
     }
 
     /// [`FactoredFrame::effects`] with one solve for each load.
-    fn effects_by_load(&self, m: &Model, effects: &[Effect], at: &[Probe]) -> Result<DMatrix<f64>, Error> {
+    fn effects_by_load(
+        &self,
+        m: &Model,
+        effects: &[Effect],
+        at: &[Probe],
+    ) -> Result<DMatrix<f64>, Error> {
         let mut value = DMatrix::zeros(effects.len(), at.len());
         let functionals = self.functionals(m, effects)?;
         // Only an internal force has a part from a load on its own member between fixed ends.
-        let inner: Vec<usize> = (0..effects.len()).filter(|&i| functionals[i].section.is_some()).collect();
-        let sections = inner.iter().map(|&i| functionals[i].section.clone()).collect();
+        let inner: Vec<usize> = (0..effects.len())
+            .filter(|&i| functionals[i].section.is_some())
+            .collect();
+        let sections = inner
+            .iter()
+            .map(|&i| functionals[i].section.clone())
+            .collect();
         let line = self.line()?;
-        let clamped =
-            InfluenceLines::new(line.clone(), DMatrix::zeros(inner.len(), 6 * line.state_count()), sections)?;
+        let clamped = InfluenceLines::new(
+            line.clone(),
+            DMatrix::zeros(inner.len(), 6 * line.state_count()),
+            sections,
+        )?;
         let mut own = vec![0.0; inner.len()];
         for (j, &probe) in at.iter().enumerate() {
             clamped.fill(probe, &mut own)?;
-            inner.iter().zip(&own).for_each(|(&i, &part)| value[(i, j)] = part);
+            inner
+                .iter()
+                .zip(&own)
+                .for_each(|(&i, &part)| value[(i, j)] = part);
             let (load, _) = self.load(probe)?;
             let motions = self.motions(&load);
             let (row, _) = self.row(probe)?;

@@ -28,24 +28,39 @@ impl FactoredFrame {
     ///
     /// # Errors
     /// As [`FactoredFrame::grid`].
-    pub(super) fn extended_grid(&self, at: &[Probe]) -> Result<Option<(DMatrix<f64>, Certificate)>, Error> {
-        let Some(extended) = self.extended() else { return Ok(None) };
+    pub(super) fn extended_grid(
+        &self,
+        at: &[Probe],
+    ) -> Result<Option<(DMatrix<f64>, Certificate)>, Error> {
+        let Some(extended) = self.extended() else {
+            return Ok(None);
+        };
         let (factor, certificate, inverse_norm) = match (&extended.factored, self.solver()) {
-            (Some(Factored { solver: Solver::Extended(factor), certificate, inverse_norm }), _) => {
-                (factor, *certificate, *inverse_norm)
-            }
+            (
+                Some(Factored {
+                    solver: Solver::Extended(factor),
+                    certificate,
+                    inverse_norm,
+                }),
+                _,
+            ) => (factor, *certificate, *inverse_norm),
             (None, Solver::Extended(factor)) => (factor, self.certificate(), self.inverse_norm()),
             _ => return Ok(None),
         };
         let mut rows = BTreeMap::new();
-        let places: Vec<Place> =
-            at.iter().map(|&probe| self.place(extended, probe, &mut rows)).collect::<Result<_, Error>>()?;
+        let places: Vec<Place> = at
+            .iter()
+            .map(|&probe| self.place(extended, probe, &mut rows))
+            .collect::<Result<_, Error>>()?;
         let mut value = DMatrix::zeros(at.len(), at.len());
         for (j, place) in places.iter().enumerate() {
             let x = solved(factor, &place.load);
             for (i, other) in places.iter().enumerate().skip(j) {
                 let zero = Extended::zero();
-                let through = other.load.iter().fold(zero, |sum, &(k, load)| sum + load * x[k]);
+                let through = other
+                    .load
+                    .iter()
+                    .fold(zero, |sum, &(k, load)| sum + load * x[k]);
                 let entry = (through + self.between_fixed_ends(other, place)?).double();
                 value[(i, j)] = entry;
                 value[(j, i)] = entry;
@@ -54,7 +69,13 @@ impl FactoredFrame {
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
         let rounding = self.extended_rounding(at, &diagonal, inverse_norm)?;
         let error_bound = certificate.error_bound + rounding;
-        Ok(Some((value, Certificate { error_bound, ..certificate })))
+        Ok(Some((
+            value,
+            Certificate {
+                error_bound,
+                ..certificate
+            },
+        )))
     }
 
     /// Formed when it is first needed.
@@ -84,7 +105,11 @@ impl FactoredFrame {
         let functions = ElementFunctions::new(self.exact_layout().elements[index].clone());
         let shapes = functions.shapes(probe.axis, x);
         let mut sum = Combination::default();
-        for (k, &shape) in shapes.iter().enumerate().filter(|(_, shape)| **shape != Extended::zero()) {
+        for (k, &shape) in shapes
+            .iter()
+            .enumerate()
+            .filter(|(_, shape)| **shape != Extended::zero())
+        {
             let state = functions.element().ends[k / 6];
             let own = match rows.entry(state) {
                 Entry::Occupied(known) => known.into_mut(),
@@ -96,8 +121,19 @@ impl FactoredFrame {
             let k = self.unknown(column)?;
             Some((k, value * Extended::from(self.scale(k))))
         };
-        let load = extended.bodies.supported(&sum).terms().filter_map(unknown).collect();
-        Ok(Place { axis: probe.axis, x, functions, shapes, load })
+        let load = extended
+            .bodies
+            .supported(&sum)
+            .terms()
+            .filter_map(unknown)
+            .collect();
+        Ok(Place {
+            axis: probe.axis,
+            x,
+            functions,
+            shapes,
+            load,
+        })
     }
 
     /// The rail element that carries a probe to all digits: `near`, or where its rounded ends mislead, another one.
@@ -107,7 +143,11 @@ impl FactoredFrame {
         let holds = |element: &RailElement<Extended>| {
             element.rail == probe.rail && element.x[0] <= x && x <= element.x[1]
         };
-        if holds(&elements[near]) { near } else { elements.iter().position(holds).unwrap_or(near) }
+        if holds(&elements[near]) {
+            near
+        } else {
+            elements.iter().position(holds).unwrap_or(near)
+        }
     }
 
     /// Rows of a state in double-doubles.
@@ -117,12 +157,26 @@ impl FactoredFrame {
         state: usize,
     ) -> Result<[Combination<Extended>; 6], Error> {
         match &self.exact_layout().states[state] {
-            StateRows::Tip { point, offset, rail } => Ok(tip_rows(&extended.bodies, *point, offset, rail)),
+            StateRows::Tip {
+                point,
+                offset,
+                rail,
+            } => Ok(tip_rows(&extended.bodies, *point, offset, rail)),
             StateRows::Released { member, end, rail } => {
                 let element = Element::<Extended>::new(self.model(), *member)?;
-                Ok(element.released.as_deref().map_or_else(Default::default, |released| {
-                    released_rows(&element, released, &extended.bodies, *end, &rail.axes, rail.error)
-                }))
+                Ok(element
+                    .released
+                    .as_deref()
+                    .map_or_else(Default::default, |released| {
+                        released_rows(
+                            &element,
+                            released,
+                            &extended.bodies,
+                            *end,
+                            &rail.axes,
+                            rail.error,
+                        )
+                    }))
             }
         }
     }
@@ -130,12 +184,17 @@ impl FactoredFrame {
     /// Coefficient of two places while the tips of the rigid offsets of their members are fixed: Green's function,
     /// and the compliance of the releases. Zero on different members.
     fn between_fixed_ends(&self, p: &Place, q: &Place) -> Result<Extended, Error> {
-        let carriers = [p, q].map(|place| place.functions.element().member.map(|carrier| carrier.id));
-        let [Some(member), Some(other)] = carriers else { return Ok(Extended::zero()) };
+        let carriers =
+            [p, q].map(|place| place.functions.element().member.map(|carrier| carrier.id));
+        let [Some(member), Some(other)] = carriers else {
+            return Ok(Extended::zero());
+        };
         if member != other {
             return Ok(Extended::zero());
         }
-        let mut sum = p.functions.clamped_green(p.axis, p.x, &q.functions, q.axis, q.x);
+        let mut sum = p
+            .functions
+            .clamped_green(p.axis, p.x, &q.functions, q.axis, q.x);
         if self.elements[member].released.is_some()
             && let Some(released) = Element::<Extended>::new(self.model(), member)?.released
         {

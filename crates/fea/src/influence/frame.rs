@@ -81,7 +81,11 @@ impl FactoredFrame {
         m.check()?;
         let elements = Element::all(m)?;
         let mut bodies = Bodies::new(m);
-        let layout = if rails.is_empty() { None } else { Some(Layout::new(m, rails, &elements, &bodies)?) };
+        let layout = if rails.is_empty() {
+            None
+        } else {
+            Some(Layout::new(m, rails, &elements, &bodies)?)
+        };
         if let Some(layout) = &layout {
             check_coverage(&layout.line, rails)?;
         }
@@ -115,7 +119,8 @@ impl FactoredFrame {
         let elements = Element::all(m)?;
         let mut bodies = Bodies::new(m);
         bodies.turn(&self.stiffness.numbering.turned);
-        let Some(stiffness) = ScaledStiffness::renumbered(m, &elements, &bodies, &self.stiffness.numbering)
+        let Some(stiffness) =
+            ScaledStiffness::renumbered(m, &elements, &bodies, &self.stiffness.numbering)
         else {
             return FactoredFrame::with_accuracy(m, &[], self.accuracy);
         };
@@ -140,9 +145,15 @@ impl FactoredFrame {
     /// A rail that cannot be used.
     pub(crate) fn with_rails(mut self, rails: &[Rail]) -> Result<FactoredFrame, Error> {
         if !rails.is_empty() {
-            let layout = Layout::new(&self.model, rails, &self.elements, &Bodies::new(&self.model))?;
+            let layout = Layout::new(
+                &self.model,
+                rails,
+                &self.elements,
+                &Bodies::new(&self.model),
+            )?;
             check_coverage(&layout.line, rails)?;
-            (self.line, self.states, self.exact) = (Some(Arc::new(layout.line)), layout.states, layout.exact);
+            (self.line, self.states, self.exact) =
+                (Some(Arc::new(layout.line)), layout.states, layout.exact);
         }
         Ok(self)
     }
@@ -177,7 +188,11 @@ impl FactoredFrame {
     #[must_use]
     pub fn resists(&self, rail: usize, axis: Axis) -> bool {
         let Some(line) = &self.line else { return false };
-        let mut cells = line.elements().iter().filter(|cell| cell.rail == rail).peekable();
+        let mut cells = line
+            .elements()
+            .iter()
+            .filter(|cell| cell.rail == rail)
+            .peekable();
         cells.peek().is_some()
             && cells.all(|cell| {
                 let [a, b] = cell.x;
@@ -215,8 +230,13 @@ impl FactoredFrame {
     /// The axes of a rail as rows x, up and z, global.
     pub(crate) fn rail_axes(&self, rail: usize) -> Matrix3<f64> {
         let elements = self.line.iter().flat_map(|line| line.elements());
-        let state = elements.filter(|element| element.rail == rail).map(|element| element.ends[0]).next();
-        state.map_or_else(Matrix3::identity, |state| self.exact.states[state].rail().axes.map(Real::double))
+        let state = elements
+            .filter(|element| element.rail == rail)
+            .map(|element| element.ends[0])
+            .next();
+        state.map_or_else(Matrix3::identity, |state| {
+            self.exact.states[state].rail().axes.map(Real::double)
+        })
     }
 
     /// The body of a state of the rails, and the arm from its reference to the state, global.
@@ -228,7 +248,10 @@ impl FactoredFrame {
                 (element.points[*end], element.offsets[*end])
             }
         };
-        (self.bodies.of_point[point], self.bodies.arms[point].map(Real::double) + offset)
+        (
+            self.bodies.of_point[point],
+            self.bodies.arms[point].map(Real::double) + offset,
+        )
     }
 
     /// What the evaluation in double-doubles needs, once it has been asked for.
@@ -301,7 +324,11 @@ impl FactoredFrame {
         for ((&value, &column), &scale) in x.iter().zip(&numbering.column).zip(&numbering.scale) {
             motions[column / 6][column % 6] = value * scale;
         }
-        motions.iter().zip(&self.bodies.list).map(|(motion, body)| body.basis * motion).collect()
+        motions
+            .iter()
+            .zip(&self.bodies.list)
+            .map(|(motion, body)| body.basis * motion)
+            .collect()
     }
 
     /// Refuses a certificate that does not meet the accuracy.
@@ -309,7 +336,12 @@ impl FactoredFrame {
         if certificate.error_bound <= self.accuracy {
             return Ok(certificate);
         }
-        Err(ill_conditioned(certificate, self.accuracy, &self.stiffness, &self.bodies))
+        Err(ill_conditioned(
+            certificate,
+            self.accuracy,
+            &self.stiffness,
+            &self.bodies,
+        ))
     }
 
     /// Unknown of a column of the bodies, if it is one.
@@ -329,7 +361,8 @@ impl FactoredFrame {
 
     /// The six displacements and rotations of a point.
     pub(crate) fn point(&self, point: usize) -> [Combination; 6] {
-        self.bodies.combinations(point, &self.bodies.motion(point, &Vector3::zeros()))
+        self.bodies
+            .combinations(point, &self.bodies.motion(point, &Vector3::zeros()))
     }
 }
 
@@ -337,10 +370,17 @@ impl FactoredFrame {
 fn check_coverage(line: &Rails, rails: &[Rail]) -> Result<(), Error> {
     for (rail, given) in rails.iter().enumerate() {
         for (station, &x) in given.stations.iter().enumerate() {
-            let probe = Probe { rail, x, axis: Axis::Vertical };
+            let probe = Probe {
+                rail,
+                x,
+                axis: Axis::Vertical,
+            };
             if let Err(splines::Error::OffRail { .. }) = line.row(probe) {
                 let item = ModelEntry::Station { rail, station };
-                return Err(Error::Invalid { entry: item, fault: EntryFault::Uncovered { x } });
+                return Err(Error::Invalid {
+                    entry: item,
+                    fault: EntryFault::Uncovered { x },
+                });
             }
         }
     }

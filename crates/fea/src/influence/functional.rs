@@ -69,12 +69,20 @@ impl FactoredFrame {
     #[must_use]
     pub fn restraints(&self, m: &Model) -> Vec<Restraint> {
         let supports = self.bodies.list.iter().flat_map(|body| &body.constraints);
-        let supports = supports.map(|&(point, k)| Restraint { point, dof: Dof::ALL[k], spring: None });
-        let springs = m.springs.iter().enumerate().map(|(index, spring)| Restraint {
-            point: spring.point,
-            dof: spring.dof,
-            spring: Some(index),
+        let supports = supports.map(|&(point, k)| Restraint {
+            point,
+            dof: Dof::ALL[k],
+            spring: None,
         });
+        let springs = m
+            .springs
+            .iter()
+            .enumerate()
+            .map(|(index, spring)| Restraint {
+                point: spring.point,
+                dof: spring.dof,
+                spring: Some(index),
+            });
         supports.chain(springs).collect()
     }
 
@@ -82,16 +90,33 @@ impl FactoredFrame {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a member or restraint that does not exist, or a place outside 0 to 1.
-    pub(crate) fn functionals(&self, m: &Model, effects: &[Effect]) -> Result<Vec<Functional>, Error> {
+    pub(crate) fn functionals(
+        &self,
+        m: &Model,
+        effects: &[Effect],
+    ) -> Result<Vec<Functional>, Error> {
         let one = |(index, effect): (usize, &Effect)| {
-            let invalid = |fault| Error::Invalid { entry: ModelEntry::Effect(index), fault };
+            let invalid = |fault| Error::Invalid {
+                entry: ModelEntry::Effect(index),
+                fault,
+            };
             match *effect {
-                Effect::Reaction(hold) => self
-                    .reaction(m, hold)
-                    .ok_or(invalid(EntryFault::NoReaction { point: hold.point, dof: hold.dof })),
-                Effect::InternalForce { member, place, component } => {
-                    let element =
-                        self.elements.get(member).ok_or(invalid(EntryFault::NoMember { member }))?;
+                Effect::Reaction(hold) => {
+                    self.reaction(m, hold)
+                        .ok_or(invalid(EntryFault::NoReaction {
+                            point: hold.point,
+                            dof: hold.dof,
+                        }))
+                }
+                Effect::InternalForce {
+                    member,
+                    place,
+                    component,
+                } => {
+                    let element = self
+                        .elements
+                        .get(member)
+                        .ok_or(invalid(EntryFault::NoMember { member }))?;
                     if !(0.0..=1.0).contains(&place) {
                         return Err(invalid(EntryFault::NoPlace { place }));
                     }
@@ -116,27 +141,41 @@ impl FactoredFrame {
         let pair = self.bodies.pair(element.points);
         let under_tension = element.tension_row(place, component);
         if pair[0] != pair[1] {
-            let mut row =
-                balance * element.stiffness().fixed_rows::<6>(0) * transformation(element, &self.bodies);
+            let mut row = balance
+                * element.stiffness().fixed_rows::<6>(0)
+                * transformation(element, &self.bodies);
             if let Some(deflected) = &under_tension {
                 row += deflected * element.recovery() * transformation(element, &self.bodies);
             }
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
-        let mut ends: RowSVector<f64, 12> = -balance * element.recovery().fixed_columns::<6>(0).transpose();
+        let mut ends: RowSVector<f64, 12> =
+            -balance * element.recovery().fixed_columns::<6>(0).transpose();
         if let (Some(deflected), Some(released)) = (&under_tension, &element.released) {
             ends += deflected * released.compliance;
         }
-        let section = InternalForce { member, place, component, ends: ends.transpose().into() };
-        Functional { strain, direct: Combination::default(), section: Some(section) }
+        let section = InternalForce {
+            member,
+            place,
+            component,
+            ends: ends.transpose().into(),
+        };
+        Functional {
+            strain,
+            direct: Combination::default(),
+            section: Some(section),
+        }
     }
 
     /// Reaction of a restraint; `None` if it does not exist.
     fn reaction(&self, m: &Model, hold: Restraint) -> Option<Functional> {
         let body = *self.bodies.of_point.get(hold.point)?;
-        let Some(index) = hold.spring else { return self.support_reaction(m, body, hold) };
+        let Some(index) = hold.spring else {
+            return self.support_reaction(m, body, hold);
+        };
         let spring = m.springs.get(index)?;
-        (spring.point == hold.point && spring.dof == hold.dof).then(|| self.spring_reaction(body, spring))
+        (spring.point == hold.point && spring.dof == hold.dof)
+            .then(|| self.spring_reaction(body, spring))
     }
 
     /// The force of a spring on its body: -k u.
@@ -144,7 +183,11 @@ impl FactoredFrame {
         let mut strain = Combination::default();
         let row = self.motion_row(spring.point, spring.dof);
         (0..6).for_each(|k| strain.add(6 * body + k, -spring.stiffness * row[k]));
-        Functional { strain, direct: Combination::default(), section: None }
+        Functional {
+            strain,
+            direct: Combination::default(),
+            section: None,
+        }
     }
 
     /// The six resultants that the supports of a body must supply are those of its members and springs less
@@ -160,30 +203,47 @@ impl FactoredFrame {
             }
             let b = transformation(element, &self.bodies);
             let end = usize::from(pair[1] == body);
-            let row = distribution * b.fixed_columns::<6>(6 * end).transpose() * element.stiffness() * b;
+            let row =
+                distribution * b.fixed_columns::<6>(6 * end).transpose() * element.stiffness() * b;
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
-        for arm in m.arms.iter().filter(|arm| self.bodies.of_point[arm.point] == body) {
+        for arm in m
+            .arms
+            .iter()
+            .filter(|arm| self.bodies.of_point[arm.point] == body)
+        {
             let stiffness = Matrix3::from_fn(|i, j| arm.stiffness[i][j]);
             let row = distribution.fixed_columns::<3>(3) * stiffness;
             (0..3).for_each(|k| strain.add(6 * body + 3 + k, row[k]));
         }
-        for spring in m.springs.iter().filter(|spring| self.bodies.of_point[spring.point] == body) {
+        for spring in m
+            .springs
+            .iter()
+            .filter(|spring| self.bodies.of_point[spring.point] == body)
+        {
             let row = self.motion_row(spring.point, spring.dof);
             let force = (distribution * row.transpose())[0] * spring.stiffness;
             (0..6).for_each(|k| strain.add(6 * body + k, force * row[k]));
         }
         (0..6).for_each(|k| direct.add(6 * body + k, distribution[k]));
-        Some(Functional { strain, direct, section: None })
+        Some(Functional {
+            strain,
+            direct,
+            section: None,
+        })
     }
 
     /// The reaction of one support by the six resultants that all supports of its body must supply: a row of
     /// the pseudo-inverse of the matrix whose columns are the constraints, by QR.
     fn distribution(&self, body: usize, hold: Restraint) -> Option<RowSVector<f64, 6>> {
         let constraints = &self.bodies.list[body].constraints;
-        let index = constraints.iter().position(|&own| own == (hold.point, hold.dof as usize))?;
-        let rows: Vec<RowSVector<f64, 6>> =
-            constraints.iter().map(|&(point, k)| self.motion_row(point, Dof::ALL[k])).collect();
+        let index = constraints
+            .iter()
+            .position(|&own| own == (hold.point, hold.dof as usize))?;
+        let rows: Vec<RowSVector<f64, 6>> = constraints
+            .iter()
+            .map(|&(point, k)| self.motion_row(point, Dof::ALL[k]))
+            .collect();
         let columns = DMatrix::from_fn(6, constraints.len(), |i, j| rows[j][i]);
         let qr = columns.qr();
         let inverse = qr.r().solve_upper_triangular(&qr.q().transpose())?;

@@ -69,23 +69,42 @@ impl FactoredFrame {
         let InfluenceGrid { value, certificate } = self.grid_in_doubles(at)?;
         let bound = certificate.error_bound;
         // Double-doubles cost little where the factor already has them; elsewhere only where doubles do not do.
-        let sharp = if at.len() <= FEW_PROBES { SHARP } else { SHARP_FOR_MANY };
-        let enough = if certificate.extended { sharp.min(self.accuracy()) } else { self.accuracy() };
+        let sharp = if at.len() <= FEW_PROBES {
+            SHARP
+        } else {
+            SHARP_FOR_MANY
+        };
+        let enough = if certificate.extended {
+            sharp.min(self.accuracy())
+        } else {
+            self.accuracy()
+        };
         if bound <= enough {
             return Ok(InfluenceGrid { value, certificate });
         }
         let (value, certificate) = match self.extended_grid(at)? {
-            Some((_, extended)) if bound <= extended.error_bound && bound.is_finite() => (value, certificate),
+            Some((_, extended)) if bound <= extended.error_bound && bound.is_finite() => {
+                (value, certificate)
+            }
             Some(extended) => extended,
             None => {
                 let diagonal: Vec<f64> = value.diagonal().iter().copied().collect();
                 let stiff = Evaluation::DoublesWhereStiff;
                 let rounding = self.rounding(at, self.unknowns(), &diagonal, stiff)?;
                 let error_bound = self.certificate().error_bound + rounding;
-                (value, Certificate { error_bound, ..certificate })
+                (
+                    value,
+                    Certificate {
+                        error_bound,
+                        ..certificate
+                    },
+                )
             }
         };
-        Ok(InfluenceGrid { value, certificate: self.require(certificate)? })
+        Ok(InfluenceGrid {
+            value,
+            certificate: self.require(certificate)?,
+        })
     }
 
     /// The grid by arithmetic in doubles, whatever its bound.
@@ -102,7 +121,10 @@ impl FactoredFrame {
                 places.push((carrier.id, rows[k].element, k));
             }
         }
-        let Gram { mut value, roundings } = self.gram(&loads);
+        let Gram {
+            mut value,
+            roundings,
+        } = self.gram(&loads);
         places.sort_unstable();
         // Places on the same member also act on each other between its fixed ends.
         for same in places.chunk_by(|a, b| a.0 == b.0) {
@@ -126,7 +148,9 @@ impl FactoredFrame {
         let rows: Vec<&ShapeRow> = same.iter().map(|&(_, _, k)| &all[k]).collect();
         let releases = self.elements[same[0].0].released.as_deref();
         let released = releases.map(|released| {
-            let loads = rows.iter().map(|row| released_load(&line.elements()[row.element], row));
+            let loads = rows
+                .iter()
+                .map(|row| released_load(&line.elements()[row.element], row));
             (&released.compliance, loads.collect::<Vec<_>>())
         });
         line.clamped_pairs(&rows, |i, j, mut own| {
@@ -144,13 +168,17 @@ impl FactoredFrame {
     pub(crate) fn released_pairs(&self, cells: &[RailElement]) -> Vec<(usize, usize)> {
         let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, cell) in cells.iter().enumerate() {
-            if let Some(carrier) = cell.member.filter(|carrier| self.elements[carrier.id].released.is_some())
+            if let Some(carrier) = cell
+                .member
+                .filter(|carrier| self.elements[carrier.id].released.is_some())
             {
                 by_member.entry(carrier.id).or_default().push(index);
             }
         }
         let pairs = |same: &Vec<usize>| {
-            same.iter().flat_map(|&a| same.iter().map(move |&b| (a, b))).collect::<Vec<_>>()
+            same.iter()
+                .flat_map(|&a| same.iter().map(move |&b| (a, b)))
+                .collect::<Vec<_>>()
         };
         by_member.values().flat_map(pairs).collect()
     }
@@ -158,8 +186,12 @@ impl FactoredFrame {
     /// Displacement of the end states of rail element `a` per unit load on those of `b`, both on one member,
     /// while the tips of its rigid offsets are fixed: the compliance K_rr^-1 of its releases, in rail axes.
     pub(crate) fn release_compliance(&self, a: &RailElement, b: &RailElement) -> Matrix12 {
-        let Some(carrier) = a.member else { return Matrix12::zeros() };
-        let Some(released) = &self.elements[carrier.id].released else { return Matrix12::zeros() };
+        let Some(carrier) = a.member else {
+            return Matrix12::zeros();
+        };
+        let Some(released) = &self.elements[carrier.id].released else {
+            return Matrix12::zeros();
+        };
         to_rail_axes(a) * released.compliance * to_rail_axes(b).transpose()
     }
 }
@@ -168,7 +200,11 @@ impl FactoredFrame {
 fn released_load(cell: &RailElement, row: &ShapeRow) -> SVector<f64, 12> {
     let mut shapes = SVector::zeros();
     for (&index, &shape) in row.indices().iter().zip(row.values()) {
-        shapes[if index / 6 == cell.ends[0] { index % 6 } else { 6 + index % 6 }] = shape;
+        shapes[if index / 6 == cell.ends[0] {
+            index % 6
+        } else {
+            6 + index % 6
+        }] = shape;
     }
     let to_rail: Matrix12 = to_rail_axes(cell);
     to_rail.transpose() * shapes

@@ -46,9 +46,17 @@ pub(crate) struct ExactLayout {
 #[derive(Clone, Debug)]
 pub(crate) enum StateRows {
     /// The tip of a rigid offset at a point, in the axes of a rail.
-    Tip { point: usize, offset: Vector3<f64>, rail: Triad },
+    Tip {
+        point: usize,
+        offset: Vector3<f64>,
+        rail: Triad,
+    },
     /// The flexible end of a member behind a release: number of the end, axes of its rail.
-    Released { member: usize, end: usize, rail: Triad },
+    Released {
+        member: usize,
+        end: usize,
+        rail: Triad,
+    },
 }
 
 impl StateRows {
@@ -63,7 +71,9 @@ impl StateRows {
 impl ExactLayout {
     /// By how much the coordinates of the ends of an element change when they are rounded to doubles.
     pub fn rounding(&self, element: usize) -> [f64; 2] {
-        self.elements[element].x.map(|x| (x - Extended::from(x.double())).double().abs())
+        self.elements[element]
+            .x
+            .map(|x| (x - Extended::from(x.double())).double().abs())
     }
 }
 
@@ -102,7 +112,12 @@ impl Layout {
     ///
     /// # Errors
     /// An axis or segment that cannot be used; segments that overlap; a station that no segment covers.
-    pub fn new(m: &Model, rails: &[Rail], elements: &[Element], bodies: &Bodies) -> Result<Layout, Error> {
+    pub fn new(
+        m: &Model,
+        rails: &[Rail],
+        elements: &[Element],
+        bodies: &Bodies,
+    ) -> Result<Layout, Error> {
         let segments = rails.iter().map(|rail| rail.segments.len()).sum::<usize>();
         let states = segments + rails.len();
         let mut builder = Builder {
@@ -124,15 +139,30 @@ impl Layout {
         }
         let line = Rails::new(builder.exact.elements.iter().map(rounded).collect())?;
         let rest = |x: Extended| (x - Extended::from(x.double())).double();
-        let rests = builder.exact.elements.iter().map(|element| element.x.map(rest)).collect();
+        let rests = builder
+            .exact
+            .elements
+            .iter()
+            .map(|element| element.x.map(rest))
+            .collect();
         let line = line.with_rests(rests);
-        Ok(Layout { line, states: builder.states, exact: builder.exact })
+        Ok(Layout {
+            line,
+            states: builder.states,
+            exact: builder.exact,
+        })
     }
 }
 
 /// A rail element in doubles.
 fn rounded(element: &RailElement<Extended>) -> RailElement {
-    let RailElement { rail, ends, flexibility, member, .. } = *element;
+    let RailElement {
+        rail,
+        ends,
+        flexibility,
+        member,
+        ..
+    } = *element;
     RailElement {
         rail,
         x: element.x.map(Real::double),
@@ -154,12 +184,24 @@ impl Builder<'_> {
         let axes = (size > Extended::zero())
             .then(|| Triad::new(axis / size, vector(m.up)))
             .flatten()
-            .ok_or(Error::Invalid { entry: ModelEntry::Rail(index), fault: EntryFault::Axis })?;
-        let frame = Frame { index, axes, origin: rail.origin };
+            .ok_or(Error::Invalid {
+                entry: ModelEntry::Rail(index),
+                fault: EntryFault::Axis,
+            })?;
+        let frame = Frame {
+            index,
+            axes,
+            origin: rail.origin,
+        };
         let mut stretches = Vec::with_capacity(rail.segments.len());
         for (segment, given) in rail.segments.iter().enumerate() {
-            let invalid =
-                |fault| Error::Invalid { entry: ModelEntry::Segment { rail: index, segment }, fault };
+            let invalid = |fault| Error::Invalid {
+                entry: ModelEntry::Segment {
+                    rail: index,
+                    segment,
+                },
+                fault,
+            };
             stretches.push(self.lay_segment(&frame, segment, given).map_err(invalid)?);
         }
         self.fill_gaps(&frame, stretches)?;
@@ -175,13 +217,23 @@ impl Builder<'_> {
         given: &RailSegment,
     ) -> Result<Stretch, EntryFault> {
         let member = given.member;
-        let element = self.elements.get(member).ok_or(EntryFault::NoMember { member })?;
+        let element = self
+            .elements
+            .get(member)
+            .ok_or(EntryFault::NoMember { member })?;
         finite(EntryAttribute::Offset, &given.offset)?;
-        let Geometry { axes: own_axes, axes_error, length, .. } = &element.geometry;
+        let Geometry {
+            axes: own_axes,
+            axes_error,
+            length,
+            ..
+        } = &element.geometry;
         let axes = &frame.axes.axes;
         let from_origin = [0, 1].map(|end| {
             let (point, offset) = (self.points[element.points[end]], element.offsets[end]);
-            Vector3::from(std::array::from_fn(|k| exact_sum([point[k], -frame.origin[k], offset[k]])))
+            Vector3::from(std::array::from_fn(|k| {
+                exact_sum([point[k], -frame.origin[k], offset[k]])
+            }))
         });
         let along = |k: usize| (axes * from_origin[k])[0];
         let (mut x, mut order) = ([along(0), along(1)], [0, 1]);
@@ -193,7 +245,9 @@ impl Builder<'_> {
             return Err(EntryFault::NoExtent);
         }
         let reversed = order[0] == 1;
-        let error = axes_error.iter().fold(frame.axes.error, |sum, error| sum + error);
+        let error = axes_error
+            .iter()
+            .fold(frame.axes.error, |sum, error| sum + error);
         // Local axes of the member in rail axes; a half turn about y lets it run along the rail.
         let mut local = if error == 0.0 {
             let [own, rail] = [own_axes, axes].map(|axes| axes.map(Real::double));
@@ -217,12 +271,22 @@ impl Builder<'_> {
             frame: std::array::from_fn(|i| std::array::from_fn(|j| local[(i, j)])),
             offset: offset.into(),
             flexibility,
-            member: Some(ElementMember { id: member, reversed }),
+            member: Some(ElementMember {
+                id: member,
+                reversed,
+            }),
         });
         self.exact.axes_error.push(error);
         let size = |place: &Vector3<Extended>| place.iter().map(|x| x.double().abs()).sum::<f64>();
-        self.exact.coordinates.push(order.map(|end| size(&from_origin[end])));
-        Ok(Stretch { segment, x, tips, offset })
+        self.exact
+            .coordinates
+            .push(order.map(|end| size(&from_origin[end])));
+        Ok(Stretch {
+            segment,
+            x,
+            tips,
+            offset,
+        })
     }
 
     /// State of the tip of the rigid offset at an end of a member; segments that meet there share it.
@@ -240,14 +304,19 @@ impl Builder<'_> {
             known = before;
         }
         let state = self.states.len();
-        self.tip_before.push((self.last_tip[point].replace(state), frame.index));
+        self.tip_before
+            .push((self.last_tip[point].replace(state), frame.index));
         self.push_tip(frame, point, &offset);
         state
     }
 
     fn push_tip(&mut self, frame: &Frame, point: usize, offset: &Vector3<f64>) {
         let rail = frame.axes;
-        self.exact.states.push(StateRows::Tip { point, offset: *offset, rail });
+        self.exact.states.push(StateRows::Tip {
+            point,
+            offset: *offset,
+            rail,
+        });
         let rows = if rail.error == 0.0 {
             // Axes along those of the coordinates only exchange the entries.
             let axes = diagonal_blocks(&rail.axes.map(Real::double));
@@ -258,7 +327,8 @@ impl Builder<'_> {
             let clean = without_rounding(&rail.axes, 4.0 * f64::EPSILON);
             let lost = if clean == rail.axes { 0.0 } else { 4.0 };
             let (value, sizes) = turned_motion(self.bodies, point, offset, &clean, lost);
-            self.bodies.sized_combinations(point, &value.map(Real::double), &sizes)
+            self.bodies
+                .sized_combinations(point, &value.map(Real::double), &sizes)
         };
         self.states.push(rows);
     }
@@ -266,7 +336,11 @@ impl Builder<'_> {
     /// State of a flexible end of a member: that of the tip, or a new one behind a release.
     fn end(&mut self, frame: &Frame, member: usize, end: usize, tip: usize) -> usize {
         let element = &self.elements[member];
-        let Some(released) = element.released.as_deref().filter(|released| released.ends[end]) else {
+        let Some(released) = element
+            .released
+            .as_deref()
+            .filter(|released| released.ends[end])
+        else {
             return tip;
         };
         let clean = without_rounding(&frame.axes.axes, 4.0 * f64::EPSILON);
@@ -274,25 +348,45 @@ impl Builder<'_> {
         let rows = released_rows(element, released, self.bodies, end, &axes, frame.axes.error);
         self.states.push(rows);
         self.tip_before.push((None, frame.index));
-        self.exact.states.push(StateRows::Released { member, end, rail: frame.axes });
+        self.exact.states.push(StateRows::Released {
+            member,
+            end,
+            rail: frame.axes,
+        });
         self.states.len() - 1
     }
 
     /// Fills each gap between neighbouring segments with two rigid rail elements that meet in the middle, each
     /// following the nearer tip; refuses segments that overlap.
     fn fill_gaps(&mut self, frame: &Frame, mut stretches: Vec<Stretch>) -> Result<(), Error> {
-        let largest =
-            stretches.iter().flat_map(|stretch| stretch.x).fold(0.0_f64, |a, x| a.max(x.double().abs()));
+        let largest = stretches
+            .iter()
+            .flat_map(|stretch| stretch.x)
+            .fold(0.0_f64, |a, x| a.max(x.double().abs()));
         let tolerance = Extended::from(TOLERANCE * largest);
-        let farthest = self.exact.coordinates.iter().flatten().fold(0.0_f64, |a, &x| a.max(x));
+        let farthest = self
+            .exact
+            .coordinates
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |a, &x| a.max(x));
         stretches.sort_by(|a, b| a.x[0].double().total_cmp(&b.x[0].double()));
         for pair in stretches.windows(2) {
             let (before, after) = (&pair[0], &pair[1]);
             let gap = [before.x[1], after.x[0]];
             if gap[0] > gap[1] + tolerance {
-                let (first, second) = (before.segment.min(after.segment), before.segment.max(after.segment));
-                let item = ModelEntry::Segment { rail: frame.index, segment: second };
-                let fault = EntryFault::Overlap { segment: first, x: gap[1].double() };
+                let (first, second) = (
+                    before.segment.min(after.segment),
+                    before.segment.max(after.segment),
+                );
+                let item = ModelEntry::Segment {
+                    rail: frame.index,
+                    segment: second,
+                };
+                let fault = EntryFault::Overlap {
+                    segment: first,
+                    x: gap[1].double(),
+                };
                 return Err(Error::Invalid { entry: item, fault });
             }
             if gap[1] - gap[0] <= tolerance {
@@ -329,7 +423,10 @@ pub(crate) fn released_rows<T: Real>(
     let motion = to_rail * local.fixed_rows::<6>(6 * end);
     // Rounding of the axes, of the recovery and of its products.
     let error = axes_error * (Extended::ROUNDING / T::ROUNDING);
-    let error = element.axes_error.iter().fold(error, |sum, error| sum + error);
+    let error = element
+        .axes_error
+        .iter()
+        .fold(error, |sum, error| sum + error);
     let magnitudes = |m: &Matrix3<T>| m.map(|x| x.double().abs());
     let products = magnitudes(axes) * magnitudes(&element.axes).transpose();
     let turned = diagonal_blocks(&products.map(|x| x + error));
@@ -371,7 +468,12 @@ fn turned_motion<T: Real>(
 }
 
 /// A rail element that moves rigidly with one state.
-fn rigid(rail: usize, x: [Extended; 2], state: usize, offset: Vector3<Extended>) -> RailElement<Extended> {
+fn rigid(
+    rail: usize,
+    x: [Extended; 2],
+    state: usize,
+    offset: Vector3<Extended>,
+) -> RailElement<Extended> {
     let [zero, one] = [0.0, 1.0].map(Extended::from);
     RailElement {
         rail,
@@ -392,7 +494,8 @@ pub(crate) fn to_rail_axes<T: Real>(cell: &RailElement<T>) -> Matrix12<T> {
     let mut out = Matrix12::zeros();
     for end in 0..2 {
         let own = if cell.is_reversed() { 1 - end } else { end };
-        out.fixed_view_mut::<6, 6>(6 * end, 6 * own).copy_from(&diagonal_blocks(&back));
+        out.fixed_view_mut::<6, 6>(6 * end, 6 * own)
+            .copy_from(&diagonal_blocks(&back));
     }
     out
 }

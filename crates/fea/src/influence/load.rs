@@ -51,7 +51,9 @@ impl RailLoads<'_> {
     /// stiffens.
     pub fn scaled_where_stiffened(&self, row: &Combination) -> SparseLoad {
         let row = self.bodies.supported(row);
-        row.significant().filter_map(|(column, value)| self.term(column, value)).collect()
+        row.significant()
+            .filter_map(|(column, value)| self.term(column, value))
+            .collect()
     }
 
     /// A term of a load; `None` on a degree of freedom that nothing stiffens.

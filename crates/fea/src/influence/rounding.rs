@@ -72,12 +72,13 @@ impl FactoredFrame {
             Solver::Double(_) => Some(self.inverse_norm().sqrt()),
             Solver::Extended(_) => None,
         };
-        let rough =
-            products + self.place_rounding(&mut UnitNorms::new(self, bound), at, diagonal, evaluation)?;
+        let rough = products
+            + self.place_rounding(&mut UnitNorms::new(self, bound), at, diagonal, evaluation)?;
         if bound.is_none() || self.certificate().error_bound + rough <= self.accuracy() {
             return Ok(rough);
         }
-        Ok(products + self.place_rounding(&mut UnitNorms::new(self, None), at, diagonal, evaluation)?)
+        Ok(products
+            + self.place_rounding(&mut UnitNorms::new(self, None), at, diagonal, evaluation)?)
     }
 
     /// The same in double-doubles, with `inverse_norm` of their stiffness, rounded to doubles at the end.
@@ -90,8 +91,12 @@ impl FactoredFrame {
         let bounds = [Some(inverse_norm.sqrt()), None];
         let mut places = f64::INFINITY;
         for bound in bounds {
-            places =
-                self.place_rounding(&mut UnitNorms::new(self, bound), at, diagonal, Evaluation::Extended)?;
+            places = self.place_rounding(
+                &mut UnitNorms::new(self, bound),
+                at,
+                diagonal,
+                Evaluation::Extended,
+            )?;
             if places <= UNIT {
                 break;
             }
@@ -113,11 +118,13 @@ impl FactoredFrame {
             let (index, axes, sizes) = self.rounding_sizes(probe, evaluation)?;
             let carrier = &self.line()?.elements()[index];
             let mut moved = 0.0;
-            let errors: [f64; 12] = std::array::from_fn(|k| load_unit * sizes.row[k] + sizes.moved_row[k]);
+            let errors: [f64; 12] =
+                std::array::from_fn(|k| load_unit * sizes.row[k] + sizes.moved_row[k]);
             for (k, &error) in errors.iter().enumerate().filter(|(_, error)| **error > 0.0) {
                 moved += error * self.state_norm(carrier.ends[k / 6], k % 6, norms, evaluation);
             }
-            let [ends, growth] = self.released_errors(carrier, &sizes.row, &errors, axes * load_unit);
+            let [ends, growth] =
+                self.released_errors(carrier, &sizes.row, &errors, axes * load_unit);
             moved += ends.sqrt();
             let element = element_unit * (sizes.green + RELEASE * growth * own) + sizes.moved_green;
             if moved == 0.0 && element == 0.0 {
@@ -143,14 +150,28 @@ impl FactoredFrame {
         errors: &[f64; 12],
         turned: f64,
     ) -> [f64; 2] {
-        let released = carrier.member.and_then(|member| self.elements[member.id].released.as_deref());
-        let Some(Released { compliance, growth, .. }) = released else { return [0.0; 2] };
+        let released = carrier
+            .member
+            .and_then(|member| self.elements[member.id].released.as_deref());
+        let Some(Released {
+            compliance, growth, ..
+        }) = released
+        else {
+            return [0.0; 2];
+        };
         let to_rail: Matrix12 = to_rail_axes(carrier);
         let all = Matrix12::from_fn(|i, j| if i / 3 == j / 3 { turned } else { 0.0 });
-        let (row, errors) = (SVector::<f64, 12>::from(*row), SVector::<f64, 12>::from(*errors));
+        let (row, errors) = (
+            SVector::<f64, 12>::from(*row),
+            SVector::<f64, 12>::from(*errors),
+        );
         // A load at one end of the rail element acts at the other end of the member where that runs against it.
-        let errors = to_rail.abs().transpose() * errors + swapped_if(all * row, carrier.is_reversed());
-        [(errors.transpose() * compliance.abs() * errors)[0] * growth, *growth]
+        let errors =
+            to_rail.abs().transpose() * errors + swapped_if(all * row, carrier.is_reversed());
+        [
+            (errors.transpose() * compliance.abs() * errors)[0] * growth,
+            *growth,
+        ]
     }
 
     /// Element of a probe, the error of its axes in roundings, and sizes behind its functions there.
@@ -184,7 +205,10 @@ impl FactoredFrame {
         let axes = layout.axes_error[near] * Extended::ROUNDING / UNIT;
         let mut sizes = line.rounding_sizes(near, probe.axis, fractions, [axes, shift], true);
         // The place may be on the next element.
-        let unsure = distances.iter().zip(errors).any(|(x, error)| error > 0.0 && *x <= 2.0 * error);
+        let unsure = distances
+            .iter()
+            .zip(errors)
+            .any(|(x, error)| error > 0.0 && *x <= 2.0 * error);
         if unsure && evaluation == Evaluation::Doubles {
             sizes.moved_green = f64::INFINITY;
         }
@@ -193,12 +217,22 @@ impl FactoredFrame {
 
     /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load along degree of freedom `dof` of a state, with the
     /// magnitudes of its row.
-    fn state_norm(&self, state: usize, dof: usize, norms: &mut UnitNorms, evaluation: Evaluation) -> f64 {
+    fn state_norm(
+        &self,
+        state: usize,
+        dof: usize,
+        norms: &mut UnitNorms,
+        evaluation: Evaluation,
+    ) -> f64 {
         if let Some(&known) = norms.of_states.get(&(state, dof)) {
             return known;
         }
         let norm = match &self.exact_layout().states[state] {
-            StateRows::Tip { point, offset, rail } if evaluation == Evaluation::Extended => {
+            StateRows::Tip {
+                point,
+                offset,
+                rail,
+            } if evaluation == Evaluation::Extended => {
                 self.load_norm(&tip_rows(&self.bodies, *point, offset, rail)[dof], norms)
             }
             _ => self.load_norm(&self.states()[state][dof], norms),
@@ -233,7 +267,10 @@ fn place_and_shift(distances: [f64; 2], extent: f64, errors: [f64; 2]) -> ([f64;
     if distances[near] < -errors[near] {
         return (fractions, 0.0);
     }
-    (fractions, errors[near] + fractions[near].max(0.0) * (errors[0] + errors[1]))
+    (
+        fractions,
+        errors[near] + fractions[near].max(0.0) * (errors[0] + errors[1]),
+    )
 }
 
 /// Loads on both ends of a member, exchanged where it runs against its rail element.
@@ -252,7 +289,12 @@ struct UnitNorms<'a> {
 
 impl UnitNorms<'_> {
     fn new(frame: &FactoredFrame, bound: Option<f64>) -> UnitNorms<'_> {
-        UnitNorms { frame, bound, computed: BTreeMap::new(), of_states: BTreeMap::new() }
+        UnitNorms {
+            frame,
+            bound,
+            computed: BTreeMap::new(),
+            of_states: BTreeMap::new(),
+        }
     }
 
     fn of(&mut self, unknown: usize) -> f64 {
@@ -260,6 +302,7 @@ impl UnitNorms<'_> {
             let own = self.frame.gram(&[vec![(unknown, 1.0)]]).value;
             own[(0, 0)].sqrt()
         };
-        self.bound.unwrap_or_else(|| *self.computed.entry(unknown).or_insert_with(compute))
+        self.bound
+            .unwrap_or_else(|| *self.computed.entry(unknown).or_insert_with(compute))
     }
 }

@@ -69,7 +69,12 @@ impl FactoredFrame {
         let line = Arc::clone(self.line()?);
         allow_square(EntryAttribute::Surface, 6 * line.state_count())?;
         // States behind the last rail element belong to tips that no element of the line uses.
-        let rows: Vec<&Combination> = self.states().iter().flatten().take(6 * line.state_count()).collect();
+        let rows: Vec<&Combination> = self
+            .states()
+            .iter()
+            .flatten()
+            .take(6 * line.state_count())
+            .collect();
         let mut nodal = self.compliance(&rows);
         for (a, b) in self.released_pairs(line.elements()) {
             let (row, column) = (&line.elements()[a], &line.elements()[b]);
@@ -82,7 +87,10 @@ impl FactoredFrame {
             }
         }
         let surface = ExactSurface::new(line, nodal)?;
-        Ok(CertifiedSurface { surface, certificate: self.certificate() })
+        Ok(CertifiedSurface {
+            surface,
+            certificate: self.certificate(),
+        })
     }
 
     /// [`point_compliance`] of a frame that is already factored.
@@ -90,7 +98,10 @@ impl FactoredFrame {
     /// # Errors
     /// [`Error::Invalid`] for a point that does not exist.
     pub fn point_compliance(&self, points: &[usize]) -> Result<DMatrix<f64>, Error> {
-        if let Some(&point) = points.iter().find(|&&point| point >= self.bodies.of_point.len()) {
+        if let Some(&point) = points
+            .iter()
+            .find(|&&point| point >= self.bodies.of_point.len())
+        {
             return Err(Error::Invalid {
                 entry: ModelEntry::Point(point),
                 fault: EntryFault::NoPoint { point },

@@ -27,7 +27,8 @@ pub(super) fn cut_member(
         }
         let fraction = part as f64 / parts as f64;
         let cut = out.points.len();
-        out.points.push([0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * fraction));
+        out.points
+            .push([0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * fraction));
         let mut own = rest;
         own.points[1] = cut;
         own.offsets[1] = [0.0; 3];
@@ -45,7 +46,10 @@ pub(super) fn cut_member(
 /// The points of the given model come first; members keep their order. The model and the rails must be
 /// valid, and every count at least 1.
 pub(crate) fn cut_members(m: &Model, rails: &[Rail], parts: &[usize]) -> (Model, Vec<Rail>) {
-    let mut model = Model { members: Vec::new(), ..m.clone() };
+    let mut model = Model {
+        members: Vec::new(),
+        ..m.clone()
+    };
     let mut first = Vec::with_capacity(parts.len());
     for (member, &count) in m.members.iter().zip(parts) {
         first.push(model.members.len());
@@ -58,7 +62,10 @@ pub(crate) fn cut_members(m: &Model, rails: &[Rail], parts: &[usize]) -> (Model,
             let offset = segment.offset;
             (from..from + parts[segment.member]).map(move |member| RailSegment { member, offset })
         });
-        Rail { segments: segments.collect(), ..rail.clone() }
+        Rail {
+            segments: segments.collect(),
+            ..rail.clone()
+        }
     });
     let rails = rails.collect();
     (model, rails)

@@ -80,15 +80,24 @@ impl Girder {
         };
         let supported = self.place_points(&mut model.points);
         for (k, point) in supported.into_iter().enumerate() {
-            model.supports.push(Support { point, fixed: [k == 0, true, true, true, false, false] });
+            model.supports.push(Support {
+                point,
+                fixed: [k == 0, true, true, true, false, false],
+            });
         }
         for k in 1..model.points.len() {
             model.members.push(Member::beam([k - 1, k], 0, model.up));
         }
         let offset = [0.0, self.rail_height, 0.0];
-        let segments = (0..model.members.len()).map(|member| RailSegment { member, offset }).collect();
-        let rail =
-            Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: self.stations.clone() };
+        let segments = (0..model.members.len())
+            .map(|member| RailSegment { member, offset })
+            .collect();
+        let rail = Rail {
+            origin: [0.0; 3],
+            axis: [1.0, 0.0, 0.0],
+            segments,
+            stations: self.stations.clone(),
+        };
         Ok((model, rail))
     }
 
@@ -128,15 +137,19 @@ impl Girder {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let invalid = |item: ModelEntry| move |fault: EntryFault| Error::Invalid { entry: item, fault };
+        let invalid =
+            |item: ModelEntry| move |fault: EntryFault| Error::Invalid { entry: item, fault };
         if self.spans.is_empty() {
-            return Err(invalid(ModelEntry::Girder)(EntryFault::Empty { quantity: EntryAttribute::Spans }));
+            return Err(invalid(ModelEntry::Girder)(EntryFault::Empty {
+                quantity: EntryAttribute::Spans,
+            }));
         }
         for (k, &span) in self.spans.iter().enumerate() {
             positive(EntryAttribute::Length, span).map_err(invalid(ModelEntry::Span(k)))?;
         }
         for (k, &overhang) in self.overhangs.iter().enumerate() {
-            not_negative(EntryAttribute::Length, overhang).map_err(invalid(ModelEntry::Overhang(k)))?;
+            not_negative(EntryAttribute::Length, overhang)
+                .map_err(invalid(ModelEntry::Overhang(k)))?;
         }
         let girder = invalid(ModelEntry::Girder);
         positive(EntryAttribute::E, self.e).map_err(girder)?;
@@ -148,10 +161,15 @@ impl Girder {
             (EntryAttribute::J, self.j),
             (EntryAttribute::ShearY, self.ka_vertical),
             (EntryAttribute::ShearZ, self.ka_lateral),
-            (EntryAttribute::Mass, self.mass_per_length.filter(|&mass| mass != 0.0)),
+            (
+                EntryAttribute::Mass,
+                self.mass_per_length.filter(|&mass| mass != 0.0),
+            ),
         ];
         for (quantity, value) in optional {
-            value.map_or(Ok(()), |value| positive(quantity, value)).map_err(girder)?;
+            value
+                .map_or(Ok(()), |value| positive(quantity, value))
+                .map_err(girder)?;
         }
         let shears = self.ka_vertical.is_some() || self.ka_lateral.is_some();
         if self.theory == BeamTheory::Timoshenko && shears && self.g.is_none() {

@@ -18,5 +18,7 @@ pub(crate) use cut::{cut_members, flexible_ends};
 pub use girder::Girder;
 pub use rail::{Rail, RailSegment};
 pub use section::{BeamTheory, CrossSection};
-pub use structure::{ArmStiffness, GroundSpring, Member, MemberKind, Model, PointMass, RigidLink, Support};
+pub use structure::{
+    ArmStiffness, GroundSpring, Member, MemberKind, Model, PointMass, RigidLink, Support,
+};
 pub use taper::Taper;

@@ -41,11 +41,16 @@ pub struct Rail {
 impl Rail {
     /// Checks that the axes are finite and that there is a segment; `rail` is the index for the error.
     pub(crate) fn check(&self, rail: usize) -> Result<(), Error> {
-        let invalid = |fault| Error::Invalid { entry: ModelEntry::Rail(rail), fault };
+        let invalid = |fault| Error::Invalid {
+            entry: ModelEntry::Rail(rail),
+            fault,
+        };
         finite(EntryAttribute::Coordinate, &self.origin).map_err(invalid)?;
         finite(EntryAttribute::Coordinate, &self.axis).map_err(invalid)?;
         if self.segments.is_empty() {
-            return Err(invalid(EntryFault::Empty { quantity: EntryAttribute::Segments }));
+            return Err(invalid(EntryFault::Empty {
+                quantity: EntryAttribute::Segments,
+            }));
         }
         Ok(())
     }
@@ -53,7 +58,10 @@ impl Rail {
     /// Checks that the stations are finite and increase; `rail` is the index for the error.
     pub(crate) fn check_stations(&self, rail: usize) -> Result<(), Error> {
         for (station, &value) in self.stations.iter().enumerate() {
-            let invalid = |fault| Error::Invalid { entry: ModelEntry::Station { rail, station }, fault };
+            let invalid = |fault| Error::Invalid {
+                entry: ModelEntry::Station { rail, station },
+                fault,
+            };
             finite(EntryAttribute::Station, &[value]).map_err(invalid)?;
             if station > 0 && value <= self.stations[station - 1] {
                 return Err(invalid(EntryFault::Unsorted { value }));

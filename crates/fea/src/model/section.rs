@@ -74,7 +74,11 @@ impl CrossSection {
 
     /// Squared radius of gyration of a second moment of area, length^2; 0 for a section without area.
     pub(crate) fn gyration_squared(&self, second_moment: f64) -> f64 {
-        if self.area > 0.0 { second_moment / self.area } else { 0.0 }
+        if self.area > 0.0 {
+            second_moment / self.area
+        } else {
+            0.0
+        }
     }
 
     /// Checks every number; returns the first that cannot be used.
@@ -91,9 +95,10 @@ impl CrossSection {
         for (quantity, value) in plain {
             not_negative(quantity, value)?;
         }
-        for (quantity, area) in
-            [(EntryAttribute::ShearY, self.shear_y), (EntryAttribute::ShearZ, self.shear_z)]
-        {
+        for (quantity, area) in [
+            (EntryAttribute::ShearY, self.shear_y),
+            (EntryAttribute::ShearZ, self.shear_z),
+        ] {
             let Some(area) = area else { continue };
             positive(quantity, area)?;
             if theory == BeamTheory::Timoshenko && self.g == 0.0 {
@@ -105,5 +110,9 @@ impl CrossSection {
 }
 
 fn reciprocal(stiffness: f64) -> f64 {
-    if stiffness > 0.0 { 1.0 / stiffness } else { f64::INFINITY }
+    if stiffness > 0.0 {
+        1.0 / stiffness
+    } else {
+        f64::INFINITY
+    }
 }

@@ -175,17 +175,24 @@ impl Model {
     pub fn check(&self) -> Result<(), Error> {
         let at = |item: ModelEntry| move |fault: EntryFault| Error::Invalid { entry: item, fault };
         let known = |point: usize| {
-            if point < self.points.len() { Ok(()) } else { Err(EntryFault::NoPoint { point }) }
+            if point < self.points.len() {
+                Ok(())
+            } else {
+                Err(EntryFault::NoPoint { point })
+            }
         };
         finite(EntryAttribute::Coordinate, &self.up).map_err(at(ModelEntry::Up))?;
         for (k, point) in self.points.iter().enumerate() {
             finite(EntryAttribute::Coordinate, point).map_err(at(ModelEntry::Point(k)))?;
         }
         for (k, section) in self.sections.iter().enumerate() {
-            section.check(self.theory).map_err(at(ModelEntry::Section(k)))?;
+            section
+                .check(self.theory)
+                .map_err(at(ModelEntry::Section(k)))?;
         }
         for (k, member) in self.members.iter().enumerate() {
-            self.check_member(member).map_err(at(ModelEntry::Member(k)))?;
+            self.check_member(member)
+                .map_err(at(ModelEntry::Member(k)))?;
         }
         for (k, support) in self.supports.iter().enumerate() {
             known(support.point).map_err(at(ModelEntry::Support(k)))?;
@@ -201,14 +208,18 @@ impl Model {
             finite(EntryAttribute::Stiffness, arm.stiffness.as_flattened()).map_err(point)?;
         }
         for (k, link) in self.links.iter().enumerate() {
-            known(link.from).and_then(|()| known(link.to)).map_err(at(ModelEntry::Link(k)))?;
+            known(link.from)
+                .and_then(|()| known(link.to))
+                .map_err(at(ModelEntry::Link(k)))?;
         }
         for (k, mass) in self.masses.iter().enumerate() {
             known(mass.point)
                 .and_then(|()| not_negative(EntryAttribute::Mass, mass.mass))
                 .and_then(|()| finite(EntryAttribute::Offset, &mass.offset))
                 .and_then(|()| {
-                    mass.inertia.iter().try_for_each(|&i| not_negative(EntryAttribute::Inertia, i))
+                    mass.inertia
+                        .iter()
+                        .try_for_each(|&i| not_negative(EntryAttribute::Inertia, i))
                 })
                 .map_err(at(ModelEntry::Mass(k)))?;
         }
@@ -219,7 +230,9 @@ impl Model {
     #[must_use]
     pub(crate) fn unloaded(&self) -> Model {
         let mut out = self.clone();
-        out.members.iter_mut().for_each(|member| member.tension = 0.0);
+        out.members
+            .iter_mut()
+            .for_each(|member| member.tension = 0.0);
         out.arms.clear();
         out
     }
@@ -236,7 +249,9 @@ impl Model {
             }
         }
         if member.section >= self.sections.len() {
-            return Err(EntryFault::NoSection { section: member.section });
+            return Err(EntryFault::NoSection {
+                section: member.section,
+            });
         }
         finite(EntryAttribute::Orientation, &member.orientation)?;
         finite(EntryAttribute::Tension, &[member.tension])?;
@@ -247,9 +262,16 @@ impl Model {
             })
         };
         let section = &self.sections[member.section];
-        if member.kind == MemberKind::Beam && (collapses(section.shear_y) || collapses(section.shear_z)) {
-            return Err(EntryFault::ShearCollapse { tension: member.tension });
+        if member.kind == MemberKind::Beam
+            && (collapses(section.shear_y) || collapses(section.shear_z))
+        {
+            return Err(EntryFault::ShearCollapse {
+                tension: member.tension,
+            });
         }
-        member.offsets.iter().try_for_each(|offset| finite(EntryAttribute::Offset, offset))
+        member
+            .offsets
+            .iter()
+            .try_for_each(|offset| finite(EntryAttribute::Offset, offset))
     }
 }

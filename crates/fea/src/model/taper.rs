@@ -78,12 +78,17 @@ impl Model {
         tapers: &[Option<Taper>],
         section: impl Fn(usize, [f64; 2]) -> Option<CrossSection>,
     ) -> (Model, Vec<Range<usize>>) {
-        let mut out = Model { members: Vec::with_capacity(self.members.len()), ..self.clone() };
+        let mut out = Model {
+            members: Vec::with_capacity(self.members.len()),
+            ..self.clone()
+        };
         let mut ranges = Vec::with_capacity(self.members.len());
         for (index, member) in self.members.iter().enumerate() {
             let first = out.members.len();
             match tapers.get(index).copied().flatten() {
-                Some(taper) => self.cut_tapered(member, taper, |range| section(index, range), &mut out),
+                Some(taper) => {
+                    self.cut_tapered(member, taper, |range| section(index, range), &mut out)
+                }
                 None => out.members.push(*member),
             }
             ranges.push(first..out.members.len());
@@ -98,20 +103,28 @@ impl Model {
         section: impl Fn([f64; 2]) -> Option<CrossSection>,
         out: &mut Model,
     ) {
-        let sections = self.sections.get(member.section).zip(self.sections.get(taper.section));
+        let sections = self
+            .sections
+            .get(member.section)
+            .zip(self.sections.get(taper.section));
         let points = member.points.map(|point| self.points.get(point));
         let (Some((a, b)), [Some(p), Some(q)]) = (sections, points) else {
             out.members.push(*member);
             return;
         };
         let ends = flexible_ends([*p, *q], member.offsets);
-        let parts = if member.kind == MemberKind::Beam { taper.parts.max(1) } else { 1 };
+        let parts = if member.kind == MemberKind::Beam {
+            taper.parts.max(1)
+        } else {
+            1
+        };
         cut_member(member, ends, parts, out, |part, out| {
             if taper.section == member.section {
                 return member.section;
             }
             let [from, to] = [part, part + 1].map(|k| k as f64 / parts as f64);
-            out.sections.push(section([from, to]).unwrap_or_else(|| a.between(b, from, to)));
+            out.sections
+                .push(section([from, to]).unwrap_or_else(|| a.between(b, from, to)));
             out.sections.len() - 1
         });
     }

@@ -44,12 +44,19 @@ impl FactoredFrame {
         few_enough(unknowns)?;
         let norms = self.norms(mass)?;
         let modes: Vec<Mode> = spectrum(&part.stiffness, &part.mass, usize::MAX)
-            .ok_or(Error::Modes { asked: unknowns, found: 0 })?
+            .ok_or(Error::Modes {
+                asked: unknowns,
+                found: 0,
+            })?
             .into_iter()
             .map(|(lambda, phi)| self.mode(part, mass, norms, lambda, &phi))
             .collect();
         let shift = modes.last().map_or(0.0, |mode| mode.omega);
-        let count = Count { shift, below: modes.len(), next: None };
+        let count = Count {
+            shift,
+            below: modes.len(),
+            next: None,
+        };
         Ok(self.collect_modes(modes, count, mass))
     }
 }
@@ -57,7 +64,10 @@ impl FactoredFrame {
 /// Refuses more unknowns than dense matrices can have.
 pub(super) fn few_enough(unknowns: usize) -> Result<(), Error> {
     if unknowns > MOST_DENSE_UNKNOWNS {
-        return Err(Error::TooManyModes { unknowns, most: MOST_DENSE_UNKNOWNS });
+        return Err(Error::TooManyModes {
+            unknowns,
+            most: MOST_DENSE_UNKNOWNS,
+        });
     }
     Ok(())
 }
@@ -96,10 +106,15 @@ pub(super) fn dense_spectrum(
     lower.solve_lower_triangular_in_place(&mut matrix);
     let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
     let (values, mut vectors) = (eigen.S(), eigen.U().to_owned());
-    lower.transpose().solve_upper_triangular_in_place(&mut vectors);
+    lower
+        .transpose()
+        .solve_upper_triangular_in_place(&mut vectors);
     let size = vectors.nrows();
     let largest = values[size - 1];
-    let finite = (0..size).rev().filter(|&k| values[k] > MASSLESS * largest).take(count);
+    let finite = (0..size)
+        .rev()
+        .filter(|&k| values[k] > MASSLESS * largest)
+        .take(count);
     // phi = L^-T y has y^T y = 1 and phi^T M phi = 1/lambda: scale it to modal mass 1.
     Some(
         finite

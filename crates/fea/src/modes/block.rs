@@ -18,7 +18,11 @@ fn view(x: &DMatrix<f64>) -> MatRef<'_, f64> {
 fn add(y: &mut DMatrix<f64>, factor: f64, a: &DMatrix<f64>, transposed: bool, b: &DMatrix<f64>) {
     let (rows, columns) = y.shape();
     let out = MatMut::from_column_major_slice_mut(y.as_mut_slice(), rows, columns);
-    let a = if transposed { view(a).transpose() } else { view(a) };
+    let a = if transposed {
+        view(a).transpose()
+    } else {
+        view(a)
+    };
     multiply(out, Accum::Add, a, view(b), factor);
 }
 
@@ -51,7 +55,10 @@ pub(super) fn append(a: &mut DMatrix<f64>, b: &DMatrix<f64>) {
 
 /// Replaces the columns of `x` by `operator` of them; it receives [`LANES`] columns at a time, side by side in each row,
 /// the last ones completed with zeros.
-pub(super) fn apply(mut x: DMatrix<f64>, operator: impl Fn(&mut Vec<[f64; LANES]>)) -> DMatrix<f64> {
+pub(super) fn apply(
+    mut x: DMatrix<f64>,
+    operator: impl Fn(&mut Vec<[f64; LANES]>),
+) -> DMatrix<f64> {
     let n = x.nrows();
     let mut lanes = vec![[0.0; LANES]; n];
     for first in (0..x.ncols()).step_by(LANES) {
@@ -70,5 +77,7 @@ pub(super) fn apply(mut x: DMatrix<f64>, operator: impl Fn(&mut Vec<[f64; LANES]
 
 /// Product of the symmetric matrix whose upper triangle is given with the columns of `x`.
 pub(super) fn symmetric_products(upper: &CsMat<f64>, x: &DMatrix<f64>) -> DMatrix<f64> {
-    apply(x.clone(), |lanes| *lanes = symmetric_product_lanes(upper, lanes))
+    apply(x.clone(), |lanes| {
+        *lanes = symmetric_product_lanes(upper, lanes)
+    })
 }

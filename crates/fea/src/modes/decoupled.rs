@@ -32,7 +32,10 @@ impl ExcitingForces {
     /// Vertical forces on the rails.
     #[must_use]
     pub fn vertical() -> ExcitingForces {
-        ExcitingForces { axes: vec![Axis::Vertical], motions: Vec::new() }
+        ExcitingForces {
+            axes: vec![Axis::Vertical],
+            motions: Vec::new(),
+        }
     }
 }
 
@@ -86,9 +89,14 @@ impl Part {
         for unknown in loaded_unknowns(forces, loads, mass) {
             moved[blocks.root(unknown)] = true;
         }
-        let unknowns: Vec<usize> = (0..all).filter(|&unknown| moved[blocks.root(unknown)]).collect();
+        let unknowns: Vec<usize> = (0..all)
+            .filter(|&unknown| moved[blocks.root(unknown)])
+            .collect();
         let mut index = vec![None; all];
-        unknowns.iter().enumerate().for_each(|(k, &unknown)| index[unknown] = Some(k));
+        unknowns
+            .iter()
+            .enumerate()
+            .for_each(|(k, &unknown)| index[unknown] = Some(k));
         let restricted = |upper: &CsMat<f64>| {
             let mut entries = TriMat::new((unknowns.len(), unknowns.len()));
             for (&value, (i, j)) in upper.iter() {
@@ -98,7 +106,13 @@ impl Part {
             }
             entries.to_csc()
         };
-        Part { stiffness: restricted(&stiffness), mass: restricted(&mass.upper), unknowns, interior, all }
+        Part {
+            stiffness: restricted(&stiffness),
+            mass: restricted(&mass.upper),
+            unknowns,
+            interior,
+            all,
+        }
     }
 
     /// Number of unknowns.
@@ -109,7 +123,10 @@ impl Part {
     /// Values of all coordinates of the frame; those outside the part are zero.
     pub fn expand(&self, values: &[f64]) -> DVector<f64> {
         let mut out = DVector::zeros(self.all);
-        self.unknowns.iter().zip(values).for_each(|(&unknown, &value)| out[unknown] = value);
+        self.unknowns
+            .iter()
+            .zip(values)
+            .for_each(|(&unknown, &value)| out[unknown] = value);
         out
     }
 
@@ -145,8 +162,16 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    pub const NONE: Directions = Directions { axial: false, torsion: false, bending: [false; 2] };
-    pub const ALL: Directions = Directions { axial: true, torsion: true, bending: [true; 2] };
+    pub const NONE: Directions = Directions {
+        axial: false,
+        torsion: false,
+        bending: [false; 2],
+    };
+    pub const ALL: Directions = Directions {
+        axial: true,
+        torsion: true,
+        bending: [true; 2],
+    };
 
     /// The deformations of both.
     pub fn with(self, other: Directions) -> Directions {
@@ -171,7 +196,10 @@ impl FactoredFrame {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
         let part = Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass);
         let mut moves = vec![false; self.unknowns()];
-        let of_frame = part.unknowns.iter().filter_map(|unknown| unknown.checked_sub(part.interior));
+        let of_frame = part
+            .unknowns
+            .iter()
+            .filter_map(|unknown| unknown.checked_sub(part.interior));
         of_frame.for_each(|unknown| moves[unknown] = true);
         let all = self.elements.iter().map(|element| {
             let local = transformation(element, &self.bodies);
@@ -189,7 +217,11 @@ impl FactoredFrame {
             };
             let bending = bending_planes(&element.flexibility)
                 .map(|plane| moved(plane.deflection) || moved(plane.rotation));
-            Directions { axial: moved(0), torsion: moved(3), bending }
+            Directions {
+                axial: moved(0),
+                torsion: moved(3),
+                bending,
+            }
         });
         Ok(all.collect())
     }
@@ -203,11 +235,20 @@ fn loaded_unknowns(forces: &ExcitingForces, loads: RailLoads<'_>, mass: &ScaledM
         let [a, b] = element.x;
         for at in [0.25, 0.5, 0.75] {
             for &axis in &forces.axes {
-                let probe = Probe { rail: element.rail, x: a + at * (b - a), axis };
+                let probe = Probe {
+                    rail: element.rail,
+                    x: a + at * (b - a),
+                    axis,
+                };
                 // Nothing moves in a direction that nothing stiffens.
-                let Ok((row, _)) = loads.row(probe) else { continue };
+                let Ok((row, _)) = loads.row(probe) else {
+                    continue;
+                };
                 let load = loads.scaled_where_stiffened(&row);
-                loaded.extend(load.into_iter().map(|(unknown, _)| mass.interior.len() + unknown));
+                loaded.extend(
+                    load.into_iter()
+                        .map(|(unknown, _)| mass.interior.len() + unknown),
+                );
             }
         }
     }
@@ -217,7 +258,12 @@ fn loaded_unknowns(forces: &ExcitingForces, loads: RailLoads<'_>, mass: &ScaledM
         let motion = DVector::from_column_slice(motion);
         let own = motion.dot(&(&total * &motion));
         for (unknown, own_mass) in diagonal.iter().enumerate() {
-            let force: f64 = mass.rigid.iter().zip(&motion).map(|(rigid, part)| rigid[unknown] * part).sum();
+            let force: f64 = mass
+                .rigid
+                .iter()
+                .zip(&motion)
+                .map(|(rigid, part)| rigid[unknown] * part)
+                .sum();
             if force.abs() > ROUNDING * (own * own_mass).sqrt() {
                 loaded.push(unknown);
             }
@@ -228,7 +274,9 @@ fn loaded_unknowns(forces: &ExcitingForces, loads: RailLoads<'_>, mass: &ScaledM
 
 /// Diagonal of a matrix given by its upper triangle.
 fn diagonal(upper: &CsMat<f64>) -> Vec<f64> {
-    (0..upper.cols()).map(|k| upper.get(k, k).copied().unwrap_or(0.0)).collect()
+    (0..upper.cols())
+        .map(|k| upper.get(k, k).copied().unwrap_or(0.0))
+        .collect()
 }
 
 /// Unknowns grouped by the entries that connect them (a union-find forest).
@@ -238,7 +286,9 @@ struct Blocks {
 
 impl Blocks {
     fn new(count: usize) -> Blocks {
-        Blocks { parent: (0..count).collect() }
+        Blocks {
+            parent: (0..count).collect(),
+        }
     }
 
     /// The unknown that stands for the group of `k`.

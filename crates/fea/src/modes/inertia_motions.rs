@@ -19,7 +19,8 @@ use splines::MemberMotion;
 
 use crate::assembly::BendingPlane;
 use crate::modes::shapes::{
-    Moments, Polynomial, bending_shapes, bent_deflection, is_bent, uniform_load_shape, uniform_load_stiffness,
+    Moments, Polynomial, bending_shapes, bent_deflection, is_bent, uniform_load_shape,
+    uniform_load_stiffness,
 };
 
 /// Number of motions with inertia in one plane of a member: four of the ends, and the interior motion.
@@ -59,29 +60,45 @@ impl InertiaMotions {
         let shapes = shapes(plane, length);
         let moments = |of: &[Polynomial; 2]| of.each_ref().map(Moments::of);
         let work = |a: &[Moments; 2], b: &[Polynomial; 2]| {
-            length * (mass.deflection * a[0].integral_with(&b[0]) + mass.rotation * a[1].integral_with(&b[1]))
+            length
+                * (mass.deflection * a[0].integral_with(&b[0])
+                    + mass.rotation * a[1].integral_with(&b[1]))
         };
         let shape_moments = shapes.each_ref().map(moments);
         let of_shapes = products(|i, j| work(&shape_moments[i], &shapes[j]));
         let uniform = &shapes[MOTIONS - 1];
         let energy = uniform_load_stiffness(plane, length);
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
-            let loads = [shapes[j][0].map(|c| mass.deflection * c), shapes[j][1].map(|c| mass.rotation * c)];
+            let loads = [
+                shapes[j][0].map(|c| mass.deflection * c),
+                shapes[j][1].map(|c| mass.rotation * c),
+            ];
             let whole = clamped_deflection(plane, length, &loads);
             let carried = of_shapes[j][MOTIONS - 1] / energy;
-            let mut rest: [Polynomial; 2] =
-                std::array::from_fn(|k| std::array::from_fn(|p| whole[k][p] - carried * uniform[k][p]));
+            let mut rest: [Polynomial; 2] = std::array::from_fn(|k| {
+                std::array::from_fn(|p| whole[k][p] - carried * uniform[k][p])
+            });
             for (row, shape) in released.iter().zip(&shapes) {
-                let moved: f64 = row.iter().zip(&of_shapes[j]).map(|(c, work)| c * work).sum();
+                let moved: f64 = row
+                    .iter()
+                    .zip(&of_shapes[j])
+                    .map(|(c, work)| c * work)
+                    .sum();
                 for (rest, shape) in rest.iter_mut().zip(shape) {
-                    rest.iter_mut().zip(shape).for_each(|(rest, c)| *rest += moved * c);
+                    rest.iter_mut()
+                        .zip(shape)
+                        .for_each(|(rest, c)| *rest += moved * c);
                 }
             }
             rest
         });
         let rest_moments = rest.each_ref().map(moments);
         InertiaMotions {
-            motions: rest.map(|[deflection, rotation]| MemberMotion { plane: index, deflection, rotation }),
+            motions: rest.map(|[deflection, rotation]| MemberMotion {
+                plane: index,
+                deflection,
+                rotation,
+            }),
             // Its two halves are equal but for rounding.
             stiffness: products(|i, j| {
                 0.5 * (work(&shape_moments[i], &rest[j]) + work(&shape_moments[j], &rest[i]))
@@ -108,12 +125,20 @@ fn shapes(plane: &BendingPlane, length: f64) -> [[Polynomial; 2]; MOTIONS] {
 /// The interior motion of a member: its deflection between clamped ends under a uniform load of intensity one.
 pub(super) fn uniform_load_motion(index: usize, plane: &BendingPlane, length: f64) -> MemberMotion {
     let [deflection, rotation] = uniform_load_shape(plane, length);
-    MemberMotion { plane: index, deflection, rotation }
+    MemberMotion {
+        plane: index,
+        deflection,
+        rotation,
+    }
 }
 
 /// Deflection and rotation of the clamped member under the force f = `loads[0]` and the moment mu = `loads[1]` per
 /// length, of degree four and three at most.
-fn clamped_deflection(plane: &BendingPlane, length: f64, loads: &[Polynomial; 2]) -> [Polynomial; 2] {
+fn clamped_deflection(
+    plane: &BendingPlane,
+    length: f64,
+    loads: &[Polynomial; 2],
+) -> [Polynomial; 2] {
     if is_bent(plane, length) {
         return bent_deflection(plane, length, loads);
     }
@@ -132,7 +157,8 @@ fn clamped_deflection(plane: &BendingPlane, length: f64, loads: &[Polynomial; 2]
     let mut deflection = [0.0; 9];
     for p in 0..9 {
         rotation[p] = h * c * (h * h * force[2][p] - h * moment[1][p]);
-        deflection[p] = h * h * c * (h * h * force[3][p] - h * moment[2][p]) - h * h * g * force[1][p];
+        deflection[p] =
+            h * h * c * (h * h * force[3][p] - h * moment[2][p]) - h * h * g * force[1][p];
     }
     rotation[1] += h * c * bending;
     rotation[2] -= 0.5 * h * h * c * shear;
@@ -159,8 +185,14 @@ mod tests {
     use super::*;
     use crate::modes::shapes::{integral_of_product, polynomial};
 
-    const PLANE: BendingPlane =
-        BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7, tension: 0.0 };
+    const PLANE: BendingPlane = BendingPlane {
+        deflection: 1,
+        rotation: 5,
+        sign: 1.0,
+        bending: 0.3,
+        shear: 0.7,
+        tension: 0.0,
+    };
     const LENGTH: f64 = 1.7;
 
     fn value(polynomial: &[f64], s: f64) -> f64 {
@@ -174,7 +206,10 @@ mod tests {
     /// Analytic: the balance of forces and moments of the clamped Timoshenko member.
     #[test]
     fn clamped_deflection_is_in_equilibrium_with_its_loads() {
-        let loads = [polynomial(&[0.4, -1.0, 2.0, 0.3, -0.9]), polynomial(&[1.2, 0.7, -2.0, 0.5])];
+        let loads = [
+            polynomial(&[0.4, -1.0, 2.0, 0.3, -0.9]),
+            polynomial(&[1.2, 0.7, -2.0, 0.5]),
+        ];
         let [deflection, rotation] = clamped_deflection(&PLANE, LENGTH, &loads);
         let slope = derivative(&deflection);
         let shear: Polynomial = std::array::from_fn(|p| (slope[p] - rotation[p]) / PLANE.shear);
@@ -182,7 +217,10 @@ mod tests {
         for s in [0.0, 0.2, 0.5, 0.9, 1.0] {
             let force = value(&derivative(&shear), s) + value(&loads[0], s);
             let couple = value(&derivative(&moment), s) + value(&shear, s) + value(&loads[1], s);
-            assert!(force.abs() < 1e-12 && couple.abs() < 1e-12, "{s}: {force:e}, {couple:e}");
+            assert!(
+                force.abs() < 1e-12 && couple.abs() < 1e-12,
+                "{s}: {force:e}, {couple:e}"
+            );
         }
         for s in [0.0, 1.0] {
             assert!(value(&deflection, s).abs() < 1e-14 && value(&rotation, s).abs() < 1e-14);
@@ -193,7 +231,10 @@ mod tests {
     /// on it is the product of the strain energies. Equilibrium: a released end has no moment.
     #[test]
     fn inertia_motions_are_orthogonal_to_the_interior_motion() {
-        let mass = MassPerLength { deflection: 2.0, rotation: 0.6 };
+        let mass = MassPerLength {
+            deflection: 2.0,
+            rotation: 0.6,
+        };
         // The rotation of the first end is released; its stiffness is (4 + phi) EI/((1 + phi) L).
         let phi = PLANE.shear_ratio(LENGTH);
         let mut released = [[0.0; 4]; 4];
@@ -204,19 +245,25 @@ mod tests {
                 let slope = derivative(&motion.deflection);
                 std::array::from_fn(|p| (slope[p] - motion.rotation[p]) / PLANE.shear)
             };
-            let bend = |motion: &MemberMotion| derivative(&motion.rotation).map(|c| c / PLANE.bending);
+            let bend =
+                |motion: &MemberMotion| derivative(&motion.rotation).map(|c| c / PLANE.bending);
             LENGTH
                 * (PLANE.shear * integral_of_product(&shear(a), &shear(b))
                     + PLANE.bending * integral_of_product(&bend(a), &bend(b)))
         };
         let uniform = uniform_load_motion(0, &PLANE, LENGTH);
-        let largest = (0..MOTIONS).map(|j| found.stiffness[j][j]).fold(0.0, f64::max);
+        let largest = (0..MOTIONS)
+            .map(|j| found.stiffness[j][j])
+            .fold(0.0, f64::max);
         for (i, a) in found.motions.iter().enumerate() {
             let product = energy(a, &uniform);
             assert!(product.abs() < 1e-14, "{i}: {product:e}");
             for (j, b) in found.motions.iter().enumerate() {
                 let error = energy(a, b) - found.stiffness[i][j];
-                assert!(error.abs() < 1e-11 * largest, "{i} {j}: {error:e} of {largest:e}");
+                assert!(
+                    error.abs() < 1e-11 * largest,
+                    "{i} {j}: {error:e} of {largest:e}"
+                );
             }
             // With the part that the interior motion carries, the released end has no moment.
             let [deflection, rotation] = &shapes(&PLANE, LENGTH)[i];

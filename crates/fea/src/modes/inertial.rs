@@ -6,7 +6,9 @@ use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
 use splines::{InternalForce, Probe};
 
-use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation};
+use crate::assembly::{
+    BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation,
+};
 use crate::error::Error;
 use crate::factor::SparseLoad;
 use crate::influence::{Effect, FactoredFrame, Functional};
@@ -75,9 +77,14 @@ impl FactoredFrame {
         let [a, b, c] = acceleration;
         let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
         let bodies = 0..self.bodies.list.len();
-        let accelerations =
-            bodies.map(|body| arm(&Vector3::from(m.points[reference(body)])) * motion).collect();
-        Weight { forces: self.inertia_forces(m, vec![accelerations], true).swap_remove(0) }
+        let accelerations = bodies
+            .map(|body| arm(&Vector3::from(m.points[reference(body)])) * motion)
+            .collect();
+        Weight {
+            forces: self
+                .inertia_forces(m, vec![accelerations], true)
+                .swap_remove(0),
+        }
     }
 
     /// Effects of the forces of a uniform acceleration. The frame is solved once for each effect, for its adjoint load, so
@@ -98,7 +105,10 @@ impl FactoredFrame {
     ) -> Result<Vec<f64>, Error> {
         let one = |functional: &Functional| {
             let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
-            weight.forces.work(&adjoint) + self.held_effect(m, functional, true).under(&weight.forces, &[])
+            weight.forces.work(&adjoint)
+                + self
+                    .held_effect(m, functional, true)
+                    .under(&weight.forces, &[])
         };
         Ok(self.functionals(m, effects)?.iter().map(one).collect())
     }
@@ -108,11 +118,18 @@ impl FactoredFrame {
     #[must_use]
     pub fn inertia_of_modes(&self, m: &Model, modes: &[Mode]) -> ModeInertia {
         let of_mode = |mode: &Mode| -> Vec<Vector6> {
-            self.bodies.list.iter().map(|body| mode.points[body.reference].into()).collect()
+            self.bodies
+                .list
+                .iter()
+                .map(|body| mode.points[body.reference].into())
+                .collect()
         };
         let mut forces = self.inertia_forces(m, modes.iter().map(of_mode).collect(), false);
         self.add_interior_motions(m, modes, &mut forces);
-        ModeInertia { forces, motions: OnceLock::new() }
+        ModeInertia {
+            forces,
+            motions: OnceLock::new(),
+        }
     }
 
     /// Effects of the inertia of modes: effects x modes. A structure whose modes move with accelerations q'' under rail
@@ -146,11 +163,15 @@ impl FactoredFrame {
         let functionals = self.functionals(m, effects)?;
         let ModeInertia { forces, motions } = inertia;
         let mut out = DMatrix::zeros(effects.len(), forces.len());
-        let motions = (functionals.len() > forces.len())
-            .then(|| motions.get_or_init(|| forces.iter().map(|own| self.motions_under(own)).collect()));
+        let motions = (functionals.len() > forces.len()).then(|| {
+            motions.get_or_init(|| forces.iter().map(|own| self.motions_under(own)).collect())
+        });
         for (e, functional) in functionals.iter().enumerate() {
             let elastic: Vec<f64> = match motions {
-                Some(motions) => motions.iter().map(|own| functional.strain.evaluate(own)).collect(),
+                Some(motions) => motions
+                    .iter()
+                    .map(|own| functional.strain.evaluate(own))
+                    .collect(),
                 None => {
                     let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
                     forces.iter().map(|own| own.work(&adjoint)).collect()
@@ -171,9 +192,15 @@ impl FactoredFrame {
     ///
     /// # Errors
     /// A probe beyond its rail.
-    pub fn displacements_of_weight(&self, weight: &Weight, at: &[Probe]) -> Result<Vec<f64>, Error> {
+    pub fn displacements_of_weight(
+        &self,
+        weight: &Weight,
+        at: &[Probe],
+    ) -> Result<Vec<f64>, Error> {
         let motions = self.motions_under(&weight.forces);
-        at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
+        at.iter()
+            .map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions)))
+            .collect()
     }
 
     /// The forces of a uniform acceleration as a load on the scaled unknowns, without what acts on degrees of freedom that
@@ -193,13 +220,26 @@ impl FactoredFrame {
             (0..6).for_each(|k| load.add(6 * body + k, force[k]));
             self.scaled_where_stiffened(&load)
         };
-        forces.on_bodies.iter().enumerate().flat_map(on_body).collect()
+        forces
+            .on_bodies
+            .iter()
+            .enumerate()
+            .flat_map(on_body)
+            .collect()
     }
 
     /// The forces M a for each of some accelerations of the references of all bodies.
-    fn inertia_forces(&self, m: &Model, all: Vec<Vec<Vector6>>, is_uniform: bool) -> Vec<InertiaForces> {
+    fn inertia_forces(
+        &self,
+        m: &Model,
+        all: Vec<Vec<Vector6>>,
+        is_uniform: bool,
+    ) -> Vec<InertiaForces> {
         let zeros = vec![SVector::zeros(); self.bodies.list.len()];
-        let new = |accelerations| InertiaForces { on_bodies: zeros.clone(), accelerations };
+        let new = |accelerations| InertiaForces {
+            on_bodies: zeros.clone(),
+            accelerations,
+        };
         let mut out: Vec<InertiaForces> = all.into_iter().map(new).collect();
         for (element, member) in self.elements.iter().zip(&m.members) {
             if m.sections[member.section].mass == 0.0 {
@@ -208,7 +248,8 @@ impl FactoredFrame {
             let pair = self.bodies.pair(element.points);
             let ends = self.flexible_ends(element);
             let mass = ends.transpose() * member_mass(m, member, element, is_uniform) * ends;
-            out.iter_mut().for_each(|forces| forces.add_member(pair, &mass));
+            out.iter_mut()
+                .for_each(|forces| forces.add_member(pair, &mass));
         }
         for mass in &m.masses {
             self.add_rigid_mass(mass, &mut out);
@@ -226,11 +267,13 @@ impl FactoredFrame {
     fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
         for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
             let element = &self.elements[motion.member];
-            let by_ends =
-                self.flexible_ends(element).transpose() * MotionsBetween::new(m, element, &motion).end_forces;
+            let by_ends = self.flexible_ends(element).transpose()
+                * MotionsBetween::new(m, element, &motion).end_forces;
             let bodies = self.bodies.pair(element.points);
             for (forces, mode) in out.iter_mut().zip(modes) {
-                let Some(amplitudes) = mode.between.get(motion.member) else { continue };
+                let Some(amplitudes) = mode.between.get(motion.member) else {
+                    continue;
+                };
                 let force = by_ends * SVector::from(amplitudes[motion.plane]);
                 for (end, &body) in bodies.iter().enumerate() {
                     forces.on_bodies[body] += force.fixed_rows::<6>(6 * end);
@@ -254,14 +297,30 @@ impl FactoredFrame {
 
     /// The part of an effect that the motions of the bodies do not cause, for accelerations by the shapes of modes or for a
     /// uniform one.
-    fn held_effect<'a>(&self, m: &Model, functional: &'a Functional, is_uniform: bool) -> HeldEffect<'a> {
-        let own = functional.section.as_ref().and_then(|section| self.own_member(m, section, is_uniform));
-        HeldEffect { direct: &functional.direct, own }
+    fn held_effect<'a>(
+        &self,
+        m: &Model,
+        functional: &'a Functional,
+        is_uniform: bool,
+    ) -> HeldEffect<'a> {
+        let own = functional
+            .section
+            .as_ref()
+            .and_then(|section| self.own_member(m, section, is_uniform));
+        HeldEffect {
+            direct: &functional.direct,
+            own,
+        }
     }
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
     /// integral of m N a over the part before the section, N being the motions of the member.
-    fn own_member(&self, m: &Model, section: &InternalForce, is_uniform: bool) -> Option<OwnMember> {
+    fn own_member(
+        &self,
+        m: &Model,
+        section: &InternalForce,
+        is_uniform: bool,
+    ) -> Option<OwnMember> {
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
         let bodies = self.bodies.pair(element.points);
         let cross_section = &m.sections[member.section];
@@ -274,7 +333,8 @@ impl FactoredFrame {
             by_motions: [[0.0; BETWEEN]; 2],
         };
         if is_uniform
-            && let Some((degree, turned)) = element.uniform_load_under_tension(cross_section.mass, section)
+            && let Some((degree, turned)) =
+                element.uniform_load_under_tension(cross_section.mass, section)
         {
             force.by_ends[degree] += turned;
         }
@@ -286,16 +346,29 @@ impl FactoredFrame {
                 motions[motion.plane] = Some(own.inertia);
             }
         }
-        let distributed =
-            DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind, motions };
+        let distributed = DistributedMass {
+            element,
+            section: cross_section,
+            theory: m.theory,
+            kind: member.kind,
+            motions,
+        };
         let to = section.place * element.length;
         for [place, weight] in GAUSS {
             let z = 0.5 * to * (1.0 + place);
-            let balance = section.component.balance(to - z).map(|share| 0.5 * to * weight * share);
+            let balance = section
+                .component
+                .balance(to - z)
+                .map(|share| 0.5 * to * weight * share);
             distributed.add_balance(&balance, z / element.length, &mut force);
         }
         let by_bodies = self.flexible_ends(element).transpose() * force.by_ends;
-        Some(OwnMember { member: section.member, bodies, by_bodies, by_motions: force.by_motions })
+        Some(OwnMember {
+            member: section.member,
+            bodies,
+            by_bodies,
+            by_motions: force.by_motions,
+        })
     }
 }
 
@@ -307,7 +380,10 @@ fn member_mass(m: &Model, member: &Member, element: &Element, is_uniform: bool) 
     if !is_uniform {
         return unreleased_mass(element, section, m.theory, member.kind, &planes);
     }
-    let straight = planes.map(|plane| BendingPlane { tension: 0.0, ..plane });
+    let straight = planes.map(|plane| BendingPlane {
+        tension: 0.0,
+        ..plane
+    });
     let mut own = unreleased_mass(element, section, m.theory, member.kind, &straight);
     element.bend_uniform_load(&mut own);
     own
@@ -331,14 +407,21 @@ impl MotionsBetween {
                 end_forces[(degree.0, 1 + k)] = degree.1 * product;
             }
         }
-        MotionsBetween { inertia, end_forces }
+        MotionsBetween {
+            inertia,
+            end_forces,
+        }
     }
 }
 
 impl InertiaForces {
     /// Work of the forces in motions of the bodies.
     fn work(&self, motions: &[Vector6]) -> f64 {
-        motions.iter().zip(&self.on_bodies).map(|(motion, force)| motion.dot(force)).sum()
+        motions
+            .iter()
+            .zip(&self.on_bodies)
+            .map(|(motion, force)| motion.dot(force))
+            .sum()
     }
 
     /// Adds the forces on the mass of a member between two bodies.
@@ -360,9 +443,14 @@ impl HeldEffect<'_> {
     /// empty.
     fn under(&self, forces: &InertiaForces, between: &[[[f64; BETWEEN]; 2]]) -> f64 {
         let own = self.own.as_ref().map_or(0.0, |own| {
-            let planes = between.get(own.member).into_iter().flatten().zip(&own.by_motions);
-            let motions =
-                planes.flat_map(|(amplitudes, forces)| amplitudes.iter().zip(forces)).map(|(a, b)| a * b);
+            let planes = between
+                .get(own.member)
+                .into_iter()
+                .flatten()
+                .zip(&own.by_motions);
+            let motions = planes
+                .flat_map(|(amplitudes, forces)| amplitudes.iter().zip(forces))
+                .map(|(a, b)| a * b);
             own.by_bodies.dot(&forces.of_both(own.bodies)) + motions.sum::<f64>()
         });
         own - self.direct.evaluate(&forces.on_bodies)
@@ -394,10 +482,17 @@ impl DistributedMass<'_> {
             by_ends[k] += share * (1.0 - at);
             by_ends[k + 6] += share * at;
         };
-        let LinearForce { by_ends, by_motions } = force;
+        let LinearForce {
+            by_ends,
+            by_motions,
+        } = force;
         linear(by_ends, 0, section.mass * balance[0]);
         if self.kind == MemberKind::Beam {
-            linear(by_ends, 3, section.mass * section.gyration_squared(section.iy + section.iz) * balance[3]);
+            linear(
+                by_ends,
+                3,
+                section.mass * section.gyration_squared(section.iy + section.iz) * balance[3],
+            );
         }
         let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
         let planes = bending_planes(&self.element.flexibility);
@@ -412,7 +507,8 @@ impl DistributedMass<'_> {
                 let rotary = section.mass * section.gyration_squared(second);
                 turned = plane.sign * rotary * balance[plane.rotation];
             }
-            let share = |shape: &[Polynomial; 2]| deflected * value(&shape[0]) + turned * value(&shape[1]);
+            let share =
+                |shape: &[Polynomial; 2]| deflected * value(&shape[0]) + turned * value(&shape[1]);
             let shapes = bending_shapes(plane, self.element.length);
             for ((degree, sign), shape) in end_degrees(plane).into_iter().zip(&shapes) {
                 by_ends[degree] += sign * share(shape);

@@ -49,7 +49,9 @@ impl InteriorMotion {
             let [first, last] = bodies.pair(element.points);
             first != last
         });
-        members.flat_map(|(member, element)| InteriorMotion::of_member(m, member, element)).collect()
+        members
+            .flat_map(|(member, element)| InteriorMotion::of_member(m, member, element))
+            .collect()
     }
 
     /// The interior motions of a member, at most one in each plane of bending.
@@ -82,13 +84,22 @@ impl InteriorMotion {
         let mass = density * integral_of_product(&deflection, &deflection)
             + rotary * integral_of_product(&rotation, &rotation);
         let mut coupling = Vector12::zeros();
-        for ((k, sign), [shape, turn]) in end_degrees(plane).into_iter().zip(bending_shapes(plane, length)) {
+        for ((k, sign), [shape, turn]) in end_degrees(plane)
+            .into_iter()
+            .zip(bending_shapes(plane, length))
+        {
             coupling[k] = sign
                 * (density * integral_of_product(&shape, &deflection)
                     + rotary * integral_of_product(&turn, &rotation));
         }
         let stiffness = uniform_load_stiffness(plane, length);
-        InteriorMotion { member, plane: index, stiffness, mass, coupling }
+        InteriorMotion {
+            member,
+            plane: index,
+            stiffness,
+            mass,
+            coupling,
+        }
     }
 
     /// Index and sign, among the degrees of freedom of the flexible ends, of the deflections and rotations of both ends.
@@ -99,7 +110,11 @@ impl InteriorMotion {
     /// The deflections under the inertia of the motions of the member in this plane; `m` is the model of `element`.
     pub fn inertia_motions(&self, m: &Model, element: &Element) -> InertiaMotions {
         let section = &m.sections[m.members[self.member].section];
-        let second = if self.plane == 0 { section.iz } else { section.iy };
+        let second = if self.plane == 0 {
+            section.iz
+        } else {
+            section.iy
+        };
         let mass = MassPerLength {
             deflection: section.mass,
             rotation: section.mass * section.gyration_squared(second),

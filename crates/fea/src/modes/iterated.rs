@@ -73,35 +73,58 @@ impl FactoredFrame {
             let pair = self.bodies.pair(element.points);
             let degrees = motion.ends(element);
             let end_motions = |of: &dyn Fn(usize) -> SVector<f64, 6>| -> [f64; 4] {
-                let moved =
-                    ends.fixed_columns::<6>(0) * of(pair[0]) + ends.fixed_columns::<6>(6) * of(pair[1]);
+                let moved = ends.fixed_columns::<6>(0) * of(pair[0])
+                    + ends.fixed_columns::<6>(6) * of(pair[1]);
                 degrees.map(|(k, sign)| sign * moved[k])
             };
             let reference = |body: usize| self.bodies.list[body].reference;
             for (r, mode) in modes.modes.iter().enumerate() {
                 let square = mode.omega * mode.omega;
                 let z = end_motions(&|body| mode.points[reference(body)].into());
-                for (k, amplitude) in z.into_iter().chain([mode.between[member][plane][0]]).enumerate() {
+                for (k, amplitude) in z
+                    .into_iter()
+                    .chain([mode.between[member][plane][0]])
+                    .enumerate()
+                {
                     loads[(MOTIONS * row + k, r)] = square * amplitude;
                 }
             }
             let whole = |k: usize| {
-                end_motions(&|body| arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned())
+                end_motions(&|body| {
+                    arm(&Vector3::from(m.points[reference(body)]))
+                        .column(k)
+                        .into_owned()
+                })
             };
             let inertia = motion.inertia_motions(m, element);
             let coupling = std::array::from_fn(|k| {
                 let ends = whole(k);
-                std::array::from_fn(|j| ends.iter().zip(&inertia.stiffness).map(|(z, row)| z * row[j]).sum())
+                std::array::from_fn(|j| {
+                    ends.iter()
+                        .zip(&inertia.stiffness)
+                        .map(|(z, row)| z * row[j])
+                        .sum()
+                })
             });
-            places.push(Place { member, plane, inertia, coupling });
+            places.push(Place {
+                member,
+                plane,
+                inertia,
+                coupling,
+            });
         }
-        let [strain, kinetic] =
-            [|of: &InertiaMotions| of.stiffness, |of: &InertiaMotions| of.mass].map(|pick| {
-                let products = weighted(&places, &loads, pick);
-                loads.transpose() * products
-            });
-        let factors =
-            combinations(modes, &strain, &kinetic).ok_or(Error::Modes { asked: count, found: 0 })?;
+        let [strain, kinetic] = [
+            |of: &InertiaMotions| of.stiffness,
+            |of: &InertiaMotions| of.mass,
+        ]
+        .map(|pick| {
+            let products = weighted(&places, &loads, pick);
+            loads.transpose() * products
+        });
+        let factors = combinations(modes, &strain, &kinetic).ok_or(Error::Modes {
+            asked: count,
+            found: 0,
+        })?;
         combine(modes, &places, &loads, &factors);
         Ok(())
     }
@@ -118,8 +141,11 @@ fn weighted(
         let matrix = pick(&place.inertia);
         for r in 0..loads.ncols() {
             for (i, of) in matrix.iter().enumerate() {
-                out[(MOTIONS * row + i, r)] =
-                    of.iter().enumerate().map(|(j, value)| value * loads[(MOTIONS * row + j, r)]).sum();
+                out[(MOTIONS * row + i, r)] = of
+                    .iter()
+                    .enumerate()
+                    .map(|(j, value)| value * loads[(MOTIONS * row + j, r)])
+                    .sum();
             }
         }
     }
@@ -134,7 +160,8 @@ fn combinations(modes: &Modes, strain: &Mat<f64>, kinetic: &Mat<f64>) -> Option<
     let count = modes.modes.len();
     let omega: Vec<f64> = modes.modes.iter().map(|mode| mode.omega).collect();
     let one = |r: usize, s: usize| if r == s { 1.0 } else { 0.0 };
-    let mean = |of: &Mat<f64>, r: usize, s: usize| 0.5 * (of[(r, s)] + of[(s, r)]) / (omega[r] * omega[s]);
+    let mean =
+        |of: &Mat<f64>, r: usize, s: usize| 0.5 * (of[(r, s)] + of[(s, r)]) / (omega[r] * omega[s]);
     let stiffness = Mat::from_fn(count, count, |r, s| one(r, s) + mean(strain, r, s));
     let mass = Mat::from_fn(count, count, |r, s| {
         let squares = omega[r].powi(-2) + omega[s].powi(-2);
@@ -150,25 +177,40 @@ fn combinations(modes: &Modes, strain: &Mat<f64>, kinetic: &Mat<f64>) -> Option<
 }
 
 /// Combines the modes and adds the deflections of the members.
-fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, factors): &Combinations) {
-    let (states, points) = (6 * modes.modes[0].states.len(), 6 * modes.modes[0].points.len());
+fn combine(
+    modes: &mut Modes,
+    places: &[Place],
+    loads: &Mat<f64>,
+    (squares, factors): &Combinations,
+) {
+    let (states, points) = (
+        6 * modes.modes[0].states.len(),
+        6 * modes.modes[0].points.len(),
+    );
     let rows = states + points + places.len() + 6;
     // All motions of each mode, one after another.
     let columns: Vec<Vec<f64>> = (modes.modes.iter())
         .map(|mode| {
             let motions = mode.states.iter().chain(&mode.points).flatten().copied();
-            let uniform = places.iter().map(|place| mode.between[place.member][place.plane][0]);
+            let uniform = places
+                .iter()
+                .map(|place| mode.between[place.member][place.plane][0]);
             motions.chain(uniform).chain(mode.coupling).collect()
         })
         .collect();
     // Many rows are zero: motions in one plane have none beside it.
     let mut is_kept = vec![false; rows];
     for column in &columns {
-        is_kept.iter_mut().zip(column).for_each(|(kept, value)| *kept |= *value != 0.0);
+        is_kept
+            .iter_mut()
+            .zip(column)
+            .for_each(|(kept, value)| *kept |= *value != 0.0);
     }
     let kept: Vec<usize> = (0..rows).filter(|&row| is_kept[row]).collect();
     let mut index = vec![None; rows];
-    kept.iter().enumerate().for_each(|(k, &row)| index[row] = Some(k));
+    kept.iter()
+        .enumerate()
+        .for_each(|(k, &row)| index[row] = Some(k));
     let sums = Mat::from_fn(kept.len(), columns.len(), |k, r| columns[r][kept[k]]) * factors;
     let amplitudes = loads * factors;
     for (r, mode) in modes.modes.iter_mut().enumerate() {
@@ -182,9 +224,14 @@ fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, fact
         }
         mode.coupling = std::array::from_fn(|k| own(rows - 6 + k));
         for (row, place) in places.iter().enumerate() {
-            let inertia: [f64; MOTIONS] = std::array::from_fn(|k| amplitudes[(MOTIONS * row + k, r)]);
+            let inertia: [f64; MOTIONS] =
+                std::array::from_fn(|k| amplitudes[(MOTIONS * row + k, r)]);
             for (coupling, products) in mode.coupling.iter_mut().zip(&place.coupling) {
-                *coupling += products.iter().zip(&inertia).map(|(a, b)| a * b).sum::<f64>();
+                *coupling += products
+                    .iter()
+                    .zip(&inertia)
+                    .map(|(a, b)| a * b)
+                    .sum::<f64>();
             }
             let between = &mut mode.between[place.member][place.plane];
             let uniform = own(states + points + row);

@@ -181,12 +181,17 @@ impl<'a> Lanczos<'a> {
 
     /// The converged eigenvalues, lowest first.
     pub fn converged_values(&self) -> Vec<f64> {
-        self.pairs.inverse[..self.pairs.converged].iter().map(|inverse| inverse.recip()).collect()
+        self.pairs.inverse[..self.pairs.converged]
+            .iter()
+            .map(|inverse| inverse.recip())
+            .collect()
     }
 
     /// Number of eigenvalues below `lambda`; `None` if rounding may have changed it.
     pub fn count_below(&self, lambda: f64) -> Result<Option<usize>, FactorError> {
-        negative_eigenvalues(&(self.pencil.stiffness + &self.pencil.mass.map(|value| -lambda * value)))
+        negative_eigenvalues(
+            &(self.pencil.stiffness + &self.pencil.mass.map(|value| -lambda * value)),
+        )
     }
 
     /// The lowest `count` eigenpairs, lowest first: vectors orthonormal in M with a positive largest entry,
@@ -196,7 +201,10 @@ impl<'a> Lanczos<'a> {
     /// orthonormal, each to those below it: X := Y R^-1. The last columns of R^-1 are nearly lambda, and so
     /// lambda = x^T K x is a sum that loses no digits: the diagonal of X^T (M X_old) R^-1.
     pub fn modes(&self, count: usize) -> Vec<(f64, DVector<f64>)> {
-        let mut x = block::combine(&self.vectors, &self.pairs.coefficients.columns(0, count).clone_owned());
+        let mut x = block::combine(
+            &self.vectors,
+            &self.pairs.coefficients.columns(0, count).clone_owned(),
+        );
         let mut lambda = vec![0.0; count];
         // The solve reduces what rounding left of higher modes; the factor removes the lower ones.
         for _ in 0..POLISH_STEPS {
@@ -207,7 +215,9 @@ impl<'a> Lanczos<'a> {
             let inverse = inverse * again.1;
             x = again.0;
             let work = block::inner(&x, &load);
-            lambda = (0..count).map(|j| work.row(j).transpose().dot(&inverse.column(j))).collect();
+            lambda = (0..count)
+                .map(|j| work.row(j).transpose().dot(&inverse.column(j)))
+                .collect();
         }
         let mut modes: Vec<(f64, DVector<f64>)> = (lambda.into_iter().zip(x.column_iter()))
             .map(|(lambda, x)| {
@@ -226,7 +236,10 @@ impl<'a> Lanczos<'a> {
         let size = gram.nrows();
         let factor = gram.cholesky().expect("converged vectors are independent");
         let mut inverse = DMatrix::identity(size, size);
-        let is_solved = factor.l().transpose().solve_upper_triangular_mut(&mut inverse);
+        let is_solved = factor
+            .l()
+            .transpose()
+            .solve_upper_triangular_mut(&mut inverse);
         assert!(is_solved, "a Cholesky factor has no zero pivot");
         (block::combine(&y, &inverse), inverse)
     }
@@ -238,15 +251,24 @@ impl<'a> Lanczos<'a> {
         let width = self.next_block.len();
         let momenta = DMatrix::from_columns(&std::mem::take(&mut self.next_momenta));
         let mut images = self.pencil.solve(momenta);
-        block::append(&mut self.vectors, &DMatrix::from_columns(&std::mem::take(&mut self.next_block)));
+        block::append(
+            &mut self.vectors,
+            &DMatrix::from_columns(&std::mem::take(&mut self.next_block)),
+        );
         let size = old + width;
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
         let coefficients = self.orthogonalise(&mut images, 2);
         let coupling = self.coupling.rows(0, width);
-        projection.view_mut((old, 0), (width, old)).copy_from(&coupling);
-        projection.view_mut((0, old), (old, width)).copy_from(&coupling.transpose());
-        projection.view_mut((old, old), (width, width)).copy_from(&coefficients.rows(first, width));
+        projection
+            .view_mut((old, 0), (width, old))
+            .copy_from(&coupling);
+        projection
+            .view_mut((0, old), (old, width))
+            .copy_from(&coupling.transpose());
+        projection
+            .view_mut((old, old), (width, width))
+            .copy_from(&coefficients.rows(first, width));
         // Rounding leaves the diagonal block of the projection slightly asymmetric.
         for i in old..size {
             for j in old..i {
@@ -259,7 +281,10 @@ impl<'a> Lanczos<'a> {
         self.projection = projection;
         self.coupling = DMatrix::zeros(BLOCK, size);
         // vectors that are small beside K^-1 M x have lost digits of their orthogonality
-        if images.column_iter().any(|image| self.norm(image) < FEW_DIGITS * self.largest) {
+        if images
+            .column_iter()
+            .any(|image| self.norm(image) < FEW_DIGITS * self.largest)
+        {
             self.orthogonalise(&mut images, 1);
         }
         for (j, image) in images.column_iter().enumerate() {
@@ -283,7 +308,11 @@ impl<'a> Lanczos<'a> {
             }
             // Only the range of K^-1 M matters: all eigenvectors of finite lambda lie in it.
             let image = symmetric_product(self.pencil.mass, x.as_view());
-            let mut x = self.pencil.solve(DMatrix::from_columns(&[image / left])).column(0).clone_owned();
+            let mut x = self
+                .pencil
+                .solve(DMatrix::from_columns(&[image / left]))
+                .column(0)
+                .clone_owned();
             let before = self.norm(x.as_view());
             x /= before;
             self.project_out(&mut x);
@@ -313,7 +342,8 @@ impl<'a> Lanczos<'a> {
         let scale = if column.is_some() { self.largest } else { 1.0 };
         let before = self.norm(x.as_view());
         for _ in 0..2 {
-            for (i, (other, momentum)) in self.next_block.iter().zip(&self.next_momenta).enumerate() {
+            for (i, (other, momentum)) in self.next_block.iter().zip(&self.next_momenta).enumerate()
+            {
                 let coefficient = momentum.dot(&x);
                 x.axpy(-coefficient, other, 1.0);
                 if let Some(column) = column {
@@ -323,7 +353,11 @@ impl<'a> Lanczos<'a> {
         }
         let mut momentum = symmetric_product(self.pencil.mass, x.as_view());
         let size = x.dot(&momentum).max(0.0).sqrt();
-        let floor = if column.is_some() { BREAKDOWN } else { DEPENDENT };
+        let floor = if column.is_some() {
+            BREAKDOWN
+        } else {
+            DEPENDENT
+        };
         if !(size > floor * scale && size.is_finite()) {
             return false;
         }
@@ -358,7 +392,9 @@ impl<'a> Lanczos<'a> {
 
     /// sqrt(x^T M x).
     fn norm(&self, x: DVectorView<'_, f64>) -> f64 {
-        x.dot(&symmetric_product(self.pencil.mass, x)).max(0.0).sqrt()
+        x.dot(&symmetric_product(self.pencil.mass, x))
+            .max(0.0)
+            .sqrt()
     }
 
     /// Computes the Ritz pairs of the basis, and how many have converged.
@@ -367,8 +403,9 @@ impl<'a> Lanczos<'a> {
         let (own, coefficients) = spectrum(&self.projection);
         let residual = block::combine(&self.coupling, &coefficients);
         let noise = NOISE * own.first().copied().unwrap_or(0.0);
-        let is_converged =
-            |k: usize| own[k] > noise && residual.column(k).norm() <= (TOLERANCE * own[k]).max(noise);
+        let is_converged = |k: usize| {
+            own[k] > noise && residual.column(k).norm() <= (TOLERANCE * own[k]).max(noise)
+        };
         // lowest lambda first; of equal ones those that are locked
         let all: Vec<f64> = self.locked.iter().chain(&own).copied().collect();
         let mut order: Vec<usize> = (0..size).collect();
@@ -379,13 +416,22 @@ impl<'a> Lanczos<'a> {
                 over_basis[(pair, column)] = 1.0;
             } else {
                 let own = coefficients.column(pair - locked);
-                over_basis.view_mut((locked, column), (size - locked, 1)).copy_from(&own);
+                over_basis
+                    .view_mut((locked, column), (size - locked, 1))
+                    .copy_from(&own);
             }
         }
-        let converged =
-            order.iter().take_while(|&&pair| pair < locked || is_converged(pair - locked)).count();
+        let converged = order
+            .iter()
+            .take_while(|&&pair| pair < locked || is_converged(pair - locked))
+            .count();
         let inverse = order.iter().map(|&pair| all[pair]).collect();
-        self.pairs = RitzPairs { inverse, converged, exhausted: false, coefficients: over_basis };
+        self.pairs = RitzPairs {
+            inverse,
+            converged,
+            exhausted: false,
+            coefficients: over_basis,
+        };
     }
 
     /// Replaces the basis by its first `keep` Ritz vectors, and locks those that have converged.
@@ -394,12 +440,16 @@ impl<'a> Lanczos<'a> {
         let kept = self.pairs.coefficients.columns(0, keep).clone_owned();
         self.vectors = block::combine(&self.vectors, &kept);
         let converged = self.pairs.converged.min(keep);
-        let active = kept.view((self.locked.len(), converged), (self.projection.ncols(), keep - converged));
+        let active = kept.view(
+            (self.locked.len(), converged),
+            (self.projection.ncols(), keep - converged),
+        );
         self.coupling = block::combine(&self.coupling, &active.clone_owned());
         self.pairs.inverse.truncate(keep);
         self.locked = self.pairs.inverse[..converged].to_vec();
-        self.projection =
-            DMatrix::from_diagonal(&DVector::from_column_slice(&self.pairs.inverse[converged..]));
+        self.projection = DMatrix::from_diagonal(&DVector::from_column_slice(
+            &self.pairs.inverse[converged..],
+        ));
         self.pairs.coefficients = DMatrix::identity(keep, keep);
     }
 
@@ -422,7 +472,10 @@ fn spectrum(matrix: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     };
     let (values, vectors) = (eigen.S(), eigen.U());
     let inverse = (0..size).rev().map(|k| values[k]).collect();
-    (inverse, DMatrix::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]))
+    (
+        inverse,
+        DMatrix::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]),
+    )
 }
 
 #[cfg(test)]

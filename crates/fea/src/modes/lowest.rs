@@ -67,7 +67,12 @@ impl FactoredFrame {
     ///
     /// # Source
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
-    pub fn excited_modes(&self, m: &Model, forces: &ExcitingForces, count: usize) -> Result<Modes, Error> {
+    pub fn excited_modes(
+        &self,
+        m: &Model,
+        forces: &ExcitingForces,
+        count: usize,
+    ) -> Result<Modes, Error> {
         self.lowest_excited(m, forces, count, 0.0)
     }
 
@@ -86,7 +91,13 @@ impl FactoredFrame {
     }
 
     /// The lowest modes of `part`; its frequencies may have the relative error `error`.
-    fn lowest_of(&self, part: &Part, mass: &ScaledMass, count: usize, error: f64) -> Result<Modes, Error> {
+    fn lowest_of(
+        &self,
+        part: &Part,
+        mass: &ScaledMass,
+        count: usize,
+        error: f64,
+    ) -> Result<Modes, Error> {
         let norms = self.norms(mass)?;
         let suffices = self.certificate().condition * f64::EPSILON < error;
         let is_small = part.len() <= FEW_UNKNOWNS.max(DENSE_UNKNOWNS_PER_MODE * count);
@@ -107,17 +118,40 @@ impl FactoredFrame {
 
     /// The lowest modes by Lanczos, counted. Inverse iterations need many solves: where doubles suffice, the factor
     /// is in doubles.
-    fn lanczos(&self, part: &Part, count: usize, doubles_suffice: bool) -> Result<(Pairs, Count), Error> {
-        let double = if doubles_suffice { Factor::new(&part.stiffness).ok() } else { None };
+    fn lanczos(
+        &self,
+        part: &Part,
+        count: usize,
+        doubles_suffice: bool,
+    ) -> Result<(Pairs, Count), Error> {
+        let double = if doubles_suffice {
+            Factor::new(&part.stiffness).ok()
+        } else {
+            None
+        };
         let factor = match &double {
             Some(factor) => PencilFactor::Own(factor),
             None => PencilFactor::OfFrame(self.solver(), part),
         };
-        let mut lanczos = Lanczos::new(Pencil { stiffness: &part.stiffness, mass: &part.mass, factor });
+        let mut lanczos = Lanczos::new(Pencil {
+            stiffness: &part.stiffness,
+            mass: &part.mass,
+            factor,
+        });
         let cut = search(&mut lanczos, count)?;
         let found = count.min(lanczos.pairs.converged);
-        let next = lanczos.converged_values().get(found).map(|lambda| lambda.sqrt());
-        Ok((lanczos.modes(found), Count { shift: cut.lambda.sqrt(), below: cut.below, next }))
+        let next = lanczos
+            .converged_values()
+            .get(found)
+            .map(|lambda| lambda.sqrt());
+        Ok((
+            lanczos.modes(found),
+            Count {
+                shift: cut.lambda.sqrt(),
+                below: cut.below,
+                next,
+            },
+        ))
     }
 }
 
@@ -129,15 +163,25 @@ type Pairs = Vec<(f64, DVector<f64>)>;
 /// # Errors
 /// [`Error::Modes`] if the matrices have no factor or no eigenvalues in doubles.
 fn dense(part: &Part, count: usize) -> Result<(Pairs, Count), Error> {
-    let mut pairs = spectrum(&part.stiffness, &part.mass, count.saturating_add(1))
-        .ok_or(Error::Modes { asked: count, found: 0 })?;
+    let mut pairs =
+        spectrum(&part.stiffness, &part.mass, count.saturating_add(1)).ok_or(Error::Modes {
+            asked: count,
+            found: 0,
+        })?;
     let next = pairs.get(count).map(|pair| pair.0);
     pairs.truncate(count);
     let last = pairs.last().map_or(0.0, |pair| pair.0);
     // In the middle of the gap behind the last mode, which may be of no width.
     let shift = next.map_or(2.0 * last, |next| 0.5 * (last + next)).sqrt();
     let below = pairs.iter().filter(|pair| pair.0.sqrt() < shift).count();
-    Ok((pairs, Count { shift, below, next: next.map(f64::sqrt) }))
+    Ok((
+        pairs,
+        Count {
+            shift,
+            below,
+            next: next.map(f64::sqrt),
+        },
+    ))
 }
 
 /// A shift, and the number of eigenvalues below it.
@@ -156,7 +200,10 @@ struct Cut {
 /// # Errors
 /// [`Error::Modes`] if the counts never agree.
 fn search(lanczos: &mut Lanczos<'_>, count: usize) -> Result<Cut, Error> {
-    let fail = |known: usize| Error::Modes { asked: count, found: known.min(count) };
+    let fail = |known: usize| Error::Modes {
+        asked: count,
+        found: known.min(count),
+    };
     let mut need = count + 1;
     for _ in 0..ATTEMPTS {
         let complete = lanczos.converge(need);
@@ -169,7 +216,9 @@ fn search(lanczos: &mut Lanczos<'_>, count: usize) -> Result<Cut, Error> {
                 need = known.len() + (cut.below - below);
             }
             Ok(Some(_)) => return Err(fail(known.len())),
-            Ok(None) if complete && !lanczos.pairs.exhausted && known.len() < count + MOST_EXTRA => {
+            Ok(None)
+                if complete && !lanczos.pairs.exhausted && known.len() < count + MOST_EXTRA =>
+            {
                 need = known.len() + STEP;
             }
             Ok(None) => break,
@@ -185,7 +234,13 @@ fn first_count(lanczos: &Lanczos<'_>, gaps: Vec<Gap>) -> Result<Option<(Cut, usi
         for place in PLACES {
             let lambda = low + place * (high - low);
             if let Some(found) = lanczos.count_below(lambda).map_err(|_| ())? {
-                return Ok(Some((Cut { lambda, below: found }, below)));
+                return Ok(Some((
+                    Cut {
+                        lambda,
+                        below: found,
+                    },
+                    below,
+                )));
             }
         }
     }
@@ -203,14 +258,30 @@ struct Gap {
 /// within `MOST_EXTRA` further eigenvalues, those below.
 fn gaps(known: &[f64], count: usize, exhausted: bool) -> Vec<Gap> {
     let wide = |&cut: &usize| known[cut] - known[cut - 1] > LEAST_GAP * known[cut];
-    let between = |cut: usize| Gap { below: cut, low: known[cut - 1], high: known[cut] };
-    let mut out: Vec<Gap> = (count.max(1)..known.len()).filter(wide).take(GAPS).map(between).collect();
+    let between = |cut: usize| Gap {
+        below: cut,
+        low: known[cut - 1],
+        high: known[cut],
+    };
+    let mut out: Vec<Gap> = (count.max(1)..known.len())
+        .filter(wide)
+        .take(GAPS)
+        .map(between)
+        .collect();
     if let Some(&last) = known.last().filter(|_| exhausted) {
-        out.push(Gap { below: known.len(), low: last, high: 3.0 * last });
+        out.push(Gap {
+            below: known.len(),
+            low: last,
+            high: 3.0 * last,
+        });
     }
     if out.is_empty() && known.len() >= count + MOST_EXTRA {
         out.extend((1..count).rev().filter(wide).take(GAPS).map(between));
-        out.push(Gap { below: 0, low: 0.0, high: known[0] });
+        out.push(Gap {
+            below: 0,
+            low: 0.0,
+            high: known[0],
+        });
     }
     out
 }

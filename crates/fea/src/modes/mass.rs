@@ -4,8 +4,8 @@ use nalgebra::{SMatrix, Vector3};
 use sprs::{CsMat, TriMat};
 
 use crate::assembly::{
-    BendingPlane, Bodies, Element, Matrix6, Matrix12, Numbering, ScaledStiffness, arm, bending_planes,
-    transformation,
+    BendingPlane, Bodies, Element, Matrix6, Matrix12, Numbering, ScaledStiffness, arm,
+    bending_planes, transformation,
 };
 use crate::dof::Dof;
 use crate::error::Error;
@@ -70,7 +70,9 @@ pub fn rigid_mass(m: &Model) -> Result<[[f64; 6]; 6], Error> {
     let elements = Element::all(m)?;
     let mut bodies = Bodies::new(m);
     let stiffness = ScaledStiffness::new(m, &elements, &mut bodies)?;
-    Ok(rows(&MassSum::new(m, &elements, &bodies, &stiffness.numbering).symmetric_total()))
+    Ok(rows(
+        &MassSum::new(m, &elements, &bodies, &stiffness.numbering).symmetric_total(),
+    ))
 }
 
 /// A 6 x 6 matrix by rows.
@@ -90,7 +92,12 @@ struct MassSum<'a> {
 }
 
 impl<'a> MassSum<'a> {
-    fn new(m: &Model, elements: &[Element], bodies: &'a Bodies, numbering: &'a Numbering) -> MassSum<'a> {
+    fn new(
+        m: &Model,
+        elements: &[Element],
+        bodies: &'a Bodies,
+        numbering: &'a Numbering,
+    ) -> MassSum<'a> {
         let interior = InteriorMotion::all(m, elements, bodies);
         let n = interior.len() + numbering.column.len();
         let mut sum = MassSum {
@@ -107,10 +114,18 @@ impl<'a> MassSum<'a> {
             if section.mass == 0.0 {
                 continue;
             }
-            let MemberMass { resisted, unresisted } =
-                mass_between_tips(element, section, m.theory, member.kind);
+            let MemberMass {
+                resisted,
+                unresisted,
+            } = mass_between_tips(element, section, m.theory, member.kind);
             let b = transformation(element, bodies);
-            sum.add(m, bodies.pair(element.points), &b, &resisted, &(resisted + unresisted));
+            sum.add(
+                m,
+                bodies.pair(element.points),
+                &b,
+                &resisted,
+                &(resisted + unresisted),
+            );
         }
         m.masses.iter().for_each(|mass| sum.add_rigid(m, mass));
         (0..sum.interior.len()).for_each(|index| sum.add_interior(m, elements, index));
@@ -122,7 +137,8 @@ impl<'a> MassSum<'a> {
         let motion = &self.interior[index];
         let element = &elements[motion.member];
         let load = motion.unit_load();
-        self.triplets.add_triplet(index, index, load * load * motion.mass);
+        self.triplets
+            .add_triplet(index, index, load * load * motion.mass);
         let b = transformation(element, self.bodies);
         let ends = release_shapes(element).map_or(b, |shape| shape * b);
         let row = ends.transpose() * motion.coupling * load;
@@ -132,11 +148,15 @@ impl<'a> MassSum<'a> {
             let moved = self.bodies.list[body].basis.transpose() * own;
             let reference = Vector3::from(m.points[self.bodies.list[body].reference]);
             let whole = arm(&reference).transpose() * own;
-            self.rigid.iter_mut().zip(&whole).for_each(|(rigid, &part)| rigid[index] += part);
+            self.rigid
+                .iter_mut()
+                .zip(&whole)
+                .for_each(|(rigid, &part)| rigid[index] += part);
             for (k, &value) in moved.iter().enumerate().filter(|(_, value)| **value != 0.0) {
                 if let Some(unknown) = self.numbering.unknown[6 * body + k] {
                     let scale = self.numbering.scale[unknown];
-                    self.triplets.add_triplet(index, first + unknown, scale * value);
+                    self.triplets
+                        .add_triplet(index, first + unknown, scale * value);
                 }
             }
         }
@@ -161,14 +181,25 @@ impl<'a> MassSum<'a> {
 
     /// Adds the mass `all` of a part that moves by `b` with two bodies (or twice the same one); the part
     /// `resisted` of it needs something that stiffens it.
-    fn add(&mut self, m: &Model, pair: [usize; 2], b: &Matrix12, resisted: &Matrix12, all: &Matrix12) {
+    fn add(
+        &mut self,
+        m: &Model,
+        pair: [usize; 2],
+        b: &Matrix12,
+        resisted: &Matrix12,
+        all: &Matrix12,
+    ) {
         let mut basis = Matrix12::zeros();
         let mut whole = SMatrix::<f64, 12, 6>::zeros();
         for (k, &body) in pair.iter().enumerate() {
             let body = &self.bodies.list[body];
-            basis.fixed_view_mut::<6, 6>(6 * k, 6 * k).copy_from(&body.basis);
+            basis
+                .fixed_view_mut::<6, 6>(6 * k, 6 * k)
+                .copy_from(&body.basis);
             let reference = Vector3::from(m.points[body.reference]);
-            whole.fixed_view_mut::<6, 6>(6 * k, 0).copy_from(&arm(&reference));
+            whole
+                .fixed_view_mut::<6, 6>(6 * k, 0)
+                .copy_from(&arm(&reference));
         }
         let whole = b * whole;
         // Magnitudes show whether a mass that should be zero is only rounding.
@@ -192,7 +223,9 @@ impl<'a> MassSum<'a> {
             }
             for j in 0..12 {
                 let value = 0.5 * (mass[(i, j)] + mass[(j, i)]);
-                if let Some(other) = unknown[column(j)].filter(|&other| row <= other && value != 0.0) {
+                if let Some(other) =
+                    unknown[column(j)].filter(|&other| row <= other && value != 0.0)
+                {
                     let value = scale[row] * value * scale[other];
                     self.triplets.add_triplet(first + row, first + other, value);
                 }
@@ -206,11 +239,24 @@ impl<'a> MassSum<'a> {
             let body = &self.bodies.list[column / 6];
             if body.free[column % 6] && own > ROUNDING * bulk {
                 let freedom = Dof::ALL[column % 6];
-                return Err(Error::Mechanism { point: body.reference, dof: freedom });
+                return Err(Error::Mechanism {
+                    point: body.reference,
+                    dof: freedom,
+                });
             }
         }
-        let MassSum { interior, triplets, rigid, .. } = self;
-        Ok(ScaledMass { interior, upper: triplets.to_csc(), rigid, total })
+        let MassSum {
+            interior,
+            triplets,
+            rigid,
+            ..
+        } = self;
+        Ok(ScaledMass {
+            interior,
+            upper: triplets.to_csc(),
+            rigid,
+            total,
+        })
     }
 }
 
@@ -232,12 +278,18 @@ fn mass_between_tips(
     kind: MemberKind,
 ) -> MemberMass {
     let planes = bending_planes(&element.flexibility);
-    let MemberMass { mut resisted, mut unresisted } = member_mass(element, section, theory, kind, &planes);
+    let MemberMass {
+        mut resisted,
+        mut unresisted,
+    } = member_mass(element, section, theory, kind, &planes);
     if let Some(shape) = release_shapes(element) {
         resisted = shape.transpose() * resisted * shape;
         unresisted = shape.transpose() * unresisted * shape;
     }
-    MemberMass { resisted, unresisted }
+    MemberMass {
+        resisted,
+        unresisted,
+    }
 }
 
 /// Consistent mass between the flexible ends of a member, local axes, without its releases. `planes` are its planes of
@@ -249,7 +301,10 @@ pub(super) fn unreleased_mass(
     kind: MemberKind,
     planes: &[BendingPlane; 2],
 ) -> Matrix12 {
-    let MemberMass { resisted, unresisted } = member_mass(element, section, theory, kind, planes);
+    let MemberMass {
+        resisted,
+        unresisted,
+    } = member_mass(element, section, theory, kind, planes);
     resisted + unresisted
 }
 
@@ -273,7 +328,10 @@ fn member_mass(
     planes: &[BendingPlane; 2],
 ) -> MemberMass {
     let (mass, length) = (section.mass, element.length);
-    let mut out = MemberMass { resisted: Matrix12::zeros(), unresisted: Matrix12::zeros() };
+    let mut out = MemberMass {
+        resisted: Matrix12::zeros(),
+        unresisted: Matrix12::zeros(),
+    };
     let f = &element.flexibility;
     let straight = kind != MemberKind::Beam;
     out.add_linear(0, mass, length, straight || f.axial.is_finite());
@@ -288,8 +346,11 @@ fn member_mass(
         if plane.bending.is_infinite() {
             continue;
         }
-        let rotary =
-            if theory == BeamTheory::Timoshenko { mass * section.gyration_squared(second) } else { 0.0 };
+        let rotary = if theory == BeamTheory::Timoshenko {
+            mass * section.gyration_squared(second)
+        } else {
+            0.0
+        };
         out.add_bending(plane, mass, rotary, length);
     }
     out
@@ -299,7 +360,11 @@ impl MemberMass {
     /// Adds `density` moving along straight lines between the ends, in degree of freedom `at`.
     fn add_linear(&mut self, at: usize, density: f64, length: f64, resists: bool) {
         let shapes = [polynomial(&[1.0, -1.0]), polynomial(&[0.0, 1.0])];
-        let target = if resists { &mut self.resisted } else { &mut self.unresisted };
+        let target = if resists {
+            &mut self.resisted
+        } else {
+            &mut self.unresisted
+        };
         for (i, a) in shapes.iter().enumerate() {
             for (j, b) in shapes.iter().enumerate() {
                 target[(at + 6 * i, at + 6 * j)] += density * length * integral_of_product(a, b);
@@ -313,7 +378,8 @@ impl MemberMass {
         let at = end_degrees(plane);
         for (i, [a, turn_a]) in shapes.iter().enumerate() {
             for (j, [b, turn_b]) in shapes.iter().enumerate() {
-                let value = mass * integral_of_product(a, b) + rotary * integral_of_product(turn_a, turn_b);
+                let value =
+                    mass * integral_of_product(a, b) + rotary * integral_of_product(turn_a, turn_b);
                 self.resisted[(at[i].0, at[j].0)] += at[i].1 * at[j].1 * length * value;
             }
         }

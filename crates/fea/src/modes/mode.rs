@@ -95,7 +95,11 @@ impl FactoredFrame {
     /// [`Error::NoMass`].
     pub(super) fn norms(&self, mass: &ScaledMass) -> Result<[f64; 2], Error> {
         let norms = [self.stiffness().norm(), column_norm(&mass.upper)];
-        if norms[1] == 0.0 { Err(Error::NoMass) } else { Ok(norms) }
+        if norms[1] == 0.0 {
+            Err(Error::NoMass)
+        } else {
+            Ok(norms)
+        }
     }
 
     /// The modes of a frame with mass `mass`.
@@ -114,12 +118,20 @@ impl FactoredFrame {
 
     /// For each member and plane its deflection under a uniform load, if it is an interior motion.
     fn uniform_loads(&self, mass: &ScaledMass) -> Vec<[Vec<MemberMotion>; 2]> {
-        let count = if mass.interior.is_empty() { 0 } else { self.elements.len() };
+        let count = if mass.interior.is_empty() {
+            0
+        } else {
+            self.elements.len()
+        };
         let mut out = vec![<[Vec<MemberMotion>; 2]>::default(); count];
         for motion in &mass.interior {
             let element = &self.elements[motion.member];
             let plane = &bending_planes(&element.flexibility)[motion.plane];
-            out[motion.member][motion.plane].push(uniform_load_motion(motion.plane, plane, element.length));
+            out[motion.member][motion.plane].push(uniform_load_motion(
+                motion.plane,
+                plane,
+                element.length,
+            ));
         }
         out
     }
@@ -138,22 +150,41 @@ impl FactoredFrame {
         let size = (norms[0] + lambda * norms[1]) * phi.norm();
         let residual = (force - momentum * lambda).norm() / size;
         let phi = part.expand(phi.as_slice());
-        let coupling =
-            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
+        let coupling = mass
+            .rigid
+            .each_ref()
+            .map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
         let (amplitudes, unknowns) = phi.as_slice().split_at(mass.interior.len());
         let motions = self.body_motions(unknowns);
-        let mut between =
-            vec![[[0.0; BETWEEN]; 2]; if amplitudes.is_empty() { 0 } else { self.elements.len() }];
+        let mut between = vec![
+            [[0.0; BETWEEN]; 2];
+            if amplitudes.is_empty() {
+                0
+            } else {
+                self.elements.len()
+            }
+        ];
         for (motion, amplitude) in mass.interior.iter().zip(amplitudes) {
             between[motion.member][motion.plane][0] = amplitude * motion.unit_load();
         }
         let value = |row: &Combination| row.evaluate(&motions);
-        let states = self.states().iter().map(|state| state.each_ref().map(value)).collect();
+        let states = self
+            .states()
+            .iter()
+            .map(|state| state.each_ref().map(value))
+            .collect();
         let points = (0..self.bodies.of_point.len()).map(|point| {
             let motion = self.bodies.motion(point, &Vector3::zeros());
             (motion * motions[self.bodies.of_point[point]]).into()
         });
-        Mode { omega: lambda.sqrt(), states, points: points.collect(), between, coupling, residual }
+        Mode {
+            omega: lambda.sqrt(),
+            states,
+            points: points.collect(),
+            between,
+            coupling,
+            residual,
+        }
     }
 }
 
@@ -169,23 +200,39 @@ impl Modes {
     /// [`Error::NoRails`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists.
     pub fn at(&self, probe: Probe) -> Result<Vec<[f64; 2]>, Error> {
         let row = self.line()?.row(probe)?;
-        let member = self.line()?.elements()[row.element].member.map(|member| member.id);
+        let member = self.line()?.elements()[row.element]
+            .member
+            .map(|member| member.id);
         let mut between = Vec::new();
-        for (plane, motions) in member.and_then(|id| self.motions.get(id)).into_iter().flatten().enumerate() {
+        for (plane, motions) in member
+            .and_then(|id| self.motions.get(id))
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
             for (k, motion) in motions.iter().enumerate() {
                 between.push(([plane, k], self.line()?.member_motion(probe, motion)?));
             }
         }
         let sum = |mode: &Mode, weights: &[f64], k: usize| -> f64 {
             let terms = row.indices().iter().zip(weights);
-            let ends: f64 = terms.map(|(&index, weight)| weight * mode.states[index / 6][index % 6]).sum();
+            let ends: f64 = terms
+                .map(|(&index, weight)| weight * mode.states[index / 6][index % 6])
+                .sum();
             let amplitudes = member.and_then(|member| mode.between.get(member));
             let own = |of: &[[f64; BETWEEN]; 2]| -> f64 {
-                between.iter().map(|([plane, motion], value)| of[*plane][*motion] * value[k]).sum()
+                between
+                    .iter()
+                    .map(|([plane, motion], value)| of[*plane][*motion] * value[k])
+                    .sum()
             };
             ends + amplitudes.map_or(0.0, own)
         };
-        Ok(self.modes.iter().map(|mode| [sum(mode, row.values(), 0), sum(mode, row.slopes(), 1)]).collect())
+        Ok(self
+            .modes
+            .iter()
+            .map(|mode| [sum(mode, row.values(), 0), sum(mode, row.slopes(), 1)])
+            .collect())
     }
 
     /// The modes along the rails, each divided by its `divisor`.
@@ -205,7 +252,10 @@ impl Modes {
         }
         let (mut motions, mut places) = (Vec::new(), Vec::new());
         for element in line.elements() {
-            let member = element.member.map(|member| member.id).filter(|id| *id < self.motions.len());
+            let member = element
+                .member
+                .map(|member| member.id)
+                .filter(|id| *id < self.motions.len());
             let planes = member.map_or(&[][..], |id| &self.motions[id]);
             motions.push(planes.iter().flatten().copied().collect());
             for (plane, own) in planes.iter().enumerate() {
@@ -214,7 +264,9 @@ impl Modes {
         }
         let amplitudes = DMatrix::from_fn(places.len(), modes.len(), |row, r| {
             let (member, plane, k) = places[row];
-            member.map_or(0.0, |member| modes[r].between[member][plane][k] * factors[r])
+            member.map_or(0.0, |member| {
+                modes[r].between[member][plane][k] * factors[r]
+            })
         });
         Ok(ends.with_member_motions(motions, &amplitudes)?)
     }
@@ -228,11 +280,17 @@ impl Modes {
         let line = self.line()?;
         let row = |axis| line.row(Probe { rail, x, axis });
         // The directions may differ in what resists them; any of them names the rail element.
-        let row = row(Axis::Vertical).or_else(|_| row(Axis::Lateral)).or_else(|_| row(Axis::Longitudinal))?;
+        let row = row(Axis::Vertical)
+            .or_else(|_| row(Axis::Lateral))
+            .or_else(|_| row(Axis::Longitudinal))?;
         let cell = &line.elements()[row.element];
         let r = ((x - cell.x[0]) / (cell.x[1] - cell.x[0])).clamp(0.0, 1.0);
         let [a, b] = cell.ends;
-        Ok(self.modes.iter().map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3]).collect())
+        Ok(self
+            .modes
+            .iter()
+            .map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3])
+            .collect())
     }
 
     /// Residual flexibility: an influence surface of the same frame without the part of these modes,
@@ -253,7 +311,12 @@ impl Modes {
         let expected = 6 * line.state_count();
         if nodal.nrows() != expected {
             let (rows, columns) = nodal.shape();
-            return Err(splines::Error::NodalShape { rows, columns, expected }.into());
+            return Err(splines::Error::NodalShape {
+                rows,
+                columns,
+                expected,
+            }
+            .into());
         }
         for mode in &self.modes {
             let phi = DVector::from_fn(expected, |k, _| mode.states[k / 6][k % 6] / mode.omega);
@@ -274,7 +337,8 @@ impl Modes {
             [sum(0), sum(1)]
         };
         let elements = line.elements().iter();
-        let loads = elements.map(|element| element.member.map_or([0.0; 2], |member| squares(member.id)));
+        let loads =
+            elements.map(|element| element.member.map_or([0.0; 2], |member| squares(member.id)));
         let rest = ExactSurface::new(Arc::clone(surface.rails()), nodal)?;
         Ok(ElementResidual::new(rest, loads.collect()))
     }

@@ -7,7 +7,9 @@ use nalgebra::Vector3;
 use crate::assembly::{Bodies, Element, ScaledStiffness};
 use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame, Layout, RailLoads};
-use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends};
+use crate::model::{
+    BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends,
+};
 use crate::modes::all::few_enough;
 use crate::modes::decoupled::{Directions, ExcitingForces, Part};
 use crate::modes::mass::ScaledMass;
@@ -78,7 +80,11 @@ impl RefinedModes {
         let directions = member_directions(&self.frame, &self.model, forces, &self.parts)?;
         let error = |mode: &Mode| largest_error(m, &self.parts, &directions, mode.omega);
         let least = (LEAST_RESOLVED * all.len() as f64).ceil() as usize;
-        let count = all.iter().take_while(|mode| error(mode) <= RESOLVED).count().max(least);
+        let count = all
+            .iter()
+            .take_while(|mode| error(mode) <= RESOLVED)
+            .count()
+            .max(least);
         self.error = all.get(..count).and_then(<[Mode]>::last).map(error);
         self.modes.next = all.get(count).map(|mode| mode.omega);
         all.truncate(count);
@@ -101,7 +107,12 @@ impl RefinedModes {
     ///
     /// # Errors
     /// As [`FactoredFrame::modes`].
-    pub fn iterated_error(&self, m: &Model, forces: &ExcitingForces, omega: f64) -> Result<f64, Error> {
+    pub fn iterated_error(
+        &self,
+        m: &Model,
+        forces: &ExcitingForces,
+        omega: f64,
+    ) -> Result<f64, Error> {
         let directions = member_directions(&self.frame, &self.model, forces, &self.parts)?;
         let divided = errors_of_members(m, &self.parts, &directions, omega, PartError::iterated);
         Ok(divided.max(undivided_error(m, &directions, omega)))
@@ -112,7 +123,11 @@ impl RefinedModes {
     #[must_use]
     pub fn effect(&self, effect: Effect) -> Effect {
         match effect {
-            Effect::InternalForce { member, place, component } if member < self.parts.len() => {
+            Effect::InternalForce {
+                member,
+                place,
+                component,
+            } if member < self.parts.len() => {
                 let first: usize = self.parts[..member].iter().sum();
                 let count = self.parts[member];
                 let along = place * count as f64;
@@ -149,7 +164,12 @@ impl RefinedModes {
 /// # Source
 /// Leading terms of the dispersion of cubic and linear elements: Belytschko and Mindle (1987), in Reliability of
 /// Methods for Engineering Analysis; Hughes, The Finite Element Method (1987), section 9.1.
-pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> Result<RefinedModes, Error> {
+pub fn refined_modes(
+    m: &Model,
+    rails: &[Rail],
+    count: usize,
+    accuracy: f64,
+) -> Result<RefinedModes, Error> {
     refine(m, rails, None, count, accuracy)
 }
 
@@ -188,7 +208,13 @@ fn refine(
             let directions = member_directions(&frame, &model, forces, &parts)?;
             (directions, AllowedError::before_iteration(accuracy))
         }
-        None => (vec![Directions::ALL; parts.len()], AllowedError { sheared: accuracy, others: accuracy }),
+        None => (
+            vec![Directions::ALL; parts.len()],
+            AllowedError {
+                sheared: accuracy,
+                others: accuracy,
+            },
+        ),
     };
     if let Some(omega) = asymptotic_frequency(m, &directions, count) {
         let cut = m.members.iter().zip(&directions).zip(&mut parts);
@@ -220,7 +246,14 @@ fn refine(
         if next == parts {
             let divided = largest_error(m, &parts, &directions, highest);
             let error = Some(divided.max(undivided_error(m, &directions, highest)));
-            return Ok(RefinedModes { model, rails, parts, error, frame: Arc::new(frame), modes: found });
+            return Ok(RefinedModes {
+                model,
+                rails,
+                parts,
+                error,
+                frame: Arc::new(frame),
+                modes: found,
+            });
         }
         parts = next;
     }
@@ -238,7 +271,8 @@ fn member_directions(
     let members = parts.iter().map(|&count| {
         let (own, others) = rest.split_at(count);
         rest = others;
-        own.iter().fold(Directions::NONE, |all, &part| all.with(part))
+        own.iter()
+            .fold(Directions::NONE, |all, &part| all.with(part))
     });
     Ok(members.collect())
 }
@@ -260,7 +294,14 @@ pub fn full_modes(
     let (model, rails) = cut_members(m, rails, &parts);
     let frame = FactoredFrame::new(&model, &rails)?;
     let modes = frame.all_excited_modes(&model, forces)?;
-    Ok(RefinedModes { model, rails, parts, error: None, frame: Arc::new(frame), modes })
+    Ok(RefinedModes {
+        model,
+        rails,
+        parts,
+        error: None,
+        frame: Arc::new(frame),
+        modes,
+    })
 }
 
 /// Parts of each member, for `count` parts of those that may be cut.
@@ -273,7 +314,10 @@ fn first_parts(m: &Model, rails: &[Rail], count: usize) -> Result<Vec<usize>, Er
 
 /// `count` parts for each member that may be cut, 1 for the others.
 fn parts_of_each(m: &Model, count: usize) -> Vec<usize> {
-    m.members.iter().map(|member| if divisible(m, member) { count } else { 1 }).collect()
+    m.members
+        .iter()
+        .map(|member| if divisible(m, member) { count } else { 1 })
+        .collect()
 }
 
 /// Checks that [`full_modes`] has no more unknowns than it accepts, before anything is factored. Time and memory grow
@@ -290,9 +334,14 @@ pub fn check_full_modes(
 ) -> Result<(), Error> {
     m.check()?;
     let parts = parts_of_each(m, parts.max(1));
-    let elements = parts.iter().fold(0_usize, |sum, count| sum.saturating_add(*count));
+    let elements = parts
+        .iter()
+        .fold(0_usize, |sum, count| sum.saturating_add(*count));
     if elements > MOST_ELEMENTS {
-        return Err(Error::Elements { elements, most: MOST_ELEMENTS });
+        return Err(Error::Elements {
+            elements,
+            most: MOST_ELEMENTS,
+        });
     }
     let (model, rails) = cut_members(m, rails, &parts);
     let elements = Element::all(&model)?;
@@ -314,9 +363,15 @@ pub fn check_full_modes(
 fn divisible(m: &Model, member: &Member) -> bool {
     let sizes = |section: &CrossSection| [section.area, section.iy, section.iz];
     let own = sizes(&m.sections[member.section]);
-    let beams = || m.members.iter().filter(|other| other.kind == MemberKind::Beam);
+    let beams = || {
+        m.members
+            .iter()
+            .filter(|other| other.kind == MemberKind::Beam)
+    };
     member.kind == MemberKind::Beam
-        && (0..3).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
+        && (0..3).all(|k| {
+            own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0)
+        })
 }
 
 /// The frequency below which the members that may be cut have `count` modes for the deformations `directions`.
@@ -332,8 +387,13 @@ fn divisible(m: &Model, member: &Member) -> bool {
 /// Courant and Hilbert, Methods of Mathematical Physics I (1953), chapter VI, section 4.
 fn asymptotic_frequency(m: &Model, directions: &[Directions], count: usize) -> Option<f64> {
     let number = |omega: f64| -> f64 {
-        let cut = m.members.iter().zip(directions).filter(|(member, _)| divisible(m, member));
-        cut.map(|(member, &directions)| phase(m, member, directions, omega)).sum::<f64>()
+        let cut = m
+            .members
+            .iter()
+            .zip(directions)
+            .filter(|(member, _)| divisible(m, member));
+        cut.map(|(member, &directions)| phase(m, member, directions, omega))
+            .sum::<f64>()
             / std::f64::consts::PI
     };
     let mut omega = 1.0_f64;
@@ -353,10 +413,23 @@ fn phase(m: &Model, member: &Member, directions: Directions, omega: f64) -> f64 
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
-    let along = [(f.axial, directions.axial), (f.torsion * polar, directions.torsion)];
-    let straight = along.map(|(flexibility, moves)| if moves { (inertia * flexibility).sqrt() } else { 0.0 });
-    let bent = bent_planes(m, section, directions).map(|(c, g, _)| wave_squared(inertia, c, g).sqrt());
-    let all = straight.into_iter().chain(bent).filter(|wavenumber| wavenumber.is_finite());
+    let along = [
+        (f.axial, directions.axial),
+        (f.torsion * polar, directions.torsion),
+    ];
+    let straight = along.map(|(flexibility, moves)| {
+        if moves {
+            (inertia * flexibility).sqrt()
+        } else {
+            0.0
+        }
+    });
+    let bent =
+        bent_planes(m, section, directions).map(|(c, g, _)| wave_squared(inertia, c, g).sqrt());
+    let all = straight
+        .into_iter()
+        .chain(bent)
+        .filter(|wavenumber| wavenumber.is_finite());
     length_squared(m, member).sqrt() * all.sum::<f64>()
 }
 
@@ -368,10 +441,22 @@ fn bent_planes(
     directions: Directions,
 ) -> impl Iterator<Item = (f64, f64, f64)> {
     let f = section.flexibility(m.theory);
-    let sheared = |g: f64| if m.theory == BeamTheory::Timoshenko { g } else { 0.0 };
-    let planes =
-        [(f.bending_z, sheared(f.shear_y), section.iz), (f.bending_y, sheared(f.shear_z), section.iy)];
-    planes.into_iter().zip(directions.bending).filter(|(_, moves)| *moves).map(|(plane, _)| plane)
+    let sheared = |g: f64| {
+        if m.theory == BeamTheory::Timoshenko {
+            g
+        } else {
+            0.0
+        }
+    };
+    let planes = [
+        (f.bending_z, sheared(f.shear_y), section.iz),
+        (f.bending_y, sheared(f.shear_z), section.iy),
+    ];
+    planes
+        .into_iter()
+        .zip(directions.bending)
+        .filter(|(_, moves)| *moves)
+        .map(|(plane, _)| plane)
 }
 
 /// Square of the wavenumber k of bending, with `inertia` = m omega^2, `c` = 1/EI and `g` = 1/(G As):
@@ -383,7 +468,8 @@ fn wave_squared(inertia: f64, c: f64, g: f64) -> f64 {
 
 /// Square of the length of a member between its flexible ends.
 fn length_squared(m: &Model, member: &Member) -> f64 {
-    let ends = flexible_ends(member.points.map(|point| m.points[point]), member.offsets).map(Vector3::from);
+    let ends = flexible_ends(member.points.map(|point| m.points[point]), member.offsets)
+        .map(Vector3::from);
     (ends[1] - ends[0]).norm_squared()
 }
 
@@ -405,7 +491,11 @@ impl PartError {
     /// The same after the iteration, as far as the mesh resolves the mode.
     fn iterated(&self, parts: usize) -> f64 {
         let own = self.in_parts(parts);
-        if self.is_sheared && own <= RESOLVED { ITERATED * own * own } else { own }
+        if self.is_sheared && own <= RESOLVED {
+            ITERATED * own * own
+        } else {
+            own
+        }
     }
 }
 
@@ -419,26 +509,47 @@ struct AllowedError {
 impl AllowedError {
     /// Those for which modes have the accuracy `accuracy` after the iteration.
     fn before_iteration(accuracy: f64) -> Self {
-        AllowedError { sheared: (accuracy / ITERATED).sqrt().min(RESOLVED).max(accuracy), others: accuracy }
+        AllowedError {
+            sheared: (accuracy / ITERATED).sqrt().min(RESOLVED).max(accuracy),
+            others: accuracy,
+        }
     }
 
     /// Least number of parts for an error, not rounded.
     fn parts(self, error: &PartError) -> f64 {
-        let allowed = if error.is_sheared { self.sheared } else { self.others };
+        let allowed = if error.is_sheared {
+            self.sheared
+        } else {
+            self.others
+        };
         (error.size / allowed).powf(1.0 / f64::from(error.power))
     }
 }
 
 /// Relative errors of a frequency with a member in one part, for the deformations `directions`.
-fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega: f64) -> Vec<PartError> {
+fn errors_of_one_part(
+    m: &Model,
+    member: &Member,
+    directions: Directions,
+    omega: f64,
+) -> Vec<PartError> {
     let section = &m.sections[member.section];
     let square = length_squared(m, member);
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
     let mut all = Vec::new();
-    let mut add = |size: f64, power: i32, is_sheared: bool| all.push(PartError { size, power, is_sheared });
-    for (flexibility, moves) in [(f.axial, directions.axial), (f.torsion * polar, directions.torsion)] {
+    let mut add = |size: f64, power: i32, is_sheared: bool| {
+        all.push(PartError {
+            size,
+            power,
+            is_sheared,
+        })
+    };
+    for (flexibility, moves) in [
+        (f.axial, directions.axial),
+        (f.torsion * polar, directions.torsion),
+    ] {
         if moves {
             add(inertia * flexibility * square / 24.0, 2, false);
         }
@@ -450,7 +561,11 @@ fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega:
             let leading = COUPLING * inertia * square;
             add(leading * wave * g * square / 1440.0, 4, true);
             add(leading * wave * c * square * square / 201_600.0, 6, true);
-            add(leading * c * gyration * (gyration * wave).min(1.0) / 24.0, 2, true);
+            add(
+                leading * c * gyration * (gyration * wave).min(1.0) / 24.0,
+                2,
+                true,
+            );
         } else {
             add(inertia * c * square * square / 1440.0, 4, false);
         }
@@ -472,7 +587,12 @@ fn errors_of_members(
     omega: f64,
     of: fn(&PartError, usize) -> f64,
 ) -> f64 {
-    let cut = m.members.iter().zip(parts).zip(directions).filter(|((member, _), _)| divisible(m, member));
+    let cut = m
+        .members
+        .iter()
+        .zip(parts)
+        .zip(directions)
+        .filter(|((member, _), _)| divisible(m, member));
     let errors = cut.flat_map(|((member, &parts), &directions)| {
         let all = errors_of_one_part(m, member, directions, omega).into_iter();
         all.map(move |error| of(&error, parts))
@@ -483,10 +603,20 @@ fn errors_of_members(
 /// Largest error over the trusses and rods, which are not cut: that of their axial motion, which is linear between their
 /// ends. Their mass moves across them with the straight line between the ends, without an error.
 fn undivided_error(m: &Model, directions: &[Directions], omega: f64) -> f64 {
-    let bars = m.members.iter().zip(directions).filter(|(member, _)| member.kind != MemberKind::Beam);
+    let bars = m
+        .members
+        .iter()
+        .zip(directions)
+        .filter(|(member, _)| member.kind != MemberKind::Beam);
     let errors = bars.map(|(member, &directions)| {
-        let axial = Directions { axial: directions.axial, ..Directions::NONE };
-        errors_of_one_part(m, member, axial, omega).iter().map(|error| error.in_parts(1)).fold(0.0, f64::max)
+        let axial = Directions {
+            axial: directions.axial,
+            ..Directions::NONE
+        };
+        errors_of_one_part(m, member, axial, omega)
+            .iter()
+            .map(|error| error.in_parts(1))
+            .fold(0.0, f64::max)
     });
     errors.fold(0.0, f64::max)
 }
@@ -501,13 +631,21 @@ fn parts_needed(
 ) -> usize {
     let errors = errors_of_one_part(m, member, directions, omega);
     let parts = errors.iter().map(|error| allowed.parts(error).ceil());
-    parts.fold(bent_parts(m, member, directions), f64::max).min(MOST_PARTS as f64) as usize
+    parts
+        .fold(bent_parts(m, member, directions), f64::max)
+        .min(MOST_PARTS as f64) as usize
 }
 
 /// Parts in which an axial force bends the shapes of a member that is flexible in shear by their series alone.
 fn bent_parts(m: &Model, member: &Member, directions: Directions) -> f64 {
-    let sheared = bent_planes(m, &m.sections[member.section], directions).filter(|(_, g, _)| *g > 0.0);
+    let sheared =
+        bent_planes(m, &m.sections[member.section], directions).filter(|(_, g, _)| *g > 0.0);
     let squares = sheared.map(|(c, g, _)| (c * member.tension / (1.0 + g * member.tension)).abs());
-    let most = squares.filter(|square| square.is_finite()).fold(0.0, f64::max);
-    (most * length_squared(m, member) / MOST_BENT).sqrt().ceil().max(1.0)
+    let most = squares
+        .filter(|square| square.is_finite())
+        .fold(0.0, f64::max);
+    (most * length_squared(m, member) / MOST_BENT)
+        .sqrt()
+        .ceil()
+        .max(1.0)
 }

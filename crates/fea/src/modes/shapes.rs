@@ -45,7 +45,9 @@ impl Moments {
     pub fn of(polynomial: &Polynomial) -> Self {
         let mut sums = [0.0; LONGEST];
         for (coefficient, row) in polynomial.iter().zip(&POWERS) {
-            sums.iter_mut().zip(row).for_each(|(sum, integral)| *sum += coefficient * integral);
+            sums.iter_mut()
+                .zip(row)
+                .for_each(|(sum, integral)| *sum += coefficient * integral);
         }
         Moments(sums)
     }
@@ -75,13 +77,22 @@ pub(super) fn bending_shapes(plane: &BendingPlane, length: f64) -> [[Polynomial;
     let (d, h) = (1.0 / (1.0 + phi), length);
     let scaled = |factor: f64, cubic: [f64; 4]| polynomial(&cubic.map(|x| factor * x));
     [
-        [scaled(d, [1.0 + phi, -phi, -3.0, 2.0]), scaled(d / h, [0.0, -6.0, 6.0, 0.0])],
+        [
+            scaled(d, [1.0 + phi, -phi, -3.0, 2.0]),
+            scaled(d / h, [0.0, -6.0, 6.0, 0.0]),
+        ],
         [
             scaled(d * h, [0.0, 1.0 + 0.5 * phi, -2.0 - 0.5 * phi, 1.0]),
             scaled(d, [1.0 + phi, -4.0 - phi, 3.0, 0.0]),
         ],
-        [scaled(d, [0.0, phi, 3.0, -2.0]), scaled(d / h, [0.0, 6.0, -6.0, 0.0])],
-        [scaled(d * h, [0.0, -0.5 * phi, 0.5 * phi - 1.0, 1.0]), scaled(d, [0.0, phi - 2.0, 3.0, 0.0])],
+        [
+            scaled(d, [0.0, phi, 3.0, -2.0]),
+            scaled(d / h, [0.0, 6.0, -6.0, 0.0]),
+        ],
+        [
+            scaled(d * h, [0.0, -0.5 * phi, 0.5 * phi - 1.0, 1.0]),
+            scaled(d, [0.0, phi - 2.0, 3.0, 0.0]),
+        ],
     ]
 }
 
@@ -125,7 +136,11 @@ pub(super) fn uniform_load_stiffness(plane: &BendingPlane, length: f64) -> f64 {
 /// `loads[1]` per length, of degree eight through values of the power series of
 ///
 /// H' = -f,    theta'' = lambda^2 theta - c (H/(1 + g N) + mu),    w' = (theta + g H)/(1 + g N).
-pub(super) fn bent_deflection(plane: &BendingPlane, length: f64, loads: &[Polynomial; 2]) -> [Polynomial; 2] {
+pub(super) fn bent_deflection(
+    plane: &BendingPlane,
+    length: f64,
+    loads: &[Polynomial; 2],
+) -> [Polynomial; 2] {
     let (c, g, h) = (plane.bending, plane.shear, length);
     let stiffening = 1.0 + g * plane.tension;
     let square = c * plane.tension / stiffening * h * h;
@@ -147,11 +162,21 @@ pub(super) fn bent_deflection(plane: &BendingPlane, length: f64, loads: &[Polyno
         }
         [lowered(&deflection), lowered(&rotation)]
     };
-    let [of_loads, of_turn, of_force] = [motion(0.0, 0.0, 1.0), motion(1.0, 0.0, 0.0), motion(0.0, 1.0, 0.0)];
-    let end = |of: &[Polynomial; 2]| of.each_ref().map(|polynomial| polynomial.iter().sum::<f64>());
+    let [of_loads, of_turn, of_force] = [
+        motion(0.0, 0.0, 1.0),
+        motion(1.0, 0.0, 0.0),
+        motion(0.0, 1.0, 0.0),
+    ];
+    let end = |of: &[Polynomial; 2]| {
+        of.each_ref()
+            .map(|polynomial| polynomial.iter().sum::<f64>())
+    };
     let ([w, t], [wt, tt], [wf, tf]) = (end(&of_loads), end(&of_turn), end(&of_force));
     let determinant = wt * tf - wf * tt;
-    let [turn, force] = [(wf * t - w * tf) / determinant, (w * tt - wt * t) / determinant];
+    let [turn, force] = [
+        (wf * t - w * tf) / determinant,
+        (w * tt - wt * t) / determinant,
+    ];
     std::array::from_fn(|k| {
         std::array::from_fn(|p| of_loads[k][p] + turn * of_turn[k][p] + force * of_force[k][p])
     })
@@ -184,17 +209,24 @@ mod tests {
         let transverse: Polynomial = std::array::from_fn(|p| shear[p] + n * derivative(&w)[p]);
         let moment = derivative(&t).map(|x| x / with.bending);
         for s in [0.0, 0.3, 0.8] {
-            assert!((value(&derivative(&transverse), s) + value(&loads[0], s)).abs() < 1e-7, "{s}");
             assert!(
-                (value(&derivative(&moment), s) + value(&shear, s) + value(&loads[1], s)).abs() < 1e-7,
+                (value(&derivative(&transverse), s) + value(&loads[0], s)).abs() < 1e-7,
+                "{s}"
+            );
+            assert!(
+                (value(&derivative(&moment), s) + value(&shear, s) + value(&loads[1], s)).abs()
+                    < 1e-7,
                 "{s}"
             );
         }
         for end in [0.0, 1.0] {
             assert!(value(&w, end).abs() < 1e-15 && value(&t, end).abs() < 1e-15);
         }
-        let [[near, _], [straight, _]] = [1e-12, 0.0].map(|n| uniform_load_shape(&plane(n), length));
-        near.iter().zip(straight).for_each(|(a, b)| assert!((a - b).abs() < 1e-13, "{a}, not {b}"));
+        let [[near, _], [straight, _]] =
+            [1e-12, 0.0].map(|n| uniform_load_shape(&plane(n), length));
+        near.iter()
+            .zip(straight)
+            .for_each(|(a, b)| assert!((a - b).abs() < 1e-13, "{a}, not {b}"));
         let energies = [1e-12, 0.0].map(|n| uniform_load_stiffness(&plane(n), length));
         assert!((energies[0] / energies[1] - 1.0).abs() < 1e-11);
     }

@@ -49,18 +49,34 @@ impl Caution {
             let least = section.iy.min(section.iz);
             let mut add = |kind: CautionKind, ratio: f64, from: f64| {
                 if ratio > from && ratio.is_finite() {
-                    out.push(Caution { member, kind, ratio });
+                    out.push(Caution {
+                        member,
+                        kind,
+                        ratio,
+                    });
                 }
             };
             if own.kind == MemberKind::Beam {
                 let gj = section.g * section.j;
                 let bending = section.e * least;
-                add(CautionKind::Moments, forces.moment * l / (PI * (bending * gj).sqrt()), NOTED);
+                add(
+                    CautionKind::Moments,
+                    forces.moment * l / (PI * (bending * gj).sqrt()),
+                    NOTED,
+                );
                 let polar = section.gyration_squared(section.iy + section.iz);
                 add(CautionKind::Twist, n.abs() * polar / gj, NOTED);
                 let f = &element.flexibility;
-                add(CautionKind::Shear, n.abs() * f.shear_y.max(f.shear_z), NOTED);
-                add(CautionKind::Slender, l * (n.max(0.0) / bending).sqrt(), SLENDER);
+                add(
+                    CautionKind::Shear,
+                    n.abs() * f.shear_y.max(f.shear_z),
+                    NOTED,
+                );
+                add(
+                    CautionKind::Slender,
+                    l * (n.max(0.0) / bending).sqrt(),
+                    SLENDER,
+                );
             } else if own.kind != MemberKind::Cable && n < 0.0 {
                 let euler = PI * PI * section.e * least / (l * l);
                 add(CautionKind::TrussBuckles, -n / euler, 1.0);

@@ -69,17 +69,31 @@ impl SecondOrderChange {
 /// assert!((change.deflection - (3.0 * (u.tan() - u) / u.powi(3) - 1.0)).abs() < 1e-6);
 /// # Ok::<(), fea::Error>(())
 /// ```
-pub fn second_order_change(m: &Model, rails: &[Rail], loads: &Preload) -> Result<SecondOrderChange, Error> {
+pub fn second_order_change(
+    m: &Model,
+    rails: &[Rail],
+    loads: &Preload,
+) -> Result<SecondOrderChange, Error> {
     loads.check(m)?;
     let own = m.unloaded();
     let first = FactoredFrame::new(&own, rails)?;
     let BodyLoads { load, .. } = loads.loads(&own, &first)?;
-    let BodyLoads { on_arms, .. } = Preload { rails: Vec::new(), ..loads.clone() }.loads(&own, &first)?;
+    let BodyLoads { on_arms, .. } = Preload {
+        rails: Vec::new(),
+        ..loads.clone()
+    }
+    .loads(&own, &first)?;
     let forces = StateForces::new(&own, &first, &first.motions(&load), &on_arms);
     let model = with_forces(own.clone(), forces);
     let second = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;
-    let live = Preload { acceleration: [0.0; 3], ..loads.clone() };
-    let [before, after] = [Responses::new(&own, &first, &live)?, Responses::new(&model, &second, &live)?];
+    let live = Preload {
+        acceleration: [0.0; 3],
+        ..loads.clone()
+    };
+    let [before, after] = [
+        Responses::new(&own, &first, &live)?,
+        Responses::new(&model, &second, &live)?,
+    ];
     Ok(SecondOrderChange {
         deflection: change(&before.displacements, &after.displacements),
         force: change(&before.forces, &after.forces),
@@ -101,21 +115,35 @@ impl Responses {
         let BodyLoads { load, .. } = loads.loads(m, frame)?;
         let points = point_motions(frame, &frame.motions(&load));
         let size = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let rotation = points.iter().map(|motion| size(&motion[3..])).fold(0.0, f64::max);
+        let rotation = points
+            .iter()
+            .map(|motion| size(&motion[3..]))
+            .fold(0.0, f64::max);
         let mut out = Responses {
-            displacements: points.iter().flat_map(|motion| motion[..3].to_vec()).collect(),
+            displacements: points
+                .iter()
+                .flat_map(|motion| motion[..3].to_vec())
+                .collect(),
             forces: Vec::new(),
             moments: Vec::new(),
             rotation,
         };
-        let (probes, sizes): (Vec<Probe>, Vec<f64>) = loads.rails.iter().flat_map(components).unzip();
+        let (probes, sizes): (Vec<Probe>, Vec<f64>) =
+            loads.rails.iter().flat_map(components).unzip();
         if probes.is_empty() {
             return Ok(out);
         }
-        let sum = |row: &dyn Fn(usize) -> f64| sizes.iter().enumerate().map(|(k, f)| f * row(k)).sum::<f64>();
+        let sum = |row: &dyn Fn(usize) -> f64| {
+            sizes
+                .iter()
+                .enumerate()
+                .map(|(k, f)| f * row(k))
+                .sum::<f64>()
+        };
         if loads.points.is_empty() {
             let grid = frame.grid(&probes)?.value;
-            out.displacements.extend((0..probes.len()).map(|i| sum(&|k| grid[(i, k)])));
+            out.displacements
+                .extend((0..probes.len()).map(|i| sum(&|k| grid[(i, k)])));
         }
         let effects = sections(frame, loads)?;
         let value = frame.effects(m, &effects, &probes)?;
@@ -123,7 +151,8 @@ impl Responses {
             let own = sum(&|k| value[(i, k)]);
             match effect {
                 Effect::InternalForce {
-                    component: ForceComponent::Axial | ForceComponent::ShearY | ForceComponent::ShearZ,
+                    component:
+                        ForceComponent::Axial | ForceComponent::ShearY | ForceComponent::ShearZ,
                     ..
                 } => out.forces.push(own),
                 _ => out.moments.push(own),
@@ -136,30 +165,49 @@ impl Responses {
 /// The components of a force on a rail that are not zero.
 fn components(given: &RailForce) -> Vec<(Probe, f64)> {
     let RailForce { rail, x, force } = *given;
-    let all = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].map(|axis| (axis, force[axis.component()]));
-    all.into_iter().filter(|(_, f)| *f != 0.0).map(|(axis, f)| (Probe { rail, x, axis }, f)).collect()
+    let all = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
+        .map(|axis| (axis, force[axis.component()]));
+    all.into_iter()
+        .filter(|(_, f)| *f != 0.0)
+        .map(|(axis, f)| (Probe { rail, x, axis }, f))
+        .collect()
 }
 
 /// The internal forces at both ends of all members and under the loads on rails.
 fn sections(frame: &FactoredFrame, loads: &Preload) -> Result<Vec<Effect>, Error> {
-    let mut places: Vec<(usize, f64)> =
-        (0..frame.elements.len()).flat_map(|member| [(member, 0.0), (member, 1.0)]).collect();
+    let mut places: Vec<(usize, f64)> = (0..frame.elements.len())
+        .flat_map(|member| [(member, 0.0), (member, 1.0)])
+        .collect();
     for given in &loads.rails {
         let elements = frame.line()?.elements().iter();
-        let on = elements.filter(|e| e.rail == given.rail && e.x[0] <= given.x && given.x <= e.x[1]);
-        places.extend(
-            on.filter_map(|e| Some((e.member?.id, (e.place_on_member(given.x) / e.length).clamp(0.0, 1.0)))),
-        );
+        let on =
+            elements.filter(|e| e.rail == given.rail && e.x[0] <= given.x && given.x <= e.x[1]);
+        places.extend(on.filter_map(|e| {
+            Some((
+                e.member?.id,
+                (e.place_on_member(given.x) / e.length).clamp(0.0, 1.0),
+            ))
+        }));
     }
     let of = |(member, place)| {
-        ForceComponent::ALL.map(|component| Effect::InternalForce { member, place, component })
+        ForceComponent::ALL.map(|component| Effect::InternalForce {
+            member,
+            place,
+            component,
+        })
     };
     Ok(places.into_iter().flat_map(of).collect())
 }
 
 /// The largest change, relative to the largest value; 0 where all are zero.
 fn change(before: &[f64], after: &[f64]) -> f64 {
-    let largest = before.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest = before
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
     let changes = before.iter().zip(after).map(|(a, b)| (a - b).abs());
-    if largest == 0.0 { 0.0 } else { changes.fold(0.0, f64::max) / largest }
+    if largest == 0.0 {
+        0.0
+    } else {
+        changes.fold(0.0, f64::max) / largest
+    }
 }

@@ -110,16 +110,25 @@ impl<'a> Critical<'a> {
         let elements = Element::all(m)?;
         let mut bodies = Bodies::new(m);
         let stiffness = ScaledStiffness::new(m, &elements, &mut bodies)?;
-        Ok(Critical { m, bodies, numbering: stiffness.numbering })
+        Ok(Critical {
+            m,
+            bodies,
+            numbering: stiffness.numbering,
+        })
     }
 
     /// The model with the preload times alpha.
     fn scaled(&self, alpha: f64) -> Model {
         let mut m = self.m.clone();
-        m.members.iter_mut().for_each(|member| member.tension *= alpha);
-        m.arms
+        m.members
             .iter_mut()
-            .for_each(|arm| arm.stiffness.as_flattened_mut().iter_mut().for_each(|k| *k *= alpha));
+            .for_each(|member| member.tension *= alpha);
+        m.arms.iter_mut().for_each(|arm| {
+            arm.stiffness
+                .as_flattened_mut()
+                .iter_mut()
+                .for_each(|k| *k *= alpha)
+        });
         m
     }
 
@@ -128,11 +137,18 @@ impl<'a> Critical<'a> {
     fn trial(&self, alpha: f64) -> Result<Trial, Error> {
         for step in 0..4 {
             let beside = alpha * (1.0 + f64::from(step) * 3.0 * f64::EPSILON);
-            if let Some(found) = self.trial_at(beside).map_err(|fault| self.too_large(fault))? {
+            if let Some(found) = self
+                .trial_at(beside)
+                .map_err(|fault| self.too_large(fault))?
+            {
                 return Ok(found);
             }
         }
-        Ok(Trial { alpha, count: 1, stiffness: None })
+        Ok(Trial {
+            alpha,
+            count: 1,
+            stiffness: None,
+        })
     }
 
     fn trial_at(&self, alpha: f64) -> Result<Option<Trial>, FactorError> {
@@ -145,17 +161,29 @@ impl<'a> Critical<'a> {
             }
         }
         if m.check().is_err() {
-            return Ok(Some(Trial { alpha, count: members.max(1), stiffness: None }));
+            return Ok(Some(Trial {
+                alpha,
+                count: members.max(1),
+                stiffness: None,
+            }));
         }
         let Ok(stiffness) = ScaledStiffness::<f64>::in_precision(&m, &self.numbering) else {
             return Ok(None);
         };
-        let Some(mut factor) = IndefiniteFactor::new(&stiffness.upper)? else { return Ok(None) };
-        let Some((mut pivots, is_certain)) = factor.negative_pivots() else { return Ok(None) };
+        let Some(mut factor) = IndefiniteFactor::new(&stiffness.upper)? else {
+            return Ok(None);
+        };
+        let Some((mut pivots, is_certain)) = factor.negative_pivots() else {
+            return Ok(None);
+        };
         if !is_certain && self.numbering.operations <= MOST_EXTENDED {
             pivots = self.extended_pivots(&m, pivots)?;
         }
-        Ok(Some(Trial { alpha, count: members + pivots, stiffness: Some((stiffness.upper, factor)) }))
+        Ok(Some(Trial {
+            alpha,
+            count: members + pivots,
+            stiffness: Some((stiffness.upper, factor)),
+        }))
     }
 
     /// Number of negative pivots in double-doubles, where that in doubles is `pivots`: none where the stiffness has a factor of
@@ -178,14 +206,24 @@ impl<'a> Critical<'a> {
             return Some(0);
         }
         let element: Element = Element::new(m, index).ok()?;
-        let released = element.released.as_ref().map_or(0, |released| released.negative);
+        let released = element
+            .released
+            .as_ref()
+            .map_or(0, |released| released.negative);
         if m.members[index].kind != MemberKind::Beam {
             return Some(released);
         }
         let planes = bending_planes(&element.flexibility);
-        let own = planes.iter().filter(|plane| plane.bending.is_finite() && plane.shear.is_finite());
+        let own = planes
+            .iter()
+            .filter(|plane| plane.bending.is_finite() && plane.shear.is_finite());
         let clamped = own.map(|plane| {
-            clamped_count(&BeamColumn::new(plane.bending, plane.shear, tension, element.length))
+            clamped_count(&BeamColumn::new(
+                plane.bending,
+                plane.shear,
+                tension,
+                element.length,
+            ))
         });
         Some(released + clamped.sum::<usize>())
     }
@@ -221,12 +259,19 @@ impl<'a> Critical<'a> {
         let mut x = irregular_vector(self.numbering.column.len());
         while high.alpha - low.alpha > RESOLUTION * high.alpha {
             let width = high.alpha - low.alpha;
-            let guess =
-                if width < COARSE * high.alpha { interpolated(&low, &mut high, &mut x) } else { None };
+            let guess = if width < COARSE * high.alpha {
+                interpolated(&low, &mut high, &mut x)
+            } else {
+                None
+            };
             if let Some(guess) = guess {
                 self.narrow(&mut low, &mut high, guess)?;
                 // The factor is beside the guess: on the other side of it, too, the bracket closes.
-                let step = if low.alpha >= guess { BESIDE * width } else { -BESIDE * width };
+                let step = if low.alpha >= guess {
+                    BESIDE * width
+                } else {
+                    -BESIDE * width
+                };
                 self.narrow(&mut low, &mut high, guess + step)?;
             }
             if high.alpha - low.alpha > 0.5 * width {
@@ -264,15 +309,25 @@ impl<'a> Critical<'a> {
     /// The mode of the critical factor between `low` and that of a trial.
     fn mode(&self, low: f64, high: Trial) -> BucklingMode {
         let n = self.numbering.column.len();
-        let (before, behind) = (self.scaled(low * (1.0 - 1e-9)), self.scaled(high.alpha * (1.0 + 1e-9)));
+        let (before, behind) = (
+            self.scaled(low * (1.0 - 1e-9)),
+            self.scaled(high.alpha * (1.0 + 1e-9)),
+        );
         let rest = vec![[0.0; 6]; self.m.points.len()];
         let changed = (0..self.m.members.len()).find(|&index| {
-            self.buckled(&before, index).zip(self.buckled(&behind, index)).is_some_and(|(a, b)| b > a)
+            self.buckled(&before, index)
+                .zip(self.buckled(&behind, index))
+                .is_some_and(|(a, b)| b > a)
         });
         if let Some(member) = changed {
             let point = self.m.members[member].points[0];
             let dof = Dof::ALL[0];
-            let most = Buckling { point, dof, member, between_ends: true };
+            let most = Buckling {
+                point,
+                dof,
+                member,
+                between_ends: true,
+            };
             return BucklingMode { points: rest, most };
         }
         let mut x = irregular_vector(n);
@@ -285,8 +340,11 @@ impl<'a> Critical<'a> {
             let column = self.numbering.column[k];
             motions[column / 6][column % 6] = value * self.numbering.scale[k];
         }
-        let motions: Vec<SVector<f64, 6>> =
-            motions.iter().zip(&self.bodies.list).map(|(motion, body)| body.basis * motion).collect();
+        let motions: Vec<SVector<f64, 6>> = motions
+            .iter()
+            .zip(&self.bodies.list)
+            .map(|(motion, body)| body.basis * motion)
+            .collect();
         let points = (0..self.m.points.len()).map(|point| {
             let motion = self.bodies.motion(point, &Vector3::zeros());
             <[f64; 6]>::from(motion * motions[self.bodies.of_point[point]])
@@ -306,7 +364,8 @@ impl<'a> Critical<'a> {
     fn most_work(&self, m: &Model, motions: &[SVector<f64, 6>]) -> usize {
         let unloaded = m.unloaded();
         let work = |index: usize| -> f64 {
-            let [Ok(loaded), Ok(own)] = [m, &unloaded].map(|m| Element::<f64>::new(m, index)) else {
+            let [Ok(loaded), Ok(own)] = [m, &unloaded].map(|m| Element::<f64>::new(m, index))
+            else {
                 return 0.0;
             };
             let pair = self.bodies.pair(loaded.points);
@@ -331,7 +390,11 @@ impl<'a> Critical<'a> {
 fn clamped_count(column: &BeamColumn<f64>) -> usize {
     let beta = (-column.square()).max(0.0).sqrt();
     let pinned = (beta / PI).floor() as usize;
-    let negative = column.rotational_stiffness().iter().filter(|&&k| k < 0.0).count();
+    let negative = column
+        .rotational_stiffness()
+        .iter()
+        .filter(|&&k| k < 0.0)
+        .count();
     pinned.saturating_sub(negative)
 }
 
@@ -359,9 +422,16 @@ mod tests {
     /// beta/2. Timoshenko and Gere, Theory of Elastic Stability (1961), section 2.9.
     #[test]
     fn clamped_members_are_counted() {
-        for (beta, known) in
-            [(0.1, 0), (3.2, 0), (6.2, 0), (6.3, 1), (8.9, 1), (9.0, 2), (12.5, 2), (12.6, 3)]
-        {
+        for (beta, known) in [
+            (0.1, 0),
+            (3.2, 0),
+            (6.2, 0),
+            (6.3, 1),
+            (8.9, 1),
+            (9.0, 2),
+            (12.5, 2),
+            (12.6, 3),
+        ] {
             let column = BeamColumn::new(1.0, 0.0, -f64::powi(beta, 2), 1.0);
             assert_eq!(clamped_count(&column), known, "{beta}");
         }

@@ -35,7 +35,9 @@ impl StateForces {
         on_arms: &[ArmForce],
     ) -> StateForces {
         let mut arms = Arms::default();
-        on_arms.iter().for_each(|given| arms.add(given.body, &given.arm, &given.force));
+        on_arms
+            .iter()
+            .for_each(|given| arms.add(given.body, &given.arm, &given.force));
         let bodies = &frame.bodies;
         let members = frame.elements.iter().map(|element| {
             let (forces, ends) = member_forces(element, frame, motions);
@@ -54,7 +56,10 @@ impl StateForces {
             force[spring.dof as usize] = -spring.stiffness * motion[spring.dof as usize];
             arms.add(body, &bodies.arms[spring.point].map(Real::double), &force);
         }
-        StateForces { members, arms: arms.of_bodies(frame) }
+        StateForces {
+            members,
+            arms: arms.of_bodies(frame),
+        }
     }
 }
 
@@ -71,10 +76,17 @@ fn member_forces(
     let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
     let tips = transformation(element, &frame.bodies) * both;
     let force = element.stiffness() * tips;
-    let moment = [4, 5, 10, 11].into_iter().fold(0.0_f64, |most, k| most.max(force[k].abs()));
+    let moment = [4, 5, 10, 11]
+        .into_iter()
+        .fold(0.0_f64, |most, k| most.max(force[k].abs()));
     let across = (tips[7] - tips[1]).hypot(tips[8] - tips[2]);
-    let global = |k: usize| element.axes.transpose() * Vector3::new(force[k], force[k + 1], force[k + 2]);
-    let forces = MemberForces { axial: force[6], moment, turned: across / element.length };
+    let global =
+        |k: usize| element.axes.transpose() * Vector3::new(force[k], force[k + 1], force[k + 2]);
+    let forces = MemberForces {
+        axial: force[6],
+        moment,
+        turned: across / element.length,
+    };
     (forces, [global(0), global(6)])
 }
 
@@ -96,7 +108,10 @@ impl Arms {
     }
 
     fn of_bodies(self, frame: &FactoredFrame) -> Vec<ArmStiffness> {
-        let of = self.of.into_iter().filter(|(_, stiffness)| *stiffness != Matrix3::zeros());
+        let of = self
+            .of
+            .into_iter()
+            .filter(|(_, stiffness)| *stiffness != Matrix3::zeros());
         let arm = |(body, stiffness): (usize, Matrix3<f64>)| ArmStiffness {
             point: frame.bodies.list[body].reference,
             stiffness: std::array::from_fn(|i| std::array::from_fn(|j| stiffness[(i, j)])),

@@ -75,9 +75,16 @@ impl Preload {
 
     /// Checks numbers and indices of points.
     pub(super) fn check(&self, m: &Model) -> Result<(), Error> {
-        let at = |k: usize| move |fault| Error::Invalid { entry: ModelEntry::PreloadForce(k), fault };
-        finite(EntryAttribute::Force, &self.acceleration)
-            .map_err(|fault| Error::Invalid { entry: ModelEntry::Preload, fault })?;
+        let at = |k: usize| {
+            move |fault| Error::Invalid {
+                entry: ModelEntry::PreloadForce(k),
+                fault,
+            }
+        };
+        finite(EntryAttribute::Force, &self.acceleration).map_err(|fault| Error::Invalid {
+            entry: ModelEntry::Preload,
+            fault,
+        })?;
         for (k, (point, force)) in self.points.iter().enumerate() {
             if *point >= m.points.len() {
                 return Err(at(k)(EntryFault::NoPoint { point: *point }));
@@ -96,7 +103,10 @@ impl Preload {
     /// A force on a degree of freedom that nothing holds; a place beyond its rail.
     pub(super) fn loads(&self, m: &Model, frame: &FactoredFrame) -> Result<BodyLoads, Error> {
         let bodies = &frame.bodies;
-        let mut out = BodyLoads { load: SparseLoad::new(), on_arms: Vec::new() };
+        let mut out = BodyLoads {
+            load: SparseLoad::new(),
+            on_arms: Vec::new(),
+        };
         let arm_of = |point: usize| bodies.arms[point].map(Real::double);
         if self.acceleration != [0.0; 3] {
             let weight = frame.weight(m, self.acceleration);
@@ -105,12 +115,19 @@ impl Preload {
             for mass in &m.masses {
                 let (body, arm) = (bodies.of_point[mass.point], arm_of(mass.point));
                 let arm = arm + Vector3::from(mass.offset);
-                out.on_arms.push(ArmForce { body, arm, force: gravity * mass.mass });
+                out.on_arms.push(ArmForce {
+                    body,
+                    arm,
+                    force: gravity * mass.mass,
+                });
             }
             for (element, member) in frame.elements.iter().zip(&m.members) {
                 let half = 0.5 * m.sections[member.section].mass * element.length;
                 for end in 0..2 {
-                    let (body, arm) = (bodies.of_point[element.points[end]], arm_of(element.points[end]));
+                    let (body, arm) = (
+                        bodies.of_point[element.points[end]],
+                        arm_of(element.points[end]),
+                    );
                     out.on_arms.push(ArmForce {
                         body,
                         arm: arm + element.offsets[end],
@@ -126,10 +143,17 @@ impl Preload {
                     entry: ModelEntry::PreloadForce(k),
                     fault: EntryFault::NotHeld { dof: Dof::ALL[dof] },
                 })?;
-                out.load.extend(row.into_iter().map(|(unknown, value)| (unknown, component * value)));
+                out.load.extend(
+                    row.into_iter()
+                        .map(|(unknown, value)| (unknown, component * value)),
+                );
             }
             let body = bodies.of_point[point];
-            out.on_arms.push(ArmForce { body, arm: arm_of(point), force: Vector3::from(force) });
+            out.on_arms.push(ArmForce {
+                body,
+                arm: arm_of(point),
+                force: Vector3::from(force),
+            });
         }
         for given in &self.rails {
             self.add_rail_force(frame, given, &mut out)?;
@@ -154,19 +178,32 @@ impl Preload {
             }
             let (load, own) = frame.load(Probe { rail, x, axis })?;
             element = Some(own);
-            out.load.extend(load.into_iter().map(|(unknown, value)| (unknown, component * value)));
+            out.load.extend(
+                load.into_iter()
+                    .map(|(unknown, value)| (unknown, component * value)),
+            );
         }
-        let Some(element) = element else { return Ok(()) };
+        let Some(element) = element else {
+            return Ok(());
+        };
         let own = &frame.line()?.elements()[element];
         let share = ((x - own.x[0]) / (own.x[1] - own.x[0])).clamp(0.0, 1.0);
         let axes = frame.rail_axes(rail);
         let global = |v: [f64; 3]| axes.transpose() * Vector3::from(v);
         for (end, share) in [(0, 1.0 - share), (1, share)] {
             // A rigid arm has one state, and its offset is that of its first end.
-            let along = if own.ends[0] == own.ends[1] { x - own.x[0] } else { 0.0 };
+            let along = if own.ends[0] == own.ends[1] {
+                x - own.x[0]
+            } else {
+                0.0
+            };
             let offset = [own.offset[0] + along, own.offset[1], own.offset[2]];
             let (body, tip) = frame.state_arm(own.ends[end]);
-            out.on_arms.push(ArmForce { body, arm: tip + global(offset), force: global(force) * share });
+            out.on_arms.push(ArmForce {
+                body,
+                arm: tip + global(offset),
+                force: global(force) * share,
+            });
         }
         Ok(())
     }

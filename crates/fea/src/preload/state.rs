@@ -79,15 +79,31 @@ pub struct PreloadedState {
 /// # Ok::<(), fea::Error>(())
 /// ```
 pub fn preloaded(m: &Model, rails: &[Rail], preload: &Preload) -> Result<PreloadedState, Error> {
-    let LoadedFrame { model, frame, steps, forces, displacements } = loaded_frame(m, rails, preload)?;
+    let LoadedFrame {
+        model,
+        frame,
+        steps,
+        forces,
+        displacements,
+    } = loaded_frame(m, rails, preload)?;
     let critical = Critical::new(&model)?.first()?;
     if let CriticalFactor::At(factor, mode) = &critical
         && *factor <= 1.0
     {
-        return Err(Error::Buckled { factor: *factor, mode: mode.most });
+        return Err(Error::Buckled {
+            factor: *factor,
+            mode: mode.most,
+        });
     }
     let cautions = Caution::all(&model, &frame.elements, &forces);
-    Ok(PreloadedState { model, critical, cautions, displacements, steps, frame: Arc::new(frame) })
+    Ok(PreloadedState {
+        model,
+        critical,
+        cautions,
+        displacements,
+        steps,
+        frame: Arc::new(frame),
+    })
 }
 
 /// A structure with the axial forces of the equilibrium under a preload, factored.
@@ -119,12 +135,20 @@ pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Load
         let BodyLoads { load, on_arms } = preload.loads(&model, &frame)?;
         let motions = frame.motions(&load);
         let forces = StateForces::new(&model, &frame, &motions, &on_arms);
-        let largest = forces.members.iter().fold(0.0_f64, |most, own| most.max(own.axial.abs()));
+        let largest = forces
+            .members
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(own.axial.abs()));
         let given: Vec<f64> = model.members.iter().map(|member| member.tension).collect();
         let found: Vec<f64> = forces.members.iter().map(|own| own.axial).collect();
-        let change =
-            given.iter().zip(&found).fold(0.0_f64, |most, (given, found)| most.max((found - given).abs()));
-        let settled = change <= UNCHANGED * largest || (change <= ROUNDED * largest && change >= 0.5 * last);
+        let change = given
+            .iter()
+            .zip(&found)
+            .fold(0.0_f64, |most, (given, found)| {
+                most.max((found - given).abs())
+            });
+        let settled =
+            change <= UNCHANGED * largest || (change <= ROUNDED * largest && change >= 0.5 * last);
         if settled && are_equal(&model.arms, &forces.arms) {
             check_turned(&forces.members)?;
             check_tension(&model)?;
@@ -133,30 +157,63 @@ pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Load
             if frame.line().is_err() {
                 frame = frame.with_rails(rails)?;
             }
-            return Ok(LoadedFrame { model, frame, steps: step, forces: forces.members, displacements });
+            return Ok(LoadedFrame {
+                model,
+                frame,
+                steps: step,
+                forces: forces.members,
+                displacements,
+            });
         }
         last = change;
         model = with_forces(model, forces);
-        if let Some(next) = before.as_ref().and_then(|before| accelerated(before, [&given, &found])) {
-            model.members.iter_mut().zip(next).for_each(|(member, n)| member.tension = n);
+        if let Some(next) = before
+            .as_ref()
+            .and_then(|before| accelerated(before, [&given, &found]))
+        {
+            model
+                .members
+                .iter_mut()
+                .zip(next)
+                .for_each(|(member, n)| member.tension = n);
         }
         before = Some([given, found]);
-        frame = frame.reloaded(&model).map_err(|error| buckled(&model, error))?;
+        frame = frame
+            .reloaded(&model)
+            .map_err(|error| buckled(&model, error))?;
         if !preload.rails.is_empty() {
             frame = frame.with_rails(rails)?;
         }
     }
-    let (member, _) = model.members.iter().enumerate().fold((0, 0.0_f64), |most, (index, member)| {
-        if member.tension.abs() > most.1 { (index, member.tension.abs()) } else { most }
-    });
-    Err(Error::NoEquilibrium { member, turned: None })
+    let (member, _) =
+        model
+            .members
+            .iter()
+            .enumerate()
+            .fold((0, 0.0_f64), |most, (index, member)| {
+                if member.tension.abs() > most.1 {
+                    (index, member.tension.abs())
+                } else {
+                    most
+                }
+            });
+    Err(Error::NoEquilibrium {
+        member,
+        turned: None,
+    })
 }
 
 /// Refuses a state in which a member turns too far for its motion to count as small.
 fn check_turned(forces: &[MemberForces]) -> Result<(), Error> {
-    let turned = forces.iter().enumerate().max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
+    let turned = forces
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
     match turned.filter(|(_, own)| own.turned > MOST_TURNED) {
-        Some((member, own)) => Err(Error::NoEquilibrium { member, turned: Some(own.turned) }),
+        Some((member, own)) => Err(Error::NoEquilibrium {
+            member,
+            turned: Some(own.turned),
+        }),
         None => Ok(()),
     }
 }
@@ -169,36 +226,56 @@ fn check_turned(forces: &[MemberForces]) -> Result<(), Error> {
 /// Anderson, Iterative procedures for nonlinear integral equations, Journal of the ACM 12 (1965).
 fn accelerated(before: &[Vec<f64>; 2], now: [&Vec<f64>; 2]) -> Option<Vec<f64>> {
     let change = |[given, found]: [&Vec<f64>; 2]| -> Vec<f64> {
-        given.iter().zip(found).map(|(given, found)| found - given).collect()
+        given
+            .iter()
+            .zip(found)
+            .map(|(given, found)| found - given)
+            .collect()
     };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (first, second) = (change(before.each_ref()), change(now));
-    let turn: Vec<f64> = first.iter().zip(&second).map(|(first, second)| second - first).collect();
+    let turn: Vec<f64> = first
+        .iter()
+        .zip(&second)
+        .map(|(first, second)| second - first)
+        .collect();
     if dot(&second, &second) > QUICK * QUICK * dot(&first, &first) {
         return None;
     }
     let share = dot(&second, &turn) / dot(&turn, &turn);
     let [_, last] = before;
-    let next = now[1].iter().zip(last).map(|(found, last)| found - share * (found - last));
+    let next = now[1]
+        .iter()
+        .zip(last)
+        .map(|(found, last)| found - share * (found - last));
     share.is_finite().then(|| next.collect())
 }
 
 /// The frame of first order; where that is a mechanism, the frame with a small tension in all members, which is left in
 /// `model`.
-fn first_frame(model: &mut Model, rails: &[Rail], preload: &Preload) -> Result<FactoredFrame, Error> {
+fn first_frame(
+    model: &mut Model,
+    rails: &[Rail],
+    preload: &Preload,
+) -> Result<FactoredFrame, Error> {
     let error = match FactoredFrame::new(model, rails) {
         Err(error @ (Error::Mechanism { .. } | Error::IllConditioned { .. })) => error,
         other => return other,
     };
     let size = |force: &[f64; 3]| force.iter().map(|f| f.abs()).sum::<f64>();
     let points = preload.points.iter().map(|(_, force)| size(force));
-    let given = points.chain(preload.rails.iter().map(|given| size(&given.force))).sum::<f64>();
+    let given = points
+        .chain(preload.rails.iter().map(|given| size(&given.force)))
+        .sum::<f64>();
     let mass = crate::modes::rigid_mass(model).map_or(0.0, |mass| mass[0][0]);
     let tension = 0.1 * (given + mass * size(&preload.acceleration));
     if tension <= 0.0 || !tension.is_finite() {
         return Err(error);
     }
-    model.members.iter_mut().for_each(|member| member.tension = tension);
+    model
+        .members
+        .iter_mut()
+        .for_each(|member| member.tension = tension);
     FactoredFrame::new(model, rails).map_err(|_| error)
 }
 
@@ -218,7 +295,10 @@ pub(super) fn buckled(model: &Model, error: Error) -> Error {
         Error::Mechanism { .. }
             | Error::IllConditioned { .. }
             | Error::Released { .. }
-            | Error::Invalid { fault: EntryFault::ShearCollapse { .. }, .. }
+            | Error::Invalid {
+                fault: EntryFault::ShearCollapse { .. },
+                ..
+            }
     );
     if !is_singular {
         return error;
@@ -227,18 +307,32 @@ pub(super) fn buckled(model: &Model, error: Error) -> Error {
         return slack;
     }
     match Critical::new(model).and_then(|critical| critical.first()) {
-        Ok(CriticalFactor::At(factor, mode)) if factor <= 1.0 => Error::Buckled { factor, mode: mode.most },
+        Ok(CriticalFactor::At(factor, mode)) if factor <= 1.0 => Error::Buckled {
+            factor,
+            mode: mode.most,
+        },
         _ => error,
     }
 }
 
 /// Whether rigid arms have the same stiffness, to the accuracy of the equilibrium.
 fn are_equal(a: &[ArmStiffness], b: &[ArmStiffness]) -> bool {
-    let all = || a.iter().chain(b).flat_map(|arm| arm.stiffness.as_flattened());
+    let all = || {
+        a.iter()
+            .chain(b)
+            .flat_map(|arm| arm.stiffness.as_flattened())
+    };
     let largest = all().fold(0.0_f64, |most, k| most.max(k.abs()));
     let equal = |(a, b): (&ArmStiffness, &ArmStiffness)| {
-        let pairs = a.stiffness.as_flattened().iter().zip(b.stiffness.as_flattened());
-        a.point == b.point && pairs.into_iter().all(|(a, b)| (a - b).abs() <= ROUNDED * largest)
+        let pairs = a
+            .stiffness
+            .as_flattened()
+            .iter()
+            .zip(b.stiffness.as_flattened());
+        a.point == b.point
+            && pairs
+                .into_iter()
+                .all(|(a, b)| (a - b).abs() <= ROUNDED * largest)
     };
     largest == 0.0 || (a.len() == b.len() && a.iter().zip(b).all(equal))
 }
@@ -249,7 +343,9 @@ fn check_tension(model: &Model) -> Result<(), Error> {
     match model.members.iter().position(is_slack) {
         Some(index) => Err(Error::Invalid {
             entry: ModelEntry::Member(index),
-            fault: EntryFault::Slack { tension: model.members[index].tension },
+            fault: EntryFault::Slack {
+                tension: model.members[index].tension,
+            },
         }),
         None => Ok(()),
     }
@@ -270,7 +366,10 @@ fn check_sag(model: &Model, preload: &Preload) -> Result<(), Error> {
         let weight = section.mass * element.length * across;
         let sag = weight * weight * section.e * section.area / (12.0 * member.tension.powi(3));
         if sag > MOST_SAG {
-            return Err(Error::Invalid { entry: ModelEntry::Member(index), fault: EntryFault::Sag { sag } });
+            return Err(Error::Invalid {
+                entry: ModelEntry::Member(index),
+                fault: EntryFault::Sag { sag },
+            });
         }
     }
     Ok(())

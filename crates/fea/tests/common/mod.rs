@@ -5,8 +5,8 @@
 pub mod near;
 
 use fea::{
-    BeamTheory, CrossSection, Dof, Girder, GroundSpring, Member, MemberKind, Model, Rail, RailSegment,
-    RigidLink, Support,
+    BeamTheory, CrossSection, Dof, Girder, GroundSpring, Member, MemberKind, Model, Rail,
+    RailSegment, RigidLink, Support,
 };
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -54,11 +54,18 @@ pub fn probes(axis: Axis, at: &[f64]) -> Vec<Probe> {
 /// The same model with nodes: members are cut at `places` (member, fraction of its flexible part), and a
 /// point at the rigid offset from each cut is linked to it. Returns the linked points, in the order of `places`.
 pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, Vec<usize>) {
-    let mut cut = Model { members: Vec::new(), ..model.clone() };
+    let mut cut = Model {
+        members: Vec::new(),
+        ..model.clone()
+    };
     let mut linked = vec![0; places.len()];
     for (index, member) in model.members.iter().enumerate() {
-        let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);
-        let mut own: Vec<usize> = (0..places.len()).filter(|&k| places[k].0 == index).collect();
+        let end = |k: usize| {
+            Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k])
+        };
+        let mut own: Vec<usize> = (0..places.len())
+            .filter(|&k| places[k].0 == index)
+            .collect();
         own.sort_by(|&a, &b| places[a].1.total_cmp(&places[b].1));
         let mut rest = *member;
         for same in own.chunk_by(|&a, &b| places[a].1 == places[b].1) {
@@ -76,7 +83,10 @@ pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, V
             for &k in same {
                 linked[k] = cut.points.len();
                 cut.points.push((place + Vector3::from(places[k].2)).into());
-                cut.links.push(RigidLink { from: node, to: linked[k] });
+                cut.links.push(RigidLink {
+                    from: node,
+                    to: linked[k],
+                });
             }
         }
         cut.members.push(rest);
@@ -103,7 +113,8 @@ impl Stream {
 
 /// The mill girderway of `data/`, and its one rail.
 pub fn mill(theory: BeamTheory) -> (Model, Rail) {
-    let spec: Value = serde_json::from_str(include_str!("../data/mill_girderway.json")).expect("valid");
+    let spec: Value =
+        serde_json::from_str(include_str!("../data/mill_girderway.json")).expect("valid");
     let material = &spec["materials"][0];
     let number = |value: &Value| value.as_f64().expect("a number");
     let sections = list(&spec["sections"])
@@ -128,7 +139,11 @@ pub fn mill(theory: BeamTheory) -> (Model, Rail) {
             let data = |name: &str| &spec["cell_data"][name][block][k];
             members.push(Member {
                 points: [index(&pair[0]), index(&pair[1])],
-                kind: if data("kind") == "truss" { MemberKind::Truss } else { MemberKind::Beam },
+                kind: if data("kind") == "truss" {
+                    MemberKind::Truss
+                } else {
+                    MemberKind::Beam
+                },
                 section: index(data("section")),
                 orientation: vector(data("orientation")),
                 offsets: [vector(data("offset_a")), vector(data("offset_b"))],
@@ -139,7 +154,10 @@ pub fn mill(theory: BeamTheory) -> (Model, Rail) {
     }
     let supports = list(&spec["supports"])
         .iter()
-        .map(|s| Support { point: index(&s["point"]), fixed: set(&s["fix"]) })
+        .map(|s| Support {
+            point: index(&s["point"]),
+            fixed: set(&s["fix"]),
+        })
         .collect();
     let springs = list(&spec["springs"])
         .iter()
@@ -165,7 +183,19 @@ pub fn mill(theory: BeamTheory) -> (Model, Rail) {
     };
     let points = list(&spec["points"]).iter().map(vector).collect();
     let up = vector(&spec["up"]);
-    (Model { points, sections, members, supports, springs, up, theory, ..Model::default() }, rail)
+    (
+        Model {
+            points,
+            sections,
+            members,
+            supports,
+            springs,
+            up,
+            theory,
+            ..Model::default()
+        },
+        rail,
+    )
 }
 
 fn list(value: &Value) -> &Vec<Value> {
@@ -182,11 +212,16 @@ fn vector(value: &Value) -> [f64; 3] {
 
 fn freedom(value: &Value) -> Dof {
     let name = value.as_str().expect("a name");
-    Dof::ALL.into_iter().find(|freedom| freedom.to_string() == name).expect("a freedom")
+    Dof::ALL
+        .into_iter()
+        .find(|freedom| freedom.to_string() == name)
+        .expect("a freedom")
 }
 
 fn set(value: &Value) -> [bool; 6] {
     let mut out = [false; 6];
-    list(value).iter().for_each(|name| out[freedom(name) as usize] = true);
+    list(value)
+        .iter()
+        .for_each(|name| out[freedom(name) as usize] = true);
     out
 }

@@ -11,6 +11,6 @@ mod values;
 pub(crate) use raw::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 pub use read::FORMAT;
 pub use values::{
-    CODE_PARTS, Design, DesignCase, DesignDead, DesignPractice, DesignSection, DesignTrain, DesignWheel,
-    TILTING, TROLLEY_DRIVES, WHOLE,
+    CODE_PARTS, Design, DesignCase, DesignDead, DesignPractice, DesignSection, DesignTrain,
+    DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
 };

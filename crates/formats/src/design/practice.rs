@@ -29,14 +29,30 @@ pub(super) fn read(
     let limits = limits(raw, at, check);
     let histories = fatigue_classes();
     let faults = &mut *check.faults;
-    let s_class =
-        raw.s_class.as_ref().and_then(|word| faults.one_of(word, &at.key("s_class"), &histories)?);
-    let kind = raw.kind.as_ref().and_then(|word| faults.one_of(word, &at.key("kind"), &KINDS));
-    let operation =
-        raw.operation.as_ref().and_then(|word| faults.one_of(word, &at.key("operation"), &OPERATIONS));
-    let hoisting = raw.hoisting.as_ref().and_then(|word| faults.one_of(word, &at.key("hoisting"), &HOISTING));
-    let drives = raw.drives.as_ref().and_then(|word| faults.one_of(word, &at.key("drives"), &DRIVES));
-    let release = raw.release.as_ref().and_then(|word| faults.one_of(word, &at.key("release"), &RELEASE));
+    let s_class = raw
+        .s_class
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("s_class"), &histories)?);
+    let kind = raw
+        .kind
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("kind"), &KINDS));
+    let operation = raw
+        .operation
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("operation"), &OPERATIONS));
+    let hoisting = raw
+        .hoisting
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("hoisting"), &HOISTING));
+    let drives = raw
+        .drives
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("drives"), &DRIVES));
+    let release = raw
+        .release
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("release"), &RELEASE));
     let lateral_section = raw
         .lateral_section
         .as_ref()
@@ -45,14 +61,28 @@ pub(super) fn read(
         .rail_fastening
         .as_ref()
         .and_then(|word| faults.one_of(word, &at.key("rail_fastening"), &FASTENINGS));
-    let speed = check.optional_positive(raw.hoist_speed, &at.key("hoist_speed"), Dimension::SPEED, "rated");
-    let metric = Scale { from: units, to: Units::SI }.factor(Dimension::SPEED);
+    let speed = check.optional_positive(
+        raw.hoist_speed,
+        &at.key("hoist_speed"),
+        Dimension::SPEED,
+        "rated",
+    );
+    let metric = Scale {
+        from: units,
+        to: Units::SI,
+    }
+    .factor(Dimension::SPEED);
     let combinations = raw.combinations.unwrap_or(false);
     if combinations && raw.code.is_none() {
-        let fault = Fault::new(&at.key("combinations"), "needs the code whose groups of loads are meant");
-        check
-            .faults
-            .add(fault.of_value().hint("give `code`, such as \"EN 1991-3\", \"ASCE 7\" or \"AIST TR-13\""));
+        let fault = Fault::new(
+            &at.key("combinations"),
+            "needs the code whose groups of loads are meant",
+        );
+        check.faults.add(
+            fault
+                .of_value()
+                .hint("give `code`, such as \"EN 1991-3\", \"ASCE 7\" or \"AIST TR-13\""),
+        );
     }
     DesignPractice {
         code: raw.code.clone(),
@@ -76,15 +106,25 @@ fn limits(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<practice::limits::DeflectionLimit> {
-    let Some(code) = &raw.code else { return Vec::new() };
+    let Some(code) = &raw.code else {
+        return Vec::new();
+    };
     let name = code_name(code);
-    let known: Vec<(&str, usize)> =
-        LIMIT_CODES.iter().chain([&ASCE_7]).enumerate().map(|(k, word)| (*word, k)).collect();
+    let known: Vec<(&str, usize)> = LIMIT_CODES
+        .iter()
+        .chain([&ASCE_7])
+        .enumerate()
+        .map(|(k, word)| (*word, k))
+        .collect();
     if resolve(name, &known, "code", &at.key("code"), check.faults).is_none() || name == ASCE_7 {
         return Vec::new();
     }
     let is_mill = name == "AIST TR-13";
-    let (class, key) = if is_mill { (&raw.building_class, "building_class") } else { (&raw.class, "class") };
+    let (class, key) = if is_mill {
+        (&raw.building_class, "building_class")
+    } else {
+        (&raw.class, "class")
+    };
     if let Some(limits) = limits_of(name, class.as_deref()) {
         return limits;
     }
@@ -98,11 +138,15 @@ fn limits(
             let fault = Fault::new(&at.key(key), "must be a class of the code")
                 .of_value()
                 .got(format!("\"{class}\""));
-            check.faults.add(fault.hint(format!("classes of {name}: {allowed}")));
+            check
+                .faults
+                .add(fault.hint(format!("classes of {name}: {allowed}")));
         }
         None => {
             let fault = Fault::new(at, format!("missing key `{key}`"));
-            check.faults.add(fault.hint(format!("limits of {name} depend on the class of {allowed}")));
+            check
+                .faults
+                .add(fault.hint(format!("limits of {name} depend on the class of {allowed}")));
         }
     }
     Vec::new()

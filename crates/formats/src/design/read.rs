@@ -8,7 +8,8 @@ use fea::{Model, Rail};
 use super::practice;
 use super::raw::{RawCase, RawDead, RawDesign, RawForces, RawNamedCase, RawSectionCut, RawTrain};
 use super::values::{
-    Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
+    Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, TILTING,
+    TROLLEY_DRIVES, WHOLE,
 };
 use crate::check::Check;
 use crate::limits::{CASE_TRAINS, TRAIN_WHEELS, TRAINS};
@@ -26,8 +27,16 @@ use crate::vector::length;
 pub const FORMAT: &str = "girderway-design/1";
 
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
-const LOADS: [&str; 8] =
-    ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer", TROLLEY_DRIVES, TILTING];
+const LOADS: [&str; 8] = [
+    "dead",
+    WHOLE,
+    "lateral",
+    "longitudinal",
+    "skewing",
+    "buffer",
+    TROLLEY_DRIVES,
+    TILTING,
+];
 
 impl Design {
     /// Reads a design and the spec that it names.
@@ -66,13 +75,24 @@ fn read(
         check_name(name, &root.key("name"), faults);
     }
     let spec = spec(raw, units, inputs, &root, faults, wrong);
-    let scale = Scale { from: units, to: units };
+    let scale = Scale {
+        from: units,
+        to: units,
+    };
     let mut check = Check { faults, scale };
-    let standard = STANDARD_GRAVITY * Scale { from: Units::SI, to: units }.factor(Dimension::LENGTH);
-    let gravity = match raw.gravity {
-        Some(given) => {
-            check.not_negative(given, &root.key("gravity"), Dimension::ACCELERATION, "a magnitude")
+    let standard = STANDARD_GRAVITY
+        * Scale {
+            from: Units::SI,
+            to: units,
         }
+        .factor(Dimension::LENGTH);
+    let gravity = match raw.gravity {
+        Some(given) => check.not_negative(
+            given,
+            &root.key("gravity"),
+            Dimension::ACCELERATION,
+            "a magnitude",
+        ),
         None => standard,
     };
     // What is on the structure can only be checked where the structure and the units are known.
@@ -87,14 +107,25 @@ fn read(
     let cases = cases(raw, &trains, &root, &mut check);
     let sections = raw.sections.iter().enumerate();
     let at = root.key("sections");
-    let sections: Vec<DesignSection> =
-        sections.filter_map(|(k, raw)| section(raw, &spec, &at.index(k), &mut check)).collect();
-    unique(sections.iter().map(|section| section.name.as_str()), &at, check.faults);
+    let sections: Vec<DesignSection> = sections
+        .filter_map(|(k, raw)| section(raw, &spec, &at.index(k), &mut check))
+        .collect();
+    unique(
+        sections.iter().map(|section| section.name.as_str()),
+        &at,
+        check.faults,
+    );
     let spans = spans(raw, &spec, &rails, &root, &mut check);
     let given = raw.practice.clone().unwrap_or_default();
     let practice = practice::read(&given, units, &root.key("practice"), &mut check);
     if practice.combinations {
-        require_parts(&trains, &cases, practice.code.as_deref(), &root, check.faults);
+        require_parts(
+            &trains,
+            &cases,
+            practice.code.as_deref(),
+            &root,
+            check.faults,
+        );
     }
     Some(Design {
         name: raw.name.clone().unwrap_or_else(|| stem(file)),
@@ -128,8 +159,10 @@ fn spec(
             return None;
         }
     };
-    let read =
-        input.source().map_err(|error| vec![*error]).and_then(|source| Spec::read(&source, Some(units)));
+    let read = input
+        .source()
+        .map_err(|error| vec![*error])
+        .and_then(|source| Spec::read(&source, Some(units)));
     match read {
         Ok(spec) => Some(Arc::new(spec)),
         Err(faults) => {
@@ -157,13 +190,17 @@ fn dead_load(
             for (name, load) in &parts.line.0 {
                 let here = at.key(name);
                 if let Some(rail) = resolve(name, &known, "rail", &here, check.faults) {
-                    lines[rail] = check.not_negative(*load, &here, Dimension::STIFFNESS, "downwards");
+                    lines[rail] =
+                        check.not_negative(*load, &here, Dimension::STIFFNESS, "downwards");
                 }
             }
             parts.weight.unwrap_or(false)
         }
     };
-    DesignDead { gravity: if weight { gravity } else { 0.0 }, lines }
+    DesignDead {
+        gravity: if weight { gravity } else { 0.0 },
+        lines,
+    }
 }
 
 fn check_trains(
@@ -172,15 +209,26 @@ fn check_trains(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<DesignTrain> {
-    let Some(list) = check.faults.require(&raw.trains, root, "trains") else { return Vec::new() };
+    let Some(list) = check.faults.require(&raw.trains, root, "trains") else {
+        return Vec::new();
+    };
     let at = root.key("trains");
     if list.is_empty() {
-        check.faults.add(Fault::new(&at, "must have at least one train").of_value());
+        check
+            .faults
+            .add(Fault::new(&at, "must have at least one train").of_value());
     }
     check.items(list.len(), &TRAINS, &at);
-    let trains: Vec<DesignTrain> =
-        list.iter().enumerate().map(|(k, raw)| train(raw, rails, &at.index(k), check)).collect();
-    unique(trains.iter().map(|train| train.name.as_str()), &at, check.faults);
+    let trains: Vec<DesignTrain> = list
+        .iter()
+        .enumerate()
+        .map(|(k, raw)| train(raw, rails, &at.index(k), check))
+        .collect();
+    unique(
+        trains.iter().map(|train| train.name.as_str()),
+        &at,
+        check.faults,
+    );
     trains
 }
 
@@ -197,59 +245,119 @@ fn unique<'n>(names: impl Iterator<Item = &'n str>, at: &Place<'_>, faults: &mut
     }
 }
 
-fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Check<'_>) -> DesignTrain {
-    let name = check.faults.require(&raw.name, at, "name").cloned().unwrap_or_default();
+fn train(
+    raw: &RawTrain,
+    rails: &[RailOutline],
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> DesignTrain {
+    let name = check
+        .faults
+        .require(&raw.name, at, "name")
+        .cloned()
+        .unwrap_or_default();
     if raw.name.is_some() {
         check_name(&name, &at.key("name"), check.faults);
     }
     let known = names(rails, |rail| &rail.name);
     let rail = match &raw.rail {
-        Some(name) if !rails.is_empty() => resolve(name, &known, "rail", &at.key("rail"), check.faults),
+        Some(name) if !rails.is_empty() => {
+            resolve(name, &known, "rail", &at.key("rail"), check.faults)
+        }
         _ => None,
     };
     let mut ends = [0.0; 2];
     for (k, end) in raw.ends.into_iter().flatten().enumerate() {
         let place = at.key("ends");
-        ends[k] = check.not_negative(end, &place.index(k), Dimension::LENGTH, "beyond the outermost wheel");
+        ends[k] = check.not_negative(
+            end,
+            &place.index(k),
+            Dimension::LENGTH,
+            "beyond the outermost wheel",
+        );
     }
-    let list = check.faults.require(&raw.wheels, at, "wheels").map_or(&[][..], Vec::as_slice);
+    let list = check
+        .faults
+        .require(&raw.wheels, at, "wheels")
+        .map_or(&[][..], Vec::as_slice);
     let places = at.key("wheels");
     if raw.wheels.is_some() && list.is_empty() {
-        check.faults.add(Fault::new(&places, "must have at least one wheel").of_value());
+        check
+            .faults
+            .add(Fault::new(&places, "must have at least one wheel").of_value());
     }
     check.items(list.len(), &TRAIN_WHEELS, &places);
     let signs = [("both", true), ("given", false)];
-    let reverses = raw.signs.as_ref().and_then(|word| check.faults.one_of(word, &at.key("signs"), &signs));
-    let whole = raw.longitudinal.map(|force| check.number(force, &at.key("longitudinal"), Dimension::FORCE));
-    let buffer = raw.buffer.map(|force| check.number(force, &at.key("buffer"), Dimension::FORCE));
+    let reverses = raw
+        .signs
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("signs"), &signs));
+    let whole = raw
+        .longitudinal
+        .map(|force| check.number(force, &at.key("longitudinal"), Dimension::FORCE));
+    let buffer = raw
+        .buffer
+        .map(|force| check.number(force, &at.key("buffer"), Dimension::FORCE));
     let buffer = buffer.unwrap_or(0.0) / list.len().max(1) as f64;
-    let sharing = list.iter().filter(|wheel| wheel.longitudinal.is_none()).count().max(1) as f64;
+    let sharing = list
+        .iter()
+        .filter(|wheel| wheel.longitudinal.is_none())
+        .count()
+        .max(1) as f64;
     let of_train = [
-        raw.lateral.map(|force| check.number(force, &at.key("lateral"), Dimension::FORCE)),
+        raw.lateral
+            .map(|force| check.number(force, &at.key("lateral"), Dimension::FORCE)),
         whole.map(|force| force / sharing),
-        raw.eccentricity.map(|e| check.number(e, &at.key("eccentricity"), Dimension::LENGTH)),
+        raw.eccentricity
+            .map(|e| check.number(e, &at.key("eccentricity"), Dimension::LENGTH)),
     ];
     let mut wheels = Vec::with_capacity(list.len());
     for (k, given) in list.iter().enumerate() {
         let here = places.index(k);
-        let x = check.faults.require(&given.x, &here, "x").copied().unwrap_or(f64::INFINITY);
-        let x = if given.x.is_some() { check.number(x, &here.key("x"), Dimension::LENGTH) } else { x };
+        let x = check
+            .faults
+            .require(&given.x, &here, "x")
+            .copied()
+            .unwrap_or(f64::INFINITY);
+        let x = if given.x.is_some() {
+            check.number(x, &here.key("x"), Dimension::LENGTH)
+        } else {
+            x
+        };
         let own = match &given.rail {
-            Some(name) if !rails.is_empty() => resolve(name, &known, "rail", &here.key("rail"), check.faults),
+            Some(name) if !rails.is_empty() => {
+                resolve(name, &known, "rail", &here.key("rail"), check.faults)
+            }
             _ => rail,
         };
-        if own.is_none() && given.rail.is_none() && raw.rail.is_none() && rails.len() > 1 && k == 0 {
+        if own.is_none() && given.rail.is_none() && raw.rail.is_none() && rails.len() > 1 && k == 0
+        {
             let fault = Fault::new(at, "missing key `rail`").of_value();
             let words: Vec<&str> = rails.iter().map(|rail| rail.name.as_str()).collect();
-            check.faults.add(fault.hint(format!("the structure has several: {}", words.join(", "))));
+            check
+                .faults
+                .add(fault.hint(format!("the structure has several: {}", words.join(", "))));
         }
         let [lateral, longitudinal, eccentricity] = of_train;
         let mut own_number = |value: Option<f64>, key: &str, dimension, default: Option<f64>| {
-            value.map(|value| check.number(value, &here.key(key), dimension)).or(default).unwrap_or(0.0)
+            value
+                .map(|value| check.number(value, &here.key(key), dimension))
+                .or(default)
+                .unwrap_or(0.0)
         };
         let lateral = own_number(given.lateral, "lateral", Dimension::FORCE, lateral);
-        let longitudinal = own_number(given.longitudinal, "longitudinal", Dimension::FORCE, longitudinal);
-        let eccentricity = own_number(given.eccentricity, "eccentricity", Dimension::LENGTH, eccentricity);
+        let longitudinal = own_number(
+            given.longitudinal,
+            "longitudinal",
+            Dimension::FORCE,
+            longitudinal,
+        );
+        let eccentricity = own_number(
+            given.eccentricity,
+            "eccentricity",
+            Dimension::LENGTH,
+            eccentricity,
+        );
         let skewing = own_number(given.skewing, "skewing", Dimension::FORCE, None);
         let tilting = own_number(given.tilting, "tilting", Dimension::FORCE, None);
         let vertical = vertical(&given.vertical, &here, check);
@@ -271,12 +379,17 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
     let mut weight = |value: Option<f64>, key: &str| {
         value.map(|value| check.not_negative(value, &at.key(key), Dimension::FORCE, "a weight"))
     };
-    let weights =
-        [weight(raw.hoist_load, "hoist_load"), weight(raw.trolley, "trolley"), weight(raw.bridge, "bridge")];
+    let weights = [
+        weight(raw.hoist_load, "hoist_load"),
+        weight(raw.trolley, "trolley"),
+        weight(raw.bridge, "bridge"),
+    ];
     if let [Some(lifted), Some(trolley), _] = weights {
         let whole = ::practice::buffer::trolley_force(lifted, trolley).unwrap_or(0.0);
         let share = whole / wheels.len().max(1) as f64;
-        wheels.iter_mut().for_each(|wheel| wheel.trolley_drives = share);
+        wheels
+            .iter_mut()
+            .for_each(|wheel| wheel.trolley_drives = share);
     }
     DesignTrain {
         weights,
@@ -295,11 +408,16 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
     match check.faults.require(raw, at, "vertical") {
         None => Vec::new(),
         Some(RawForces::Whole(force)) => {
-            vec![(WHOLE.to_owned(), check.number(*force, &place, Dimension::FORCE))]
+            vec![(
+                WHOLE.to_owned(),
+                check.number(*force, &place, Dimension::FORCE),
+            )]
         }
         Some(RawForces::Parts(parts)) => {
             if parts.0.is_empty() {
-                check.faults.add(Fault::new(&place, "must have at least one part").of_value());
+                check
+                    .faults
+                    .add(Fault::new(&place, "must have at least one part").of_value());
             }
             let mut out = Vec::new();
             for (name, force) in &parts.0 {
@@ -307,8 +425,11 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
                 check_name(name, &here, check.faults);
                 if name != TILTING && LOADS.contains(&name.as_str()) {
                     let fault =
-                        Fault::new(&here, format!("\"{name}\" cannot be the name of a part")).at_key();
-                    check.faults.add(fault.hint("it names another load in the factors of a case"));
+                        Fault::new(&here, format!("\"{name}\" cannot be the name of a part"))
+                            .at_key();
+                    check
+                        .faults
+                        .add(fault.hint("it names another load in the factors of a case"));
                 }
                 out.push((name.clone(), check.number(*force, &here, Dimension::FORCE)));
             }
@@ -320,10 +441,16 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
 /// Wheels of one rail must be listed from the rear to the front.
 fn check_order(wheels: &[DesignWheel], places: &Place<'_>, faults: &mut Faults) {
     for (k, wheel) in wheels.iter().enumerate() {
-        let before = wheels[..k].iter().rev().find(|other| other.rail == wheel.rail);
+        let before = wheels[..k]
+            .iter()
+            .rev()
+            .find(|other| other.rail == wheel.rail);
         if let Some(before) = before.filter(|before| before.x >= wheel.x && before.x.is_finite()) {
             let here = places.index(k);
-            let expected = format!("must be above that of the wheel before it, {}", number(before.x));
+            let expected = format!(
+                "must be above that of the wheel before it, {}",
+                number(before.x)
+            );
             let fault = Fault::new(&here.key("x"), expected).got(number(wheel.x));
             faults.add(fault.hint("list the wheels of a rail by increasing x"));
         }
@@ -341,25 +468,35 @@ fn check_fit(
     if !check.faults.0.is_empty() {
         return;
     }
-    let Ok((_, geometry)) = spec.model() else { return };
+    let Ok((_, geometry)) = spec.model() else {
+        return;
+    };
     let shift = |first: usize, rail: usize| {
         let (a, b): (&Rail, &Rail) = (&geometry[first], &geometry[rail]);
         let size = length(b.axis);
-        (0..3).map(|k| (a.origin[k] - b.origin[k]) * b.axis[k] / size).sum::<f64>()
+        (0..3)
+            .map(|k| (a.origin[k] - b.origin[k]) * b.axis[k] / size)
+            .sum::<f64>()
     };
     let list = root.key("trains");
     for (k, train) in trains.iter().enumerate().filter(|(_, train)| !train.enters) {
         let first = train.wheels[0].rail;
-        let limits = train
-            .wheels
-            .iter()
-            .map(|wheel| rails[wheel.rail].range.map(|end| end - wheel.x - shift(first, wheel.rail)));
-        let range = limits.fold([f64::NEG_INFINITY, f64::INFINITY], |r, [a, b]| [r[0].max(a), r[1].min(b)]);
+        let limits = train.wheels.iter().map(|wheel| {
+            rails[wheel.rail]
+                .range
+                .map(|end| end - wheel.x - shift(first, wheel.rail))
+        });
+        let range = limits.fold([f64::NEG_INFINITY, f64::INFINITY], |r, [a, b]| {
+            [r[0].max(a), r[1].min(b)]
+        });
         let slack = 1e-12 * range[0].abs().max(range[1].abs());
         if range[0] > range[1] + slack {
             let [low, high] = rails[first].range;
             let fault = Fault::new(&list.index(k), "must fit on its rails with all wheels");
-            let fault = fault.got(format!("wheels that reach {} beyond", number(range[0] - range[1])));
+            let fault = fault.got(format!(
+                "wheels that reach {} beyond",
+                number(range[0] - range[1])
+            ));
             check.faults.add(fault.hint(format!(
                 "rail \"{}\" is covered from {} to {}; `\"enters\": true` lets wheels stand beyond its ends",
                 rails[first].name,
@@ -388,7 +525,9 @@ fn cases(
     };
     let at = root.key("cases");
     if list.is_empty() {
-        check.faults.add(Fault::new(&at, "must have at least one case").of_value());
+        check
+            .faults
+            .add(Fault::new(&at, "must have at least one case").of_value());
     }
     let plain = |trains: &Vec<String>| RawNamedCase {
         name: None,
@@ -417,9 +556,15 @@ fn case(
     list: &Place<'_>,
     check: &mut Check<'_>,
 ) -> DesignCase {
-    let named = check.faults.require(&raw.trains, at, "trains").cloned().unwrap_or_default();
+    let named = check
+        .faults
+        .require(&raw.trains, at, "trains")
+        .cloned()
+        .unwrap_or_default();
     if raw.trains.is_some() && named.is_empty() {
-        check.faults.add(Fault::new(list, "must name at least one train").of_value());
+        check
+            .faults
+            .add(Fault::new(list, "must name at least one train").of_value());
     }
     check.items(named.len(), &CASE_TRAINS, list);
     let known = names(trains, |train| &train.name);
@@ -434,11 +579,14 @@ fn case(
     if let Some(name) = &raw.name {
         check_name(name, &at.key("name"), check.faults);
     }
-    let gap = raw
-        .gap
-        .map_or(0.0, |gap| check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "a clear distance"));
+    let gap = raw.gap.map_or(0.0, |gap| {
+        check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "a clear distance")
+    });
     let orders = [("any", false), ("given", true)];
-    let ordered = raw.order.as_ref().and_then(|word| check.faults.one_of(word, &at.key("order"), &orders));
+    let ordered = raw
+        .order
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("order"), &orders));
     let place = at.key("factors");
     let mut factors = Vec::new();
     let mut parts: Vec<&str> = chosen
@@ -450,12 +598,18 @@ fn case(
         .collect();
     parts.sort_unstable();
     parts.dedup();
-    let words: Vec<(&str, usize)> =
-        LOADS.iter().chain(&parts).enumerate().map(|(k, word)| (*word, k)).collect();
+    let words: Vec<(&str, usize)> = LOADS
+        .iter()
+        .chain(&parts)
+        .enumerate()
+        .map(|(k, word)| (*word, k))
+        .collect();
     for (name, factor) in &raw.factors.0 {
         let here = place.key(name);
         let factor = check.number(*factor, &here, Dimension::NUMBER);
-        if chosen.len() == named.len() && resolve(name, &words, "load", &here, check.faults).is_some() {
+        if chosen.len() == named.len()
+            && resolve(name, &words, "load", &here, check.faults).is_some()
+        {
             refuse_missing_parts(name, &parts, &chosen, trains, &here, check.faults);
         }
         factors.push((name.clone(), factor));
@@ -482,16 +636,26 @@ fn require_parts(
     }
     let at = root.key("trains");
     for (index, train) in trains.iter().enumerate() {
-        if !cases.iter().any(|case| case.factors.is_empty() && case.trains.contains(&index)) {
+        if !cases
+            .iter()
+            .any(|case| case.factors.is_empty() && case.trains.contains(&index))
+        {
             continue;
         }
-        let lacking = train.wheels.iter().position(|wheel| !wheel.has_code_parts());
+        let lacking = train
+            .wheels
+            .iter()
+            .position(|wheel| !wheel.has_code_parts());
         if let Some(wheel) = lacking {
             let train = at.index(index);
             let wheels = train.key("wheels");
             let here = wheels.index(wheel);
-            let fault = Fault::new(&here.key("vertical"), "must be given in the parts `crane` and `hoist`");
-            let hint = "`combinations` of the code factor them apart: {\"crane\": 60, \"hoist\": 120}";
+            let fault = Fault::new(
+                &here.key("vertical"),
+                "must be given in the parts `crane` and `hoist`",
+            );
+            let hint =
+                "`combinations` of the code factor them apart: {\"crane\": 60, \"hoist\": 120}";
             faults.add(fault.of_value().hint(hint));
         }
     }
@@ -515,7 +679,11 @@ fn refuse_missing_parts(
             let fault = Fault::new(at, "needs the vertical forces of all wheels in parts");
             faults.add(
                 fault
-                    .got(format!("a number for wheel {} of train \"{}\"", wheel + 1, trains[train].name))
+                    .got(format!(
+                        "a number for wheel {} of train \"{}\"",
+                        wheel + 1,
+                        trains[train].name
+                    ))
                     .hint(format!(
                         "give its parts by name: {}; or give a factor of `vertical`",
                         parts.join(", ")
@@ -526,7 +694,12 @@ fn refuse_missing_parts(
     }
 }
 
-fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) -> Option<DesignSection> {
+fn section(
+    raw: &RawSectionCut,
+    spec: &Spec,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<DesignSection> {
     let name = check.faults.require(&raw.name, at, "name").cloned();
     if let Some(name) = &name {
         check_name(name, &at.key("name"), check.faults);
@@ -539,9 +712,14 @@ fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'
         Form::Girder(_) => {
             for (key, given) in [("cell", raw.cell.is_some()), ("place", raw.place.is_some())] {
                 if given {
-                    let fault =
-                        Fault::new(&at.key(key), format!("`{key}` is a key of the general form")).at_key();
-                    check.faults.add(fault.hint("in the short form of the spec the section is at `x`"));
+                    let fault = Fault::new(
+                        &at.key(key),
+                        format!("`{key}` is a key of the general form"),
+                    )
+                    .at_key();
+                    check
+                        .faults
+                        .add(fault.hint("in the short form of the spec the section is at `x`"));
                 }
             }
             let x = check.faults.require(&raw.x, at, "x").copied()?;
@@ -549,7 +727,10 @@ fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'
             let (model, _) = spec.model().ok()?;
             on_girder(&model, x).or_else(|| {
                 let [low, high] = spec.rails()[0].range.map(number);
-                let fault = Fault::new(&at.key("x"), format!("must be on the girder, from {low} to {high}"));
+                let fault = Fault::new(
+                    &at.key("x"),
+                    format!("must be on the girder, from {low} to {high}"),
+                );
                 check.faults.add(fault.got(number(x)));
                 None
             })?
@@ -557,21 +738,34 @@ fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'
         Form::Frame(frame) => {
             if raw.x.is_some() {
                 let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
-                check.faults.add(fault.hint("in the general form of the spec give `cell` and `place`"));
+                check
+                    .faults
+                    .add(fault.hint("in the general form of the spec give `cell` and `place`"));
             }
             let cell = check.faults.require(&raw.cell, at, "cell").copied();
             let place = check.faults.require(&raw.place, at, "place").copied()?;
             if !(0.0..=1.0).contains(&place) {
-                let fault = Fault::new(&at.key("place"), "must be from 0 to 1").got(number(place)).of_value();
-                check.faults.add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
-            }
-            let cell = cell?;
-            let parts: Vec<usize> = (0..frame.cells.len()).filter(|&k| frame.cells[k] == cell).collect();
-            if parts.is_empty() {
-                let fault = Fault::new(&at.key("cell"), "must be [block, index] of a cell of the spec");
+                let fault = Fault::new(&at.key("place"), "must be from 0 to 1")
+                    .got(number(place))
+                    .of_value();
                 check
                     .faults
-                    .add(fault.got(format!("[{}, {}]", cell[0], cell[1])).hint("indices count from 0"));
+                    .add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
+            }
+            let cell = cell?;
+            let parts: Vec<usize> = (0..frame.cells.len())
+                .filter(|&k| frame.cells[k] == cell)
+                .collect();
+            if parts.is_empty() {
+                let fault = Fault::new(
+                    &at.key("cell"),
+                    "must be [block, index] of a cell of the spec",
+                );
+                check.faults.add(
+                    fault
+                        .got(format!("[{}, {}]", cell[0], cell[1]))
+                        .hint("indices count from 0"),
+                );
                 return None;
             }
             // A tapered cell has parts of equal length.
@@ -580,7 +774,12 @@ fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'
             (parts[part], along - part as f64)
         }
     };
-    Some(DesignSection { name: name?, member, place, component: component? })
+    Some(DesignSection {
+        name: name?,
+        member,
+        place,
+        component: component?,
+    })
 }
 
 /// Member and place of a coordinate of a girder; a support belongs to the member behind it.
@@ -591,8 +790,14 @@ fn on_girder(model: &Model, x: f64) -> Option<(usize, f64)> {
     if x < first - slack || x > last + slack {
         return None;
     }
-    let member = ends.partition_point(|end| *end <= x + slack).clamp(1, ends.len() - 1) - 1;
-    Some((member, ((x - ends[member]) / (ends[member + 1] - ends[member])).clamp(0.0, 1.0)))
+    let member = ends
+        .partition_point(|end| *end <= x + slack)
+        .clamp(1, ends.len() - 1)
+        - 1;
+    Some((
+        member,
+        ((x - ends[member]) / (ends[member + 1] - ends[member])).clamp(0.0, 1.0),
+    ))
 }
 
 fn spans(
@@ -620,9 +825,13 @@ fn spans(
     let known = names(rails, |rail| &rail.name);
     for (name, list) in raw.spans.iter().flat_map(|entries| &entries.0) {
         let here = at.key(name);
-        let Some(rail) = resolve(name, &known, "rail", &here, check.faults) else { continue };
+        let Some(rail) = resolve(name, &known, "rail", &here, check.faults) else {
+            continue;
+        };
         if list.len() < 2 {
-            check.faults.add(Fault::new(&here, "must have at least two coordinates").of_value());
+            check
+                .faults
+                .add(Fault::new(&here, "must have at least two coordinates").of_value());
         }
         if !check.faults.increasing(list, &here) {
             continue;
@@ -633,8 +842,14 @@ fn spans(
         for (k, x) in list.iter().enumerate() {
             let x = check.number(*x, &here.index(k), Dimension::LENGTH);
             if x < low - slack || x > high + slack {
-                let expected = format!("must be on the rail, from {} to {}", number(low), number(high));
-                check.faults.add(Fault::new(&here.index(k), expected).got(number(x)));
+                let expected = format!(
+                    "must be on the rail, from {} to {}",
+                    number(low),
+                    number(high)
+                );
+                check
+                    .faults
+                    .add(Fault::new(&here.index(k), expected).got(number(x)));
             }
             ends.push(x.clamp(low, high));
         }

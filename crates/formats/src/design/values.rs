@@ -146,19 +146,29 @@ impl DesignWheel {
     /// Whether its vertical force is given in the parts that codes factor apart.
     #[must_use]
     pub fn has_code_parts(&self) -> bool {
-        self.vertical.iter().all(|(name, _)| name == TILTING || CODE_PARTS.contains(&name.as_str()))
+        self.vertical
+            .iter()
+            .all(|(name, _)| name == TILTING || CODE_PARTS.contains(&name.as_str()))
     }
 
     /// Whether it has a force from tilting of the crane.
     #[must_use]
     pub fn tilts(&self) -> bool {
-        self.tilting != 0.0 || self.vertical.iter().any(|(name, force)| name == TILTING && *force != 0.0)
+        self.tilting != 0.0
+            || self
+                .vertical
+                .iter()
+                .any(|(name, force)| name == TILTING && *force != 0.0)
     }
 
     /// Its vertical force without factors.
     #[must_use]
     pub fn whole_vertical(&self) -> f64 {
-        self.vertical.iter().filter(|(name, _)| name != TILTING).map(|(_, force)| force).sum()
+        self.vertical
+            .iter()
+            .filter(|(name, _)| name != TILTING)
+            .map(|(_, force)| force)
+            .sum()
     }
 }
 
@@ -193,7 +203,10 @@ impl DesignCase {
     #[must_use]
     pub fn factor(&self, name: &str) -> f64 {
         let default = if ON_REQUEST.contains(&name) { 0.0 } else { 1.0 };
-        self.factors.iter().find(|(known, _)| known == name).map_or(default, |(_, factor)| *factor)
+        self.factors
+            .iter()
+            .find(|(known, _)| known == name)
+            .map_or(default, |(_, factor)| *factor)
     }
 }
 

@@ -67,17 +67,26 @@ impl Coupling {
                 largest.push((*quantity, relative(block, a, b)));
             }
         }
-        let blocks =
-            [GridBlock::Vertical, GridBlock::Lateral, GridBlock::VerticalLateral].map(|q| grid.block(q));
+        let blocks = [
+            GridBlock::Vertical,
+            GridBlock::Lateral,
+            GridBlock::VerticalLateral,
+        ]
+        .map(|q| grid.block(q));
         let cost = match blocks {
             [Some(vertical), Some(lateral), Some(coupling)] => {
                 let vertical = change(coupling, vertical, LATERAL_LOAD_FRACTION);
                 let lateral = change(coupling, lateral, 1.0 / LATERAL_LOAD_FRACTION);
-                vertical.zip(lateral).map(|(vertical, lateral)| CouplingError { vertical, lateral })
+                vertical
+                    .zip(lateral)
+                    .map(|(vertical, lateral)| CouplingError { vertical, lateral })
             }
             _ => None,
         };
-        (!largest.is_empty()).then_some(Coupling { largest, error: cost })
+        (!largest.is_empty()).then_some(Coupling {
+            largest,
+            error: cost,
+        })
     }
 
     /// The member `coupling` of a grid file.
@@ -88,7 +97,8 @@ impl Coupling {
             object.insert(quantity.name().to_owned(), json!(relative));
         }
         if let Some(cost) = &self.error {
-            let change = |change: Change| json!({ "median": change.median, "largest": change.largest });
+            let change =
+                |change: Change| json!({ "median": change.median, "largest": change.largest });
             let dropped = json!({
                 "side_load": LATERAL_LOAD_FRACTION, "vertical": change(cost.vertical), "lateral": change(cost.lateral),
             });
@@ -100,11 +110,17 @@ impl Coupling {
     /// One line for the terminal; `None` if the relative coupling of vertical and lateral directions is below 1e-3.
     #[must_use]
     pub fn summary(&self) -> Option<String> {
-        let (_, relative) =
-            self.largest.iter().find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
+        let (_, relative) = self
+            .largest
+            .iter()
+            .find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
         let cost = self.error.filter(|_| *relative >= NEGLIGIBLE)?;
         let percent = |change: Change| {
-            format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
+            format!(
+                "{:.1} % (median; at most {:.1} %)",
+                100.0 * change.median,
+                100.0 * change.largest
+            )
         };
         Some(format!(
             "coupling: the vertical-lateral coefficients are up to {relative:.3} of sqrt(Gvv Gll); under a side load \
@@ -128,7 +144,8 @@ fn relative(coupling: &DMatrix<f64>, row: &DMatrix<f64>, column: &DMatrix<f64>) 
     let mut largest = 0.0_f64;
     for i in (0..row.nrows()).filter(|&i| row_moves(i)) {
         for j in (0..row.nrows()).filter(|&j| column_moves(j)) {
-            largest = largest.max(coupling[(i, j)].abs() / (row[(i, i)].sqrt() * column[(j, j)].sqrt()));
+            largest =
+                largest.max(coupling[(i, j)].abs() / (row[(i, i)].sqrt() * column[(j, j)].sqrt()));
         }
     }
     largest
@@ -138,11 +155,16 @@ fn relative(coupling: &DMatrix<f64>, row: &DMatrix<f64>, column: &DMatrix<f64>) 
 fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option<Change> {
     let moves = moving(direct);
     let stations = (0..direct.nrows()).filter(|&i| moves(i));
-    let mut changes: Vec<f64> = stations.map(|i| coupling[(i, i)].abs() * factor / direct[(i, i)]).collect();
+    let mut changes: Vec<f64> = stations
+        .map(|i| coupling[(i, i)].abs() * factor / direct[(i, i)])
+        .collect();
     changes.sort_by(f64::total_cmp);
     let n = changes.len();
     let largest = *changes.last()?;
-    Some(Change { median: 0.5 * (changes[(n - 1) / 2] + changes[n / 2]), largest })
+    Some(Change {
+        median: 0.5 * (changes[(n - 1) / 2] + changes[n / 2]),
+        largest,
+    })
 }
 
 /// Size of the coupling of directions, for information: it follows from the grids.

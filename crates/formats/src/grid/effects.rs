@@ -70,19 +70,32 @@ impl Effects {
         let holds = frame.restraints(model);
         let mut effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
         for &Cut { member, place, .. } in &spec.effects {
-            let force = |(_, component)| Effect::InternalForce { member, place, component };
+            let force = |(_, component)| Effect::InternalForce {
+                member,
+                place,
+                component,
+            };
             effects.extend(COMPONENTS.map(force));
         }
-        let load = |axis: Axis| stations.iter().map(move |&(rail, x)| Probe { rail, x, axis });
+        let load = |axis: Axis| {
+            stations
+                .iter()
+                .map(move |&(rail, x)| Probe { rail, x, axis })
+        };
         let probes: Vec<Probe> = axes.iter().copied().flat_map(load).collect();
         let value = frame.effects(model, &effects, &probes)?;
         let n = stations.len();
         let lines = |row: usize| -> EffectLines {
             let line = |k: usize| value.row(row).columns(k * n, n).iter().copied().collect();
-            axes.iter().enumerate().map(|(k, &axis)| (axis, line(k))).collect()
+            axes.iter()
+                .enumerate()
+                .map(|(k, &axis)| (axis, line(k)))
+                .collect()
         };
         let ground = |point: usize| match &spec.form {
-            Form::Girder(_) => ReactionPoint::Along(model.points.get(point).map_or(0.0, |place| place[0])),
+            Form::Girder(_) => {
+                ReactionPoint::Along(model.points.get(point).map_or(0.0, |place| place[0]))
+            }
             Form::Frame(_) => ReactionPoint::Point(point),
         };
         let reactions = holds.iter().enumerate().map(|(row, hold)| Reaction {
@@ -91,11 +104,18 @@ impl Effects {
             spring: hold.spring,
             lines: lines(row),
         });
-        let sections = spec.effects.iter().enumerate().map(|(index, cut)| SectionForces {
-            name: cut.name.clone(),
-            at: cut.place_in_spec,
-            lines: std::array::from_fn(|k| lines(holds.len() + 6 * index + k)),
-        });
-        Ok(Effects { reactions: reactions.collect(), sections: sections.collect() })
+        let sections = spec
+            .effects
+            .iter()
+            .enumerate()
+            .map(|(index, cut)| SectionForces {
+                name: cut.name.clone(),
+                at: cut.place_in_spec,
+                lines: std::array::from_fn(|k| lines(holds.len() + 6 * index + k)),
+            });
+        Ok(Effects {
+            reactions: reactions.collect(),
+            sections: sections.collect(),
+        })
     }
 }

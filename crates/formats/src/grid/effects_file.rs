@@ -15,8 +15,11 @@ use crate::units::Units;
 
 crate::text::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, RawLines);
 
-const AXES: [(&str, Axis); 3] =
-    [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+const AXES: [(&str, Axis); 3] = [
+    ("vertical", Axis::Vertical),
+    ("lateral", Axis::Lateral),
+    ("longitudinal", Axis::Longitudinal),
+];
 
 /// Reactions and internal forces under unit loads at the stations.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -183,9 +186,19 @@ impl RawEffects {
                 }
             };
             let dof = faults.require(&raw.dof, &at, "dof").cloned();
-            let lines = read([&raw.vertical, &raw.lateral, &raw.longitudinal], size, &at, faults);
+            let lines = read(
+                [&raw.vertical, &raw.lateral, &raw.longitudinal],
+                size,
+                &at,
+                faults,
+            );
             if let (Some(at), Some(dof)) = (ground, dof) {
-                effects.reactions.push(Reaction { at, dof, spring: raw.spring, lines });
+                effects.reactions.push(Reaction {
+                    at,
+                    dof,
+                    spring: raw.spring,
+                    lines,
+                });
             }
         }
         let list = place.key("sections");
@@ -204,7 +217,12 @@ impl RawEffects {
             let lines = std::array::from_fn(|k| {
                 let word = COMPONENTS[k].0;
                 let own = faults.require(all[k], &at, word).map(|own| {
-                    read([&own.vertical, &own.lateral, &own.longitudinal], size, &at.key(word), faults)
+                    read(
+                        [&own.vertical, &own.lateral, &own.longitudinal],
+                        size,
+                        &at.key(word),
+                        faults,
+                    )
                 });
                 own.unwrap_or_default()
             });
@@ -217,7 +235,12 @@ impl RawEffects {
 }
 
 /// Reads the influence lines of the three load directions, each with `size` numbers.
-fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> EffectLines {
+fn read(
+    all: [&Option<Vec<f64>>; 3],
+    size: usize,
+    place: &Place<'_>,
+    faults: &mut Faults,
+) -> EffectLines {
     let mut lines = EffectLines::new();
     for ((word, axis), line) in AXES.iter().zip(all) {
         let Some(line) = line else { continue };

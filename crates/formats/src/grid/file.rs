@@ -56,11 +56,18 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     if let Some(theory) = &grid.theory {
         head.insert("theory".into(), json!(theory));
     }
-    let rails: Vec<_> =
-        grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
+    let rails: Vec<_> = grid
+        .rails
+        .iter()
+        .map(|rail| json!({ "name": rail.name, "stations": rail.stations }))
+        .collect();
     head.insert("rails".into(), json!(rails));
     if let Some(certificate) = &grid.certificate {
-        let precision = if certificate.extended { "double-double" } else { "double" };
+        let precision = if certificate.extended {
+            "double-double"
+        } else {
+            "double"
+        };
         let object = json!({
             "condition": certificate.condition,
             "error_bound": certificate.error_bound,
@@ -93,7 +100,10 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
         let comma = if index > 0 { "," } else { "" };
         put(&mut text, format_args!("{comma}\n    \"{quantity}\": ["));
         for row in 0..block.nrows() {
-            put(&mut text, format_args!("{}\n      ", if row > 0 { "," } else { "" }));
+            put(
+                &mut text,
+                format_args!("{}\n      ", if row > 0 { "," } else { "" }),
+            );
             put_json(&mut text, &MatrixRow(block, row));
         }
         put(&mut text, format_args!("\n    ]"));
@@ -103,7 +113,8 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
         let member = effects_file::write(effects, grid.units);
         put(&mut text, format_args!(",\n  \"effects\": {member}"));
     }
-    if let Some(surface) = surface.filter(|given| surface_omission(given.nodal().nrows()).is_none()) {
+    if let Some(surface) = surface.filter(|given| surface_omission(given.nodal().nrows()).is_none())
+    {
         put(&mut text, format_args!(",\n  \"surface\": "));
         put_json(&mut text, &WrittenSurface::of(surface));
     }
@@ -242,7 +253,10 @@ pub fn read(source: &Source) -> Result<(StationGrid, Option<ExactSurface>), Vec<
     source.read(FORMAT, |raw: &RawGrid, faults| {
         let grid = check(raw, source, faults);
         let place = Place::root();
-        let surface = raw.surface.as_ref().and_then(|raw| raw.surface(&place.key("surface"), faults));
+        let surface = raw
+            .surface
+            .as_ref()
+            .and_then(|raw| raw.surface(&place.key("surface"), faults));
         grid.map(|grid| (grid, surface))
     })
 }
@@ -263,7 +277,9 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
     let at = root.key("influence");
     let mut blocks = Vec::new();
     for quantity in GridBlock::ALL {
-        let Some(rows) = influence.block(quantity) else { continue };
+        let Some(rows) = influence.block(quantity) else {
+            continue;
+        };
         let place = at.key(quantity.name());
         if let Some(block) = square(rows, size, &place, faults) {
             if quantity.direct() == [quantity; 2] {
@@ -275,7 +291,10 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
     if blocks.is_empty() && faults.0.is_empty() {
         faults.add(Fault::new(&at, "must have at least one grid"));
     }
-    let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
+    let effects = raw
+        .effects
+        .as_ref()
+        .map(|raw| raw.effects(size, &root.key("effects"), faults));
     let certificate = raw.certificate.as_ref();
     let certificate = certificate.map(|given| Certificate {
         condition: given.condition,
@@ -283,7 +302,10 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
         extended: given.precision == Precision::DoubleDouble,
     });
     Some(StationGrid {
-        name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
+        name: raw
+            .name
+            .clone()
+            .unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
         theory: raw.theory.clone(),
         rails,
@@ -301,15 +323,25 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
 fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridRail> {
     let list = root.key("rails");
     let mut rails: Vec<GridRail> = Vec::new();
-    let given = faults.require(&raw.rails, root, "rails").map(Vec::as_slice).unwrap_or_default();
+    let given = faults
+        .require(&raw.rails, root, "rails")
+        .map(Vec::as_slice)
+        .unwrap_or_default();
     for (index, raw) in given.iter().enumerate() {
         let at = list.index(index);
-        let name = faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
-        let stations = faults.require(&raw.stations, &at, "stations").cloned().unwrap_or_default();
+        let name = faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
+        let stations = faults
+            .require(&raw.stations, &at, "stations")
+            .cloned()
+            .unwrap_or_default();
         faults.increasing(&stations, &at.key("stations"));
         if rails.iter().any(|rail| rail.name == name) {
             faults.add(
-                Fault::new(&at.key("name"), "must differ from the other rails").got(format!("\"{name}\"")),
+                Fault::new(&at.key("name"), "must differ from the other rails")
+                    .got(format!("\"{name}\"")),
             );
         }
         rails.push(GridRail { name, stations });
@@ -321,19 +353,33 @@ fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridR
 }
 
 /// The matrix of `rows`; a fault if it is not `size` x `size`.
-fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults) -> Option<DMatrix<f64>> {
+fn square(
+    rows: &[Vec<f64>],
+    size: usize,
+    place: &Place<'_>,
+    faults: &mut Faults,
+) -> Option<DMatrix<f64>> {
     if rows.len() != size {
-        let fault = Fault::new(place, format!("must have {size} rows, one for each station")).got(rows.len());
+        let fault = Fault::new(
+            place,
+            format!("must have {size} rows, one for each station"),
+        )
+        .got(rows.len());
         faults.add(fault);
         return None;
     }
     let wrong = rows.iter().position(|row| row.len() != size);
     if let Some(row) = wrong {
-        let fault = Fault::new(&place.index(row), format!("must have {size} numbers, one for each station"));
+        let fault = Fault::new(
+            &place.index(row),
+            format!("must have {size} numbers, one for each station"),
+        );
         faults.add(fault.got(rows[row].len()));
         return None;
     }
-    Some(DMatrix::from_fn(size, size, |row, column| rows[row][column]))
+    Some(DMatrix::from_fn(size, size, |row, column| {
+        rows[row][column]
+    }))
 }
 
 /// Adds a fault at the first pair of unequal entries. A direct block is symmetric by Maxwell's reciprocity.
@@ -342,9 +388,12 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
         for column in 0..row {
             if block[(row, column)] != block[(column, row)] {
                 let line = place.index(row);
-                let expected =
-                    format!("must be symmetric: [{column}][{row}] is {}", number(block[(column, row)]));
-                let fault = Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
+                let expected = format!(
+                    "must be symmetric: [{column}][{row}] is {}",
+                    number(block[(column, row)])
+                );
+                let fault =
+                    Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
                 faults.add(fault.hint(
                     "a displacement at i due to a load at j equals that at j due to the same load at i",
                 ));
@@ -366,11 +415,24 @@ mod tests {
         let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
         StationGrid {
             name: "two \"stations\"".to_owned(),
-            units: Units { length: Length::Foot, force: Force::Kip },
+            units: Units {
+                length: Length::Foot,
+                force: Force::Kip,
+            },
             theory: Some("timoshenko".to_owned()),
-            rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
-            blocks: vec![(GridBlock::Vertical, block.clone()), (GridBlock::VerticalLateral, block * 2.0)],
-            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
+            rails: vec![GridRail {
+                name: "north".to_owned(),
+                stations: vec![0.1, 0.30000000000000004],
+            }],
+            blocks: vec![
+                (GridBlock::Vertical, block.clone()),
+                (GridBlock::VerticalLateral, block * 2.0),
+            ],
+            certificate: Some(Certificate {
+                condition: 12.5,
+                error_bound: 1.0 / 7.0,
+                extended: true,
+            }),
             effects: None,
             critical: None,
             notes: vec!["no longitudinal grids".to_owned()],
@@ -378,15 +440,30 @@ mod tests {
     }
 
     fn source(text: String) -> Source {
-        Source { name: "grid.json".to_owned(), text }
+        Source {
+            name: "grid.json".to_owned(),
+            text,
+        }
     }
 
     #[test]
     fn what_is_written_is_read_back_bit_for_bit() {
         let mut given = grid();
-        given.blocks.insert(1, (GridBlock::Lateral, given.blocks[0].1.clone()));
-        let lines = |k: f64| vec![(Axis::Vertical, vec![k / 3.0, -1.0]), (Axis::Lateral, vec![0.1 * k, 0.0])];
-        let reaction = |at, spring| Reaction { at, dof: "uy".to_owned(), spring, lines: lines(1.0) };
+        given
+            .blocks
+            .insert(1, (GridBlock::Lateral, given.blocks[0].1.clone()));
+        let lines = |k: f64| {
+            vec![
+                (Axis::Vertical, vec![k / 3.0, -1.0]),
+                (Axis::Lateral, vec![0.1 * k, 0.0]),
+            ]
+        };
+        let reaction = |at, spring| Reaction {
+            at,
+            dof: "uy".to_owned(),
+            spring,
+            lines: lines(1.0),
+        };
         let section = |at| SectionForces {
             name: "mid \"span\"".to_owned(),
             at,
@@ -397,7 +474,10 @@ mod tests {
                 reaction(ReactionPoint::Point(3), None),
                 reaction(ReactionPoint::Along(0.1), Some(2)),
             ],
-            sections: vec![section(CutPlace::Cell([1, 2], 0.3)), section(CutPlace::Along(1.0 / 3.0))],
+            sections: vec![
+                section(CutPlace::Cell([1, 2], 0.3)),
+                section(CutPlace::Along(1.0 / 3.0)),
+            ],
         });
         for grid in [grid(), given] {
             let (read, surface) = read(&source(write(&grid, None))).expect("our own file");

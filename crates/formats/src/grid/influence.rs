@@ -95,17 +95,31 @@ impl StationGrid {
             .collect();
         let probes: Vec<Probe> = resisted
             .iter()
-            .flat_map(|axis| stations.iter().map(|(rail, x)| Probe { rail: *rail, x: *x, axis: *axis }))
+            .flat_map(|axis| {
+                stations.iter().map(|(rail, x)| Probe {
+                    rail: *rail,
+                    x: *x,
+                    axis: *axis,
+                })
+            })
             .collect();
         let solved = frame.grid(&probes)?;
         let n = stations.len();
-        let start = |axis: Axis| resisted.iter().position(|known| *known == axis).map(|index| index * n);
+        let start = |axis: Axis| {
+            resisted
+                .iter()
+                .position(|known| *known == axis)
+                .map(|index| index * n)
+        };
         let mut blocks = Vec::new();
         let mut notes = Vec::new();
         for quantity in GridBlock::ALL {
             let (row, column) = axes(quantity);
             if let (Some(row), Some(column)) = (start(row), start(column)) {
-                blocks.push((quantity, solved.value.view((row, column), (n, n)).into_owned()));
+                blocks.push((
+                    quantity,
+                    solved.value.view((row, column), (n, n)).into_owned(),
+                ));
             }
         }
         for axis in [Axis::Vertical, Axis::Lateral, Axis::Longitudinal] {
@@ -122,7 +136,10 @@ impl StationGrid {
             theory: Some(theory_word(spec.theory).to_owned()),
             rails: rails
                 .into_iter()
-                .map(|rail| GridRail { name: rail.name, stations: rail.stations })
+                .map(|rail| GridRail {
+                    name: rail.name,
+                    stations: rail.stations,
+                })
                 .collect(),
             blocks,
             certificate: Some(solved.certificate),
@@ -137,17 +154,22 @@ impl StationGrid {
     /// # Errors
     /// As [`Spec::preloaded`].
     pub fn with_critical_factor(mut self, spec: &Spec) -> Result<StationGrid, fea::Error> {
-        let Some(state) = spec.preloaded()? else { return Ok(self) };
-        let reach =
-            "about the state of the preload; axial forces alone, lateral-torsional buckling not included";
+        let Some(state) = spec.preloaded()? else {
+            return Ok(self);
+        };
+        let reach = "about the state of the preload; axial forces alone, lateral-torsional buckling not included";
         let (critical, note) = match &state.critical {
             CriticalFactor::At(factor, mode) => {
                 let mode = spec.buckling_words(&mode.most);
-                (GridCritical::At(*factor), format!("critical factor {factor:.6}: {mode} ({reach})"))
+                (
+                    GridCritical::At(*factor),
+                    format!("critical factor {factor:.6}: {mode} ({reach})"),
+                )
             }
-            CriticalFactor::Above(most) => {
-                (GridCritical::Above(*most), format!("no critical factor up to {most:e} ({reach})"))
-            }
+            CriticalFactor::Above(most) => (
+                GridCritical::Above(*most),
+                format!("no critical factor up to {most:e} ({reach})"),
+            ),
         };
         self.critical = Some(critical);
         self.notes.push(note);
@@ -164,11 +186,21 @@ impl StationGrid {
         model: &Model,
         frame: &FactoredFrame,
     ) -> Result<StationGrid, fea::Error> {
-        let direct = [GridBlock::Vertical, GridBlock::Lateral, GridBlock::Longitudinal];
-        let resisted: Vec<Axis> =
-            direct.into_iter().filter(|q| self.block(*q).is_some()).map(|q| axes(q).0).collect();
+        let direct = [
+            GridBlock::Vertical,
+            GridBlock::Lateral,
+            GridBlock::Longitudinal,
+        ];
+        let resisted: Vec<Axis> = direct
+            .into_iter()
+            .filter(|q| self.block(*q).is_some())
+            .map(|q| axes(q).0)
+            .collect();
         let effects = Effects::of(spec, model, frame, &self.stations(), &resisted)?;
-        Ok(StationGrid { effects: Some(effects), ..self })
+        Ok(StationGrid {
+            effects: Some(effects),
+            ..self
+        })
     }
 
     /// Index of the rail and coordinate of every station, in the order of rows and columns.
@@ -180,7 +212,10 @@ impl StationGrid {
     /// One block; `None` if it is missing in the grid.
     #[must_use]
     pub fn block(&self, quantity: GridBlock) -> Option<&DMatrix<f64>> {
-        self.blocks.iter().find(|(known, _)| *known == quantity).map(|(_, block)| block)
+        self.blocks
+            .iter()
+            .find(|(known, _)| *known == quantity)
+            .map(|(_, block)| block)
     }
 
     /// Total number n of stations of all rails.
@@ -192,7 +227,10 @@ impl StationGrid {
 
 /// Index of the rail and coordinate of every station, from the stations of each rail.
 fn listed<'r>(rails: impl Iterator<Item = &'r [f64]>) -> Vec<(usize, f64)> {
-    rails.enumerate().flat_map(|(index, stations)| stations.iter().map(move |x| (index, *x))).collect()
+    rails
+        .enumerate()
+        .flat_map(|(index, stations)| stations.iter().map(move |x| (index, *x)))
+        .collect()
 }
 
 /// Name of a direction in notes.

@@ -17,8 +17,11 @@ crate::text::object::objects!(RawModes, RawMode, RawShape);
 /// Largest accepted relative discretisation error of the natural frequencies.
 pub const MESH_TOLERANCE: f64 = 1e-3;
 
-const AXES: [(&str, Axis); 3] =
-    [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+const AXES: [(&str, Axis); 3] = [
+    ("vertical", Axis::Vertical),
+    ("lateral", Axis::Lateral),
+    ("longitudinal", Axis::Longitudinal),
+];
 
 /// The member as text, one mode per line.
 ///
@@ -31,11 +34,16 @@ pub fn write(refined: &RefinedModes, stations: &[(usize, f64)]) -> String {
     let shapes: Vec<(&str, Vec<Vec<[f64; 2]>>)> = AXES
         .into_iter()
         .filter_map(|(word, axis)| {
-            let at = stations.iter().map(|&(rail, x)| modes.at(Probe { rail, x, axis }));
+            let at = stations
+                .iter()
+                .map(|&(rail, x)| modes.at(Probe { rail, x, axis }));
             Some((word, at.collect::<Result<_, _>>().ok()?))
         })
         .collect();
-    let twist: Result<Vec<Vec<f64>>, _> = stations.iter().map(|&(rail, x)| modes.twist(rail, x)).collect();
+    let twist: Result<Vec<Vec<f64>>, _> = stations
+        .iter()
+        .map(|&(rail, x)| modes.twist(rail, x))
+        .collect();
     let mut head = Map::new();
     head.insert(
         "complete_below".into(),
@@ -58,7 +66,10 @@ pub fn write(refined: &RefinedModes, stations: &[(usize, f64)]) -> String {
         entry.insert("coupling".into(), json!(mode.coupling));
         for (word, at) in &shapes {
             let part = |which: usize| at.iter().map(|modes| modes[k][which]).collect::<Vec<f64>>();
-            entry.insert((*word).into(), json!({ "value": part(0), "slope": part(1) }));
+            entry.insert(
+                (*word).into(),
+                json!({ "value": part(0), "slope": part(1) }),
+            );
         }
         if let Ok(twist) = &twist {
             let values: Vec<f64> = twist.iter().map(|modes| modes[k]).collect();
@@ -82,7 +93,12 @@ pub fn append(grid: &str, member: &str) -> String {
 /// of negative pivots.
 #[must_use]
 pub fn summary(modes: &Modes) -> String {
-    let mut list: Vec<String> = modes.modes.iter().take(6).map(|mode| hertz(mode.omega)).collect();
+    let mut list: Vec<String> = modes
+        .modes
+        .iter()
+        .take(6)
+        .map(|mode| hertz(mode.omega))
+        .collect();
     if modes.modes.len() > list.len() {
         list.push("...".to_owned());
     }
@@ -160,7 +176,12 @@ impl RawModes {
     pub fn check(&self, size: usize, place: &Place<'_>, faults: &mut Faults) {
         let list = place.key("modes");
         let mut last = 0.0;
-        for (k, mode) in faults.require(&self.modes, place, "modes").into_iter().flatten().enumerate() {
+        for (k, mode) in faults
+            .require(&self.modes, place, "modes")
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
             let at = list.index(k);
             if let Some(&hz) = faults.require(&mode.hz, &at, "hz") {
                 if hz < last {
@@ -176,7 +197,10 @@ impl RawModes {
             ];
             let mut check_length = |numbers: &[f64], place: &Place<'_>| {
                 if numbers.len() != size {
-                    let fault = Fault::new(place, format!("must have {size} numbers, one for each station"));
+                    let fault = Fault::new(
+                        place,
+                        format!("must have {size} numbers, one for each station"),
+                    );
                     faults.add(fault.got(numbers.len()));
                 }
             };

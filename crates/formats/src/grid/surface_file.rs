@@ -89,23 +89,39 @@ impl<'a> WrittenSurface<'a> {
     /// The member of `surface`.
     pub(crate) fn of(surface: &'a ExactSurface) -> WrittenSurface<'a> {
         let rails = surface.rails();
-        let cells = rails.elements().iter().zip(rails.rests()).map(|(cell, rest)| {
-            let f = &cell.flexibility;
-            WrittenCell {
-                rail: cell.rail,
-                x: &cell.x,
-                ends: &cell.ends,
-                length: cell.length,
-                frame: &cell.frame,
-                offset: &cell.offset,
-                flexibility: [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
-                tension: (f.tension != 0.0).then_some(f.tension),
-                x_rest: (*rest != [0.0; 2]).then_some(rest),
-                member: cell.member.map(|carrier| carrier.id),
-                reversed: cell.member.and_then(|carrier| carrier.reversed.then_some(true)),
-            }
-        });
-        WrittenSurface { cells: cells.collect(), compliance: MatrixRows(surface.nodal()) }
+        let cells = rails
+            .elements()
+            .iter()
+            .zip(rails.rests())
+            .map(|(cell, rest)| {
+                let f = &cell.flexibility;
+                WrittenCell {
+                    rail: cell.rail,
+                    x: &cell.x,
+                    ends: &cell.ends,
+                    length: cell.length,
+                    frame: &cell.frame,
+                    offset: &cell.offset,
+                    flexibility: [
+                        f.axial,
+                        f.torsion,
+                        f.bending_y,
+                        f.bending_z,
+                        f.shear_y,
+                        f.shear_z,
+                    ],
+                    tension: (f.tension != 0.0).then_some(f.tension),
+                    x_rest: (*rest != [0.0; 2]).then_some(rest),
+                    member: cell.member.map(|carrier| carrier.id),
+                    reversed: cell
+                        .member
+                        .and_then(|carrier| carrier.reversed.then_some(true)),
+                }
+            });
+        WrittenSurface {
+            cells: cells.collect(),
+            compliance: MatrixRows(surface.nodal()),
+        }
     }
 }
 
@@ -135,16 +151,25 @@ impl RawSurface {
                         shear_z,
                         tension: raw.tension.unwrap_or_default(),
                     },
-                    member: raw.member.map(|member| ElementMember { id: member, reversed: raw.reversed }),
+                    member: raw.member.map(|member| ElementMember {
+                        id: member,
+                        reversed: raw.reversed,
+                    }),
                 }
             })
             .collect();
-        let rests: Vec<[f64; 2]> = self.cells.iter().map(|raw| raw.x_rest.unwrap_or_default()).collect();
+        let rests: Vec<[f64; 2]> = self
+            .cells
+            .iter()
+            .map(|raw| raw.x_rest.unwrap_or_default())
+            .collect();
         for (index, (raw, rest)) in self.cells.iter().zip(&rests).enumerate() {
             if raw.x.iter().zip(rest).any(|(x, rest)| x + rest != *x) {
                 let list = place.key("cells");
-                let fault =
-                    Fault::new(&list.index(index).key("x_rest"), "must be less than the rounding of `x`");
+                let fault = Fault::new(
+                    &list.index(index).key("x_rest"),
+                    "must be less than the rounding of `x`",
+                );
                 faults.add(fault.got(format!("{rest:?}")));
                 return None;
             }

@@ -50,15 +50,19 @@ pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
         |(model, _)| {
             let grounds = spec.supported_points(&model);
             let all = grounds.iter().flat_map(|ground| {
-                ground.dofs.iter().map(|dof| format!("{structure}.{}.{}", ground.name, spec.dof_word(*dof)))
+                ground
+                    .dofs
+                    .iter()
+                    .map(|dof| format!("{structure}.{}.{}", ground.name, spec.dof_word(*dof)))
             });
             all.collect()
         },
     );
-    let sections = spec
-        .effects
-        .iter()
-        .flat_map(|cut| COMPONENTS.iter().map(move |(word, _)| format!("{structure}.{}.{word}", cut.name)));
+    let sections = spec.effects.iter().flat_map(|cut| {
+        COMPONENTS
+            .iter()
+            .map(move |(word, _)| format!("{structure}.{}.{word}", cut.name))
+    });
     [reactions, sections.collect()]
 }
 
@@ -67,7 +71,9 @@ pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
 pub fn stresses(structure: &str, spec: &Spec) -> Vec<String> {
     let cuts = spec.effects.iter();
     let points = cuts.flat_map(|cut| cut.points.iter().map(move |point| (&cut.name, &point.name)));
-    points.map(|(cut, point)| format!("{structure}.{cut}.{point}")).collect()
+    points
+        .map(|(cut, point)| format!("{structure}.{cut}.{point}"))
+        .collect()
 }
 
 /// Whether the reactions, the internal forces and the stresses of a scene number at most [`MOST_BY_DEFAULT`] each.

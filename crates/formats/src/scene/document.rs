@@ -101,8 +101,17 @@ impl SceneSource {
     /// The source with the files of a document of it, so that further documents do not read them again.
     #[must_use]
     pub fn with_files_of(mut self, document: &Document) -> SceneSource {
-        let is_changes = |input: &&Input| document.changes.as_ref().is_some_and(|own| own.name == input.name);
-        let files = document.inputs.all().iter().filter(|input| !is_changes(input));
+        let is_changes = |input: &&Input| {
+            document
+                .changes
+                .as_ref()
+                .is_some_and(|own| own.name == input.name)
+        };
+        let files = document
+            .inputs
+            .all()
+            .iter()
+            .filter(|input| !is_changes(input));
         self.inputs.keep(files);
         self
     }
@@ -114,17 +123,27 @@ impl SceneSource {
     /// # Errors
     /// All faults of all files and of the changes. If the scene itself has faults, those of comparisons are wrong types
     /// and keys, and values out of range.
-    pub fn document(&self, changes: Option<&Source>, compares: bool) -> Result<Document, Vec<Diagnostic>> {
+    pub fn document(
+        &self,
+        changes: Option<&Source>,
+        compares: bool,
+    ) -> Result<Document, Vec<Diagnostic>> {
         let mut inputs = self.inputs.clone();
         let tree = self.source.tree();
-        let empty = Source { name: "changes".to_owned(), text: "{}".to_owned() };
+        let empty = Source {
+            name: "changes".to_owned(),
+            text: "{}".to_owned(),
+        };
         let changing = changes.unwrap_or(&empty);
         let changing = changing.tree();
         if changes.is_some() {
             check_changes(&changing)?;
         }
-        let comparisons =
-            tree.root().member("compare").map(|member| member.value.items()).unwrap_or_default();
+        let comparisons = tree
+            .root()
+            .member("compare")
+            .map(|member| member.value.items())
+            .unwrap_or_default();
         let mut files = Files::of(&mut inputs);
         let name = self.source.name.as_str();
         let read = |raw: &RawScene, faults: &mut Faults| {
@@ -136,27 +155,55 @@ impl SceneSource {
         let scene = if changes.is_some() && tree.is_whole() {
             let mut merged = tree.root().clone();
             merged.merge(changing.root().clone());
-            let Examined { value, types, mut faults } = examine(&merged, read);
+            let Examined {
+                value,
+                types,
+                mut faults,
+            } = examine(&merged, read);
             let other = tree.other_format(FORMAT).filter(|_| !types.is_empty());
-            faults.0.extend(types.into_iter().map(|located| located.fault));
-            let wrong =
-                || other.map_or_else(|| tree.diagnose_changed(&changing, None, &faults), |one| vec![one]);
+            faults
+                .0
+                .extend(types.into_iter().map(|located| located.fault));
+            let wrong = || {
+                other.map_or_else(
+                    || tree.diagnose_changed(&changing, None, &faults),
+                    |one| vec![one],
+                )
+            };
             value.filter(|_| faults.0.is_empty()).ok_or_else(wrong)
         } else {
             tree.read(FORMAT, read)
         };
-        let (scene, mut wrong) = scene.map_or_else(|wrong| (None, wrong), |scene| (Some(scene), Vec::new()));
+        let (scene, mut wrong) =
+            scene.map_or_else(|wrong| (None, wrong), |scene| (Some(scene), Vec::new()));
         wrong.append(&mut files.wrong);
         let base = wrong.clone();
-        let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
-        let texts = Texts { scene: &tree, changes: changes.map(|_| &changing), file: name };
-        for (index, comparison) in comparisons.iter().enumerate().filter(|_| tree.is_whole() && compares) {
+        let mut cases: Vec<Case> = scene
+            .map(|scene| Case { label: None, scene })
+            .into_iter()
+            .collect();
+        let texts = Texts {
+            scene: &tree,
+            changes: changes.map(|_| &changing),
+            file: name,
+        };
+        for (index, comparison) in comparisons
+            .iter()
+            .enumerate()
+            .filter(|_| tree.is_whole() && compares)
+        {
             // another value has been reported with the labels
-            let Value::Object(_) = comparison.value else { continue };
+            let Value::Object(_) = comparison.value else {
+                continue;
+            };
             match case(&texts, index, comparison, &base, &mut inputs) {
                 Ok(case) => cases.push(case),
-                Err(diagnostics) => wrong
-                    .extend(diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>()),
+                Err(diagnostics) => wrong.extend(
+                    diagnostics
+                        .into_iter()
+                        .filter(|new| !wrong.contains(new))
+                        .collect::<Vec<_>>(),
+                ),
             }
         }
         // the faults of the scene file first
@@ -164,7 +211,15 @@ impl SceneSource {
         if let Some(changes) = changes {
             inputs.add(&changes.name, changes.text.clone().into_bytes());
         }
-        if wrong.is_empty() { Ok(Document { cases, inputs, changes: changes.cloned() }) } else { Err(wrong) }
+        if wrong.is_empty() {
+            Ok(Document {
+                cases,
+                inputs,
+                changes: changes.cloned(),
+            })
+        } else {
+            Err(wrong)
+        }
     }
 }
 
@@ -193,10 +248,16 @@ impl Document {
         };
         let tree = source.tree();
         let labelled = |entry: &TreeNode<'_>| {
-            let own = entry.member("label").and_then(|label| label.value.as_text());
+            let own = entry
+                .member("label")
+                .and_then(|label| label.value.as_text());
             own.is_some() && own == label
         };
-        let comparisons = tree.root().member("compare").map(|list| list.value.items()).unwrap_or_default();
+        let comparisons = tree
+            .root()
+            .member("compare")
+            .map(|list| list.value.items())
+            .unwrap_or_default();
         let index = comparisons.iter().position(labelled);
         match (&self.changes, index) {
             (Some(changes), index) => tree.diagnose_changed(&changes.tree(), index, faults),
@@ -218,13 +279,19 @@ fn check_changes(changes: &Tree<'_>) -> Result<(), Vec<Diagnostic>> {
     }
     for key in FIXED {
         if changes.root().member(key).is_some() {
-            faults.add(Fault::new(&root.key(key), format!("changes cannot concern `{key}`")).at_key());
+            faults.add(
+                Fault::new(&root.key(key), format!("changes cannot concern `{key}`")).at_key(),
+            );
         }
     }
     if let Some(wrong) = changes.syntax_error() {
         return Err(vec![wrong]);
     }
-    if faults.0.is_empty() { Ok(()) } else { Err(changes.diagnose(&faults)) }
+    if faults.0.is_empty() {
+        Ok(())
+    } else {
+        Err(changes.diagnose(&faults))
+    }
 }
 
 /// Checks that every comparison has a unique label that is valid in file names, and that it does not change `format`,
@@ -236,7 +303,10 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
     for (index, changes) in comparisons.iter().enumerate() {
         let at = list.index(index);
         if !matches!(changes.value, Value::Object(_)) {
-            faults.add(Fault::new(&at, "must be an object with a `label` and changes"));
+            faults.add(Fault::new(
+                &at,
+                "must be an object with a `label` and changes",
+            ));
             continue;
         }
         match changes.member("label").map(|label| label.value.as_text()) {
@@ -285,39 +355,58 @@ fn case(
     base: &[Diagnostic],
     inputs: &mut Inputs,
 ) -> Result<Case, Vec<Diagnostic>> {
-    let Texts { scene: tree, changes, file } = texts;
-    let label =
-        comparison.member("label").and_then(|label| label.value.as_text()).unwrap_or_default().to_owned();
+    let Texts {
+        scene: tree,
+        changes,
+        file,
+    } = texts;
+    let label = comparison
+        .member("label")
+        .and_then(|label| label.value.as_text())
+        .unwrap_or_default()
+        .to_owned();
     let mut merged = tree.root().without("compare");
     if let Some(changes) = changes {
         merged.merge(changes.root().clone());
     }
     merged.merge(comparison.without("label"));
     let mut files = Files::of(inputs);
-    let examined = examine(&merged, |raw: &RawScene, faults| scene::read(raw, file, &mut files, faults));
+    let examined = examine(&merged, |raw: &RawScene, faults| {
+        scene::read(raw, file, &mut files, faults)
+    });
     let mut faults = examined.faults;
     if !base.is_empty() {
         // a key that misses in the changes may be one that is wrong in the scene
-        faults.0.retain(|fault| fault.basis == Basis::Value && !fault.expected.starts_with("missing key"));
+        faults.0.retain(|fault| {
+            fault.basis == Basis::Value && !fault.expected.starts_with("missing key")
+        });
     }
-    faults.0.extend(examined.types.into_iter().map(|located| located.fault));
+    faults
+        .0
+        .extend(examined.types.into_iter().map(|located| located.fault));
     match examined.value {
-        Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
-            Ok(Case { label: Some(label), scene })
-        }
+        Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => Ok(Case {
+            label: Some(label),
+            scene,
+        }),
         _ => {
             let mut wrong = match changes {
                 Some(changes) => tree.diagnose_changed(changes, Some(index), &faults),
                 None => tree.diagnose_merged(index, &faults),
             };
-            for diagnostic in wrong.iter_mut().filter(|found| !found.path.starts_with("compare")) {
+            for diagnostic in wrong
+                .iter_mut()
+                .filter(|found| !found.path.starts_with("compare"))
+            {
                 diagnostic.expected = format!("in comparison \"{label}\": {}", diagnostic.expected);
             }
             if base.is_empty() {
                 wrong.append(&mut files.wrong);
             } else {
                 let is_of_base = |one: &Diagnostic| {
-                    base.iter().any(|known| one.path.ends_with(&known.path) && one.expected == known.expected)
+                    base.iter().any(|known| {
+                        one.path.ends_with(&known.path) && one.expected == known.expected
+                    })
                 };
                 wrong.retain(|one| one.path.starts_with("compare") && !is_of_base(one));
             }

@@ -23,8 +23,8 @@ pub use values::scene::{
     Analysis, FORMAT, Scene, SceneRail, end_stops, mean_lateral_position, root_body, stepper_word,
 };
 pub use values::structure::{
-    CarriedBy, DEFAULT_PARTS, Foundation, Gauge, Handover, Origin, Structure, TOLERANCE, TableInterpolation,
-    TablePair,
+    CarriedBy, DEFAULT_PARTS, Foundation, Gauge, Handover, Origin, Structure, TOLERANCE,
+    TableInterpolation, TablePair,
 };
 pub use values::truck::{Node, Truck};
 pub use values::wheel::{

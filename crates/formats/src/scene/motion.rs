@@ -62,8 +62,13 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
         let rail = &scene.rails[truck.rail];
         for node in &truck.tree {
             let below = node.wheels();
-            if below.iter().any(|(_, fraction)| (fraction - below[0].1).abs() > 1e-12) {
-                return Err(UnequalFractions { truck: truck.name.clone() });
+            if below
+                .iter()
+                .any(|(_, fraction)| (fraction - below[0].1).abs() > 1e-12)
+            {
+                return Err(UnequalFractions {
+                    truck: truck.name.clone(),
+                });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -77,7 +82,10 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
     }
     let names = self::wheels(scene);
     let scene = sim::Scene {
-        actuators: sim::Actuators { spins: turns(scene), ..actuators(scene, &contacts) },
+        actuators: sim::Actuators {
+            spins: turns(scene),
+            ..actuators(scene, &contacts)
+        },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -93,7 +101,10 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
         records_steps: false,
         accuracy: scene.accuracy,
     };
-    Ok(SimulationInput { scene, wheels: names })
+    Ok(SimulationInput {
+        scene,
+        wheels: names,
+    })
 }
 
 /// The wheels of `scene`, in the simulator's order.
@@ -106,11 +117,16 @@ pub fn wheels(scene: &Scene) -> Vec<NamedWheel> {
             truck.body,
             truck.rail,
             truck.wheel,
-            kind.friction.is_some().then_some(kind.spin_inertia.is_some()),
+            kind.friction
+                .is_some()
+                .then_some(kind.spin_inertia.is_some()),
         );
         let numbers = 1..=truck.wheel_offsets().len();
         numbers.map(move |number| {
-            let turned = scene.spins.iter().any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
+            let turned = scene
+                .spins
+                .iter()
+                .any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
             NamedWheel {
                 name: format!("{name}.wheel{number}"),
                 body,
@@ -132,12 +148,19 @@ fn turns(scene: &Scene) -> Vec<sim::PrescribedSpin> {
         let mut first = 0;
         for node in &truck.tree {
             let count = node.wheels().len();
-            let own = |spin: &&Spin| spin.truck == index && (first..first + count).contains(&spin.wheel);
-            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::PrescribedSpin {
-                contact,
-                wheel: spin.wheel - first,
-                motion: spin.motion.clone(),
-            }));
+            let own =
+                |spin: &&Spin| spin.truck == index && (first..first + count).contains(&spin.wheel);
+            turns.extend(
+                scene
+                    .spins
+                    .iter()
+                    .filter(own)
+                    .map(|spin| sim::PrescribedSpin {
+                        contact,
+                        wheel: spin.wheel - first,
+                        motion: spin.motion.clone(),
+                    }),
+            );
             (contact, first) = (contact + 1, first + count);
         }
     }
@@ -152,10 +175,19 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
             .map(|(index, _)| index)
             .collect()
     };
-    let to_scene = Scale { from: Units { length: Length::Foot, ..scene.units }, to: scene.units };
+    let to_scene = Scale {
+        from: Units {
+            length: Length::Foot,
+            ..scene.units
+        },
+        to: scene.units,
+    };
     let mut out = sim::Actuators::default();
     for rope in &scene.ropes {
-        let [from, to] = [0, 1].map(|end| sim::RopeEnd { body: rope.bodies[end], at: rope.at[end] });
+        let [from, to] = [0, 1].map(|end| sim::RopeEnd {
+            body: rope.bodies[end],
+            at: rope.at[end],
+        });
         out.ropes.push(sim::Rope {
             from,
             to,
@@ -166,23 +198,36 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
         });
     }
     for stop in &scene.stops {
-        out.stops.extend(stop.points.iter().map(|meeting| sim::Stop {
-            body: meeting.body,
-            against: stop.against,
-            at: meeting.at,
-            axis: stop.axis,
-            place: stop.place,
-            side: meeting.side,
-            stiffness: stop.stiffness,
-            damping: stop.damping,
-        }));
+        out.stops
+            .extend(stop.points.iter().map(|meeting| sim::Stop {
+                body: meeting.body,
+                against: stop.against,
+                at: meeting.at,
+                axis: stop.axis,
+                place: stop.place,
+                side: meeting.side,
+                stiffness: stop.stiffness,
+                damping: stop.damping,
+            }));
     }
-    out.rules = scene.events.iter().map(|event| event.rule.clone()).collect();
-    let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
+    out.rules = scene
+        .events
+        .iter()
+        .map(|event| event.rule.clone())
+        .collect();
+    let in_space = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, body)| body.in_space && body.start.is_none());
     out.hanging = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {
         let dof = sim::BodyDof::ALL[load.dof];
-        out.loads.push(sim::Load { body: load.body, dof, value: load.value.clone() });
+        out.loads.push(sim::Load {
+            body: load.body,
+            dof,
+            value: load.value.clone(),
+        });
     }
     for (b, body) in scene.bodies.iter().enumerate() {
         if let BodyMotion::Driven(drive) = &body.motion {
@@ -197,7 +242,12 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
         }
         if let Some(from) = body.brake {
             let speed = BRAKE_SPEED_FT * to_scene.factor(Dimension::LENGTH);
-            out.brakes.push(sim::Brake { body: b, from, speed, contacts: own(b, &|wheel| wheel.braked) });
+            out.brakes.push(sim::Brake {
+                body: b,
+                from,
+                speed,
+                contacts: own(b, &|wheel| wheel.braked),
+            });
         }
     }
     out
@@ -208,8 +258,15 @@ fn gauges(scene: &Scene) -> Vec<sim::Gauge> {
     let structures = scene.structures.iter().enumerate();
     structures
         .flat_map(|(structure, given)| {
-            let probe = |gauge: &Gauge| Probe { rail: gauge.rail, x: gauge.x, axis: gauge.axis };
-            given.gauges.iter().map(move |gauge| sim::Gauge { structure, probe: probe(gauge) })
+            let probe = |gauge: &Gauge| Probe {
+                rail: gauge.rail,
+                x: gauge.x,
+                axis: gauge.axis,
+            };
+            given.gauges.iter().map(move |gauge| sim::Gauge {
+                structure,
+                probe: probe(gauge),
+            })
         })
         .collect()
 }

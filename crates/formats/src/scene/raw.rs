@@ -588,7 +588,9 @@ pub(crate) struct RawEvent {
 impl RawEvent {
     /// Whether it applies the brakes of body `name`.
     pub fn brakes(&self, name: &str) -> bool {
-        self.actions.as_ref().is_some_and(|actions| actions.brake.as_deref() == Some(name))
+        self.actions
+            .as_ref()
+            .is_some_and(|actions| actions.brake.as_deref() == Some(name))
     }
 }
 

@@ -28,7 +28,11 @@ pub fn beam() -> Value {
 /// The schema of grids.
 #[must_use]
 pub fn grid() -> Value {
-    of::<RawGrid>("Grid", crate::grid::file::FORMAT, "Influence grid of girderway")
+    of::<RawGrid>(
+        "Grid",
+        crate::grid::file::FORMAT,
+        "Influence grid of girderway",
+    )
 }
 
 /// The schema of scenes.
@@ -46,7 +50,10 @@ pub fn design() -> Value {
     let mut schema = of::<RawDesign>("Design", crate::design::FORMAT, "Design of girderway");
     let class = |key: &str, classes: &[&str]| json!({ "properties": { key: { "enum": classes } }, "required": [key] });
     let conditions = [
-        ("AISC Design Guide 7", class("class", &["A", "B", "C", "D", "E", "F"])),
+        (
+            "AISC Design Guide 7",
+            class("class", &["A", "B", "C", "D", "E", "F"]),
+        ),
         ("IS 800", class("class", &["manual", "electric", "heavy"])),
         ("AIST TR-13", class("building_class", &["A", "B", "C", "D"])),
     ];
@@ -75,7 +82,9 @@ pub fn sweep() -> Value {
     schema["oneOf"] = json!([has("scene"), has("design")]);
     schema["properties"]["axes"]["minProperties"] = json!(1);
     // into the scene or design, or, behind the name of a file, into the spec or grid that it names
-    let of_file = [beam(), grid()].map(|of| pointers::pattern(&of, &[])).join("|");
+    let of_file = [beam(), grid()]
+        .map(|of| pointers::pattern(&of, &[]))
+        .join("|");
     let names = |input: &Value, left_out: &[&str]| {
         let own = pointers::pattern(input, left_out);
         json!({ "properties": { "axes": { "propertyNames": { "pattern": format!("^(?:{own}|[^#]+#(?:{of_file}))$") } } } })
@@ -90,7 +99,8 @@ pub fn sweep() -> Value {
     let without = json!({ "properties": { "count": { "type": "null" } } });
     schema["if"] = is_grid;
     schema["then"] = without;
-    schema["else"] = json!({ "properties": { "count": { "type": "number" } }, "required": ["count"] });
+    schema["else"] =
+        json!({ "properties": { "count": { "type": "number" } }, "required": ["count"] });
     let whole = json!({ "type": "integer", "minimum": 1 });
     schema["$defs"]["Law"]["properties"]["range"]["prefixItems"] =
         json!([{ "type": "number" }, { "type": "number" }, whole]);
@@ -103,9 +113,14 @@ pub fn sweep() -> Value {
 fn changes(scene: &Value) -> Value {
     let mut properties = scene["properties"].clone();
     if let Some(members) = properties.as_object_mut() {
-        members.retain(|key, _| !["$schema", "format", "name", "units", "compare"].contains(&key.as_str()));
+        members.retain(|key, _| {
+            !["$schema", "format", "name", "units", "compare"].contains(&key.as_str())
+        });
         for member in members.values_mut() {
-            if let Some(named) = member.get_mut("additionalProperties").filter(|named| named.is_object()) {
+            if let Some(named) = member
+                .get_mut("additionalProperties")
+                .filter(|named| named.is_object())
+            {
                 *named = json!({ "anyOf": [named.clone(), { "type": "null" }] });
             }
         }
@@ -125,15 +140,20 @@ fn changes(scene: &Value) -> Value {
 
 /// The schema of the type `T`, whose definition is called `root`.
 fn of<T: JsonSchema>(root: &str, format: &str, title: &str) -> Value {
-    let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
+    let schema = SchemaSettings::draft2020_12()
+        .into_generator()
+        .into_root_schema_for::<T>();
     // the prefix `Raw` of the types is an implementation detail and does not belong in a schema
-    let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
+    let text = schema
+        .to_value()
+        .to_string()
+        .replace("\"Raw", "\"")
+        .replace("$defs/Raw", "$defs/");
     let mut schema: Value = serde_json::from_str(&text).unwrap_or_default();
     schema["title"] = json!(title);
     schema["properties"]["format"] =
         json!({ "const": format, "description": "Name and version of the format." });
-    schema["properties"]["$schema"] =
-        json!({ "type": "string", "description": "Path of this schema, for editors; otherwise ignored." });
+    schema["properties"]["$schema"] = json!({ "type": "string", "description": "Path of this schema, for editors; otherwise ignored." });
     schema["required"] = json!(["format", "units"]);
     if let Some(units) = schema.pointer_mut("/$defs/Units") {
         units["required"] = json!(["length", "force", "time"]);
@@ -188,7 +208,9 @@ schemas! {
 fn node() -> Schema {
     let pair = |end: Value| json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
     let nested = |innermost: Value, depth: usize| (0..depth).fold(innermost, |end, _| pair(end));
-    let mut levels: Vec<Value> = (0..4).map(|depth| nested(json!({ "type": "number" }), depth)).collect();
+    let mut levels: Vec<Value> = (0..4)
+        .map(|depth| nested(json!({ "type": "number" }), depth))
+        .collect();
     levels.push(nested(json!({ "type": "array" }), 3));
     json_schema!({ "anyOf": levels })
 }

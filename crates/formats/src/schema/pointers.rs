@@ -29,7 +29,10 @@ fn rests<'s>(schema: &'s Value, root: &'s Value, within: &mut Vec<&'s str>) -> V
         if within.contains(&definition) {
             return vec![ANY.to_owned()];
         }
-        let Some(found) = definition.strip_prefix('#').and_then(|path| root.pointer(path)) else {
+        let Some(found) = definition
+            .strip_prefix('#')
+            .and_then(|path| root.pointer(path))
+        else {
             return vec![ANY.to_owned()];
         };
         within.push(definition);
@@ -47,14 +50,25 @@ fn rests<'s>(schema: &'s Value, root: &'s Value, within: &mut Vec<&'s str>) -> V
         // members with the same rest share it
         let mut keys: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         for (key, member) in members.iter().filter(|(key, _)| *key != "$schema") {
-            keys.entry(union(rests(member, root, within))).or_default().push(key);
+            keys.entry(union(rests(member, root, within)))
+                .or_default()
+                .push(key);
         }
-        all.extend(keys.into_iter().map(|(rest, keys)| format!("/(?:{}){rest}", keys.join("|"))));
+        all.extend(
+            keys.into_iter()
+                .map(|(rest, keys)| format!("/(?:{}){rest}", keys.join("|"))),
+        );
     }
-    if let Some(member) = schema.get("additionalProperties").filter(|member| member.is_object()) {
+    if let Some(member) = schema
+        .get("additionalProperties")
+        .filter(|member| member.is_object())
+    {
         all.push(format!("/[^/]+{}", union(rests(member, root, within))));
     }
-    let items = schema.get("items").filter(|items| items.is_object()).into_iter();
+    let items = schema
+        .get("items")
+        .filter(|items| items.is_object())
+        .into_iter();
     for item in items.chain(schema["prefixItems"].as_array().into_iter().flatten()) {
         all.push(format!("/[0-9]+{}", union(rests(item, root, within))));
     }
@@ -66,7 +80,10 @@ fn rests<'s>(schema: &'s Value, root: &'s Value, within: &mut Vec<&'s str>) -> V
     if types.iter().any(is_plain) || schema.get("const").is_some() || schema.get("enum").is_some() {
         all.push(String::new());
     }
-    if types.contains(&"array") && schema.get("items").is_none() && schema.get("prefixItems").is_none() {
+    if types.contains(&"array")
+        && schema.get("items").is_none()
+        && schema.get("prefixItems").is_none()
+    {
         all.push(ANY.to_owned());
     }
     all

@@ -7,8 +7,8 @@
 use serde_json::{Value, json};
 
 use Restriction::{
-    Alternatives, AtLeastOne, Blocks, Fraction, Increasing, ListOf, ListOfNotNegative, ListOfPositive,
-    NotNegative, Pattern, Positive, Second, Words,
+    Alternatives, AtLeastOne, Blocks, Fraction, Increasing, ListOf, ListOfNotNegative,
+    ListOfPositive, NotNegative, Pattern, Positive, Second, Words,
 };
 
 /// What a property, or each item of its list, may be.
@@ -41,12 +41,21 @@ const FORCES: &[&str] = &["lbf", "kip", "N", "kN"];
 const THEORIES: &[&str] = &["euler-bernoulli", "timoshenko"];
 const COMPONENTS: &[&str] = &["N", "Vy", "Vz", "Mx", "My", "Mz"];
 const FATIGUE_CLASSES: &[&str] = &["S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];
-const CRANES: &[&str] =
-    &["mill", "ladle", "bucket", "soaking pit", "stripping", "motor room", "stacker", "pendant"];
+const CRANES: &[&str] = &[
+    "mill",
+    "ladle",
+    "bucket",
+    "soaking pit",
+    "stripping",
+    "motor room",
+    "stacker",
+    "pendant",
+];
 const HOISTING: &[&str] = &["HC1", "HC2", "HC3", "HC4"];
 const DRIVES: &[&str] = &["steady", "smooth", "sudden", "backlash"];
 /// Codes with limits of deflections and the one for impact, whose editions may follow behind a colon.
-const CODES: &str = r"^\s*(EN 1991-3|EN 1993-6|CMAA 70|AISC Design Guide 7|AIST TR-13|IS 800|ASCE 7)\s*(:|$)";
+const CODES: &str =
+    r"^\s*(EN 1991-3|EN 1993-6|CMAA 70|AISC Design Guide 7|AIST TR-13|IS 800|ASCE 7)\s*(:|$)";
 const LATERAL_SECTIONS: &[&str] = &["whole section", "top flange"];
 
 /// Definition, property, and what the reader asks of its value.
@@ -73,7 +82,11 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Girder", "density", Positive),
     ("Girder", "fy", Positive),
     ("Block", "type", Words(&["line"])),
-    ("CellData", "kind", Blocks(&["beam", "truss", "rod", "cable"])),
+    (
+        "CellData",
+        "kind",
+        Blocks(&["beam", "truss", "rod", "cable"]),
+    ),
     ("Section", "A", Positive),
     ("Section", "Iy", Positive),
     ("Section", "Iz", Positive),
@@ -104,11 +117,37 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Scene", "gravity", NotNegative),
     ("Scene", "analysis", Words(&["dynamic", "quasi-static"])),
     ("Scene", "accuracy", Positive),
-    ("Scene", "stepper", Words(&["auto", "sdirk4", "esdirk5", "radau", "series", "gauss2", "gauss3"])),
+    (
+        "Scene",
+        "stepper",
+        Words(&[
+            "auto", "sdirk4", "esdirk5", "radau", "series", "gauss2", "gauss3",
+        ]),
+    ),
     ("Scene", "step", Positive),
-    ("Structure", "foundation", Words(&["rigid", "parts", "influence", "modal", "full", "ties", "auto"])),
-    ("Structure", "reading", Words(&["exact", "natural", "akispl", "cubspl"])),
-    ("Structure", "couplings", Words(&["all", "within rails", "none"])),
+    (
+        "Structure",
+        "foundation",
+        Words(&[
+            "rigid",
+            "parts",
+            "influence",
+            "modal",
+            "full",
+            "ties",
+            "auto",
+        ]),
+    ),
+    (
+        "Structure",
+        "reading",
+        Words(&["exact", "natural", "akispl", "cubspl"]),
+    ),
+    (
+        "Structure",
+        "couplings",
+        Words(&["all", "within rails", "none"]),
+    ),
     ("Structure", "tolerance", Positive),
     ("Structure", "measure", Words(&["extremes", "history"])),
     ("Structure", "handover", Words(&["blend", "per-part"])),
@@ -122,9 +161,17 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("TieRail", "E", Positive),
     ("TieRail", "I_vertical", Positive),
     ("TieRail", "mass_per_length", NotNegative),
-    ("Gauge", "direction", Words(&["vertical", "lateral", "longitudinal"])),
+    (
+        "Gauge",
+        "direction",
+        Words(&["vertical", "lateral", "longitudinal"]),
+    ),
     ("Irregularity", "direction", Words(&["vertical", "lateral"])),
-    ("Irregularity", "kind", Words(&["step", "joint", "dip", "sinusoid", "profile"])),
+    (
+        "Irregularity",
+        "kind",
+        Words(&["step", "joint", "dip", "sinusoid", "profile"]),
+    ),
     ("Irregularity", "length", Positive),
     ("Body", "mass", Positive),
     ("Body", "weight", Positive),
@@ -153,7 +200,11 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Rope", "EA", Positive),
     ("Rope", "length", Positive),
     ("Rope", "c", NotNegative),
-    ("Stop", "side", Words(&["before", "beyond", "above", "below"])),
+    (
+        "Stop",
+        "side",
+        Words(&["before", "beyond", "above", "below"]),
+    ),
     ("Stop", "gap", NotNegative),
     ("Stop", "k", Positive),
     ("Stop", "c", NotNegative),
@@ -193,19 +244,35 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("DesignPractice", "trolley_speed", Positive),
     ("DesignPractice", "hoist_speed", Positive),
     ("DesignPractice", "s_class", Words(FATIGUE_CLASSES)),
-    ("DesignPractice", "building_class", Words(&["A", "B", "C", "D"])),
-    ("DesignPractice", "operation", Words(&["cab", "monorail", "pendant", "hand-geared"])),
+    (
+        "DesignPractice",
+        "building_class",
+        Words(&["A", "B", "C", "D"]),
+    ),
+    (
+        "DesignPractice",
+        "operation",
+        Words(&["cab", "monorail", "pendant", "hand-geared"]),
+    ),
     ("DesignPractice", "kind", Words(CRANES)),
     ("DesignPractice", "hoisting", Words(HOISTING)),
     ("DesignPractice", "drives", Words(DRIVES)),
     ("DesignPractice", "release", Words(&["slow", "rapid"])),
     ("DesignPractice", "lateral_section", Words(LATERAL_SECTIONS)),
-    ("DesignPractice", "rail_fastening", Words(&["rigid", "loose", "pad"])),
+    (
+        "DesignPractice",
+        "rail_fastening",
+        Words(&["rigid", "loose", "pad"]),
+    ),
     ("DesignPractice", "guide", Words(&["flanges", "rollers"])),
     // sweeps
     ("Sweep", "sampling", Words(&["grid", "latin", "sobol"])),
     ("Sweep", "count", AtLeastOne),
-    ("Sweep", "results", Pattern(r"^(peaks|extremes|fatigue|ratios)$|\.")),
+    (
+        "Sweep",
+        "results",
+        Pattern(r"^(peaks|extremes|fatigue|ratios)$|\."),
+    ),
     ("Law", "uniform", Increasing),
     ("Law", "normal", Second),
     ("Law", "lognormal", ListOfPositive),
@@ -228,7 +295,9 @@ pub(super) fn add(schema: &mut Value, root: &str) {
 
 /// Adds a restriction to the schema of a property, which may be null where the type says so.
 fn restrict(property: &mut Value, restriction: Restriction) {
-    let is_nullable = property["type"].as_array().is_some_and(|types| types.contains(&json!("null")));
+    let is_nullable = property["type"]
+        .as_array()
+        .is_some_and(|types| types.contains(&json!("null")));
     match restriction {
         Words(words) => {
             let null = is_nullable.then_some(Value::Null);
@@ -241,7 +310,11 @@ fn restrict(property: &mut Value, restriction: Restriction) {
             property["anyOf"] = json!([{ "items": { "enum": some } }, whole]);
         }
         Blocks(words) => {
-            for block in property["items"]["anyOf"].as_array_mut().into_iter().flatten() {
+            for block in property["items"]["anyOf"]
+                .as_array_mut()
+                .into_iter()
+                .flatten()
+            {
                 match block["type"].as_str() {
                     Some("string") => block["enum"] = json!(words),
                     Some("array") => block["items"]["enum"] = json!(words),
@@ -278,7 +351,8 @@ pub(super) fn increasing(list: &mut Value, key: Option<&str>) {
         None => range,
     };
     list["if"] = json!({ "prefixItems": [number(json!({ "minimum": 0 }))] });
-    list["then"] = json!({ "prefixItems": [true], "items": number(json!({ "exclusiveMinimum": 0 })) });
+    list["then"] =
+        json!({ "prefixItems": [true], "items": number(json!({ "exclusiveMinimum": 0 })) });
 }
 
 #[cfg(test)]
@@ -297,8 +371,14 @@ mod tests {
         ];
         for (definition, property, _) in RESTRICTIONS {
             let has = |(root, schema): &(&str, Value)| {
-                let of = if definition == root { "" } else { &format!("/$defs/{definition}") };
-                schema.pointer(&format!("{of}/properties/{property}")).is_some()
+                let of = if definition == root {
+                    ""
+                } else {
+                    &format!("/$defs/{definition}")
+                };
+                schema
+                    .pointer(&format!("{of}/properties/{property}"))
+                    .is_some()
             };
             assert!(schemas.iter().any(has), "{definition}.{property}");
         }

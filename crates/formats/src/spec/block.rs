@@ -54,7 +54,9 @@ impl<'de> Deserialize<'de> for Reference {
             }
 
             fn visit_u64<E: Error>(self, value: u64) -> Result<Reference, E> {
-                usize::try_from(value).map(Reference::Index).map_err(E::custom)
+                usize::try_from(value)
+                    .map(Reference::Index)
+                    .map_err(E::custom)
             }
 
             fn visit_str<E: Error>(self, word: &str) -> Result<Reference, E> {
@@ -88,7 +90,8 @@ pub trait Item: Sized + for<'de> Deserialize<'de> {
 }
 
 impl Item for String {
-    const WHAT: &'static str = "a keyword for the whole block, or a list with a keyword for each cell";
+    const WHAT: &'static str =
+        "a keyword for the whole block, or a list with a keyword for each cell";
 
     fn of_word(word: &str) -> Option<Self> {
         Some(word.to_owned())
@@ -96,7 +99,8 @@ impl Item for String {
 }
 
 impl Item for Reference {
-    const WHAT: &'static str = "a section for the whole block, or a list with a section for each cell";
+    const WHAT: &'static str =
+        "a section for the whole block, or a list with a section for each cell";
 
     fn of_index(index: usize) -> Option<Self> {
         Some(Reference::Index(index))
@@ -120,7 +124,8 @@ impl Item for Option<Reference> {
 }
 
 impl Item for Option<usize> {
-    const WHAT: &'static str = "a number for the whole block, or a list with a number for each cell";
+    const WHAT: &'static str =
+        "a number for the whole block, or a list with a number for each cell";
 
     fn of_index(index: usize) -> Option<Self> {
         Some(Some(index))
@@ -147,7 +152,9 @@ fn classified<L, T, E: Error>(
         }
     }
     match (leaves.is_empty(), items.is_empty()) {
-        (false, false) => Err(E::custom(format_args!("invalid type: a mixture of both, expected {what}"))),
+        (false, false) => Err(E::custom(format_args!(
+            "invalid type: a mixture of both, expected {what}"
+        ))),
         (false, true) => of_leaves(leaves).map(Block::All),
         (true, _) => Ok(Block::Each(items)),
     }
@@ -186,13 +193,16 @@ impl<'de> Deserialize<'de> for Entry<f64, [f64; 3]> {
 }
 
 impl Item for [f64; 3] {
-    const WHAT: &'static str = "a vector for the whole block, or a list with a vector for each cell";
+    const WHAT: &'static str =
+        "a vector for the whole block, or a list with a vector for each cell";
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries = Vec::deserialize(SeqAccessDeserializer::new(list))?;
         classified(entries, Self::WHAT, |numbers: Vec<f64>| {
             let count = numbers.len();
-            numbers.try_into().map_err(|_| A::Error::invalid_length(count, &"a list of 3 numbers"))
+            numbers
+                .try_into()
+                .map_err(|_| A::Error::invalid_length(count, &"a list of 3 numbers"))
         })
     }
 }
@@ -222,13 +232,16 @@ impl<'de> Deserialize<'de> for Entry<String, Vec<String>> {
 }
 
 impl Item for Vec<String> {
-    const WHAT: &'static str =
-        "a list of degrees of freedom for the whole block, or a list with such a list for each cell";
+    const WHAT: &'static str = "a list of degrees of freedom for the whole block, or a list with such a list for each cell";
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries: Vec<Entry<String, Self>> = Vec::deserialize(SeqAccessDeserializer::new(list))?;
         // an empty list means no degrees of freedom for the whole block, regardless of the number of its cells
-        if entries.is_empty() { Ok(Block::Absent) } else { classified(entries, Self::WHAT, Ok) }
+        if entries.is_empty() {
+            Ok(Block::Absent)
+        } else {
+            classified(entries, Self::WHAT, Ok)
+        }
     }
 }
 
@@ -254,12 +267,16 @@ impl<'de, T: Item> Visitor<'de> for Blocks<T> {
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<Block<T>, E> {
         let index = usize::try_from(value).ok().and_then(T::of_index);
-        index.map(Block::All).ok_or_else(|| E::invalid_type(serde::de::Unexpected::Unsigned(value), &self))
+        index
+            .map(Block::All)
+            .ok_or_else(|| E::invalid_type(serde::de::Unexpected::Unsigned(value), &self))
     }
 
     fn visit_str<E: Error>(self, word: &str) -> Result<Block<T>, E> {
         let found = T::of_word(word);
-        found.map(Block::All).ok_or_else(|| E::invalid_type(serde::de::Unexpected::Str(word), &self))
+        found
+            .map(Block::All)
+            .ok_or_else(|| E::invalid_type(serde::de::Unexpected::Str(word), &self))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Block<T>, A::Error> {
@@ -279,12 +296,21 @@ mod tests {
     fn a_block_has_an_item_for_each_cell_or_one_for_all() {
         let up = [0.0, 1.0, 0.0];
         assert_eq!(of("[0, 1, 0]"), Ok(Block::All(up)));
-        assert_eq!(of("[[0, 1, 0], [0, 1, 0.0]]"), Ok(Block::Each(vec![up, up])));
+        assert_eq!(
+            of("[[0, 1, 0], [0, 1, 0.0]]"),
+            Ok(Block::Each(vec![up, up]))
+        );
         assert_eq!(of("null"), Ok(Block::<[f64; 3]>::Absent));
         let hinge = vec!["ry".to_owned(), "rz".to_owned()];
         assert_eq!(of("[\"ry\", \"rz\"]"), Ok(Block::All(hinge.clone())));
-        assert_eq!(of("[[\"ry\", \"rz\"], []]"), Ok(Block::Each(vec![hinge, Vec::new()])));
-        assert_eq!(of("\"column\""), Ok(Block::All(Reference::Name("column".to_owned()))));
+        assert_eq!(
+            of("[[\"ry\", \"rz\"], []]"),
+            Ok(Block::Each(vec![hinge, Vec::new()]))
+        );
+        assert_eq!(
+            of("\"column\""),
+            Ok(Block::All(Reference::Name("column".to_owned())))
+        );
         let two = vec![Reference::Index(2), Reference::Name("strut".to_owned())];
         assert_eq!(of("[2, \"strut\"]"), Ok(Block::Each(two)));
         assert_eq!(of("3"), Ok(Block::All(Some(3usize))));

@@ -23,33 +23,48 @@ impl<'r, T: PartialEq> Column<'r, T> {
         at: &Place<'_>,
         check: &mut Check<'_>,
     ) -> Self {
-        let Some(given) = blocks else { return Column { key, given: false, blocks: None } };
+        let Some(given) = blocks else {
+            return Column {
+                key,
+                given: false,
+                blocks: None,
+            };
+        };
         let before = check.faults.0.len();
         let place = at.key(key);
         let hint = "cell_data has one array for each block of `cells`, with one item for each cell, or one item for the block";
         if given.len() != counts.len() {
-            let fault = Fault::new(&place, format!("must have {} arrays", counts.len())).got(given.len());
+            let fault =
+                Fault::new(&place, format!("must have {} arrays", counts.len())).got(given.len());
             check.faults.add(fault.hint(hint));
         }
         for (block, (items, count)) in given.iter().zip(counts).enumerate() {
             let Block::Each(items) = items else { continue };
             if items.len() != *count {
-                let fault =
-                    Fault::new(&place.index(block), format!("must have {count} items")).got(items.len());
+                let fault = Fault::new(&place.index(block), format!("must have {count} items"))
+                    .got(items.len());
                 check.faults.add(fault.hint(hint));
             }
         }
-        Column { key, given: true, blocks: (check.faults.0.len() == before).then_some(given) }
+        Column {
+            key,
+            given: true,
+            blocks: (check.faults.0.len() == before).then_some(given),
+        }
     }
 
     /// The item of a cell.
     pub fn get(&self, block: usize, index: usize) -> Option<&'r T> {
-        self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
+        self.blocks
+            .and_then(|blocks| blocks.get(block))
+            .and_then(|items| items.get(index))
     }
 
     /// Whether the column has no item for this block.
     pub fn absent(&self, block: usize) -> bool {
-        self.blocks.and_then(|blocks| blocks.get(block)).is_some_and(|items| *items == Block::Absent)
+        self.blocks
+            .and_then(|blocks| blocks.get(block))
+            .is_some_and(|items| *items == Block::Absent)
     }
 
     /// Calls `then` with the place of the item of a cell below `data`, the place of `cell_data`. If one item applies

@@ -30,7 +30,9 @@ pub(super) fn add(raw: &RawSpec, root: &Place<'_>, frame: &mut FrameSpec, check:
     let mut changed = Changed::default();
     for (index, (name, raw)) in raw.rails.iter().flat_map(|rails| &rails.0).enumerate() {
         let at = list.key(name);
-        let Some((profile, composite)) = rolled::carried(&raw.crane_rail, raw.composite, &at, check) else {
+        let Some((profile, composite)) =
+            rolled::carried(&raw.crane_rail, raw.composite, &at, check)
+        else {
             continue;
         };
         let mut part = None;
@@ -40,14 +42,20 @@ pub(super) fn add(raw: &RawSpec, root: &Place<'_>, frame: &mut FrameSpec, check:
                 continue;
             }
         }
-        let Some((_, rail)) = frame.rails.get_mut(index).filter(|_| is_sound) else { continue };
+        let Some((_, rail)) = frame.rails.get_mut(index).filter(|_| is_sound) else {
+            continue;
+        };
         let crane_rail = CraneRail {
             mass: rolled::from_si(profile.mass, Dimension::LINE_MASS, check.scale.to),
             height: profile.height * Length::Millimetre.in_units_of(check.scale.to.length),
             part,
         };
         if let Err((expected, hint)) = crane_rail.place(&mut frame.model, rail, &mut changed) {
-            check.faults.add(Fault::new(&at.key("composite"), expected).at_key().hint(hint));
+            check.faults.add(
+                Fault::new(&at.key("composite"), expected)
+                    .at_key()
+                    .hint(hint),
+            );
         }
     }
 }
@@ -64,10 +72,22 @@ struct Changed {
 impl Changed {
     /// Index of a section with these properties, which is appended to the model if no rail has made it before.
     fn index_of(&mut self, model: &mut Model, section: CrossSection) -> usize {
-        let CrossSection { e, g, area, iy, iz, j, shear_y, shear_z, mass } = section;
+        let CrossSection {
+            e,
+            g,
+            area,
+            iy,
+            iz,
+            j,
+            shear_y,
+            shear_z,
+            mass,
+        } = section;
         // no shear area is 0, so that 0 stands for one that is absent
         let shear = [shear_y, shear_z].map(Option::unwrap_or_default);
-        let bits = [e, g, area, iy, iz, j, shear[0], shear[1], mass].map(f64::to_bits).to_vec();
+        let bits = [e, g, area, iy, iz, j, shear[0], shear[1], mass]
+            .map(f64::to_bits)
+            .to_vec();
         *self.sections.entry(bits).or_insert_with(|| {
             model.sections.push(section);
             model.sections.len() - 1
@@ -90,10 +110,19 @@ struct CraneRail {
 
 impl CraneRail {
     /// Places the rail on the segments of `rail`.
-    fn place(&self, model: &mut Model, rail: &mut Rail, changed: &mut Changed) -> Result<(), Unmet> {
-        let Some(along) = unit(rail.axis) else { return Ok(()) };
+    fn place(
+        &self,
+        model: &mut Model,
+        rail: &mut Rail,
+        changed: &mut Changed,
+    ) -> Result<(), Unmet> {
+        let Some(along) = unit(rail.axis) else {
+            return Ok(());
+        };
         let lift = dot(model.up, along);
-        let Some(up) = unit(minus(model.up, along.map(|part| part * lift))) else { return Ok(()) };
+        let Some(up) = unit(minus(model.up, along.map(|part| part * lift))) else {
+            return Ok(());
+        };
         let mut members = BTreeSet::new();
         for segment in &mut rail.segments {
             let member = segment.member;
@@ -102,7 +131,13 @@ impl CraneRail {
                 let mut section = model.sections[model.members[member].section];
                 if let Some((part, centroid)) = &self.part {
                     let taken = !changed.combined.insert(member);
-                    let carrier = Carrier { axis, along, up, offset: segment.offset, taken };
+                    let carrier = Carrier {
+                        axis,
+                        along,
+                        up,
+                        offset: segment.offset,
+                        taken,
+                    };
                     section = carrier.with_rail(model, member, part, *centroid)?;
                 }
                 section.mass += self.mass * axis.map_or(1.0, |axis| dot(axis, along).abs());
@@ -119,7 +154,11 @@ fn axis_of(model: &Model, member: usize) -> Option<[f64; 3]> {
     let member = &model.members[member];
     let [a, b] = [0, 1].map(|end| {
         let (point, offset) = (model.points[member.points[end]], member.offsets[end]);
-        [point[0] + offset[0], point[1] + offset[1], point[2] + offset[2]]
+        [
+            point[0] + offset[0],
+            point[1] + offset[1],
+            point[2] + offset[2],
+        ]
     });
     unit(minus(b, a))
 }
@@ -157,26 +196,51 @@ impl Carrier {
             return Err(("a member can be a plane section with one rail only", hint));
         }
         let Some(axis) = self.axis.filter(|axis| parallel(*axis, self.along)) else {
-            return Err(("the members of a composite rail must be parallel to it", hint));
+            return Err((
+                "the members of a composite rail must be parallel to it",
+                hint,
+            ));
         };
         let height = dot(self.offset, self.up);
-        if height < 0.0 || dot(self.offset, cross(self.along, self.up)).abs() > IN_PLANE * (height + centroid)
+        if height < 0.0
+            || dot(self.offset, cross(self.along, self.up)).abs() > IN_PLANE * (height + centroid)
         {
-            return Err(("a composite rail must lie above the axes of its members", hint));
+            return Err((
+                "a composite rail must lie above the axes of its members",
+                hint,
+            ));
         }
         // the component of `orientation` normal to the member is local y
         let normal = cross(axis, own.orientation);
         let is_y_up = parallel(cross(normal, axis), self.up) && length(normal) > 0.0;
         let is_z_up = parallel(normal, self.up) && length(normal) > 0.0;
         if !is_y_up && !is_z_up {
-            return Err(("a local axis of the members of a composite rail must be upright", hint));
+            return Err((
+                "a local axis of the members of a composite rail must be upright",
+                hint,
+            ));
         }
-        let [i_vertical, i_lateral] =
-            if is_y_up { [section.iz, section.iy] } else { [section.iy, section.iz] };
-        let whole = PlaneSection { area: section.area, i_vertical, i_lateral };
+        let [i_vertical, i_lateral] = if is_y_up {
+            [section.iz, section.iy]
+        } else {
+            [section.iy, section.iz]
+        };
+        let whole = PlaneSection {
+            area: section.area,
+            i_vertical,
+            i_lateral,
+        };
         let (whole, _) = whole.with_rail(rail, height + centroid);
-        let [iz, iy] =
-            if is_y_up { [whole.i_vertical, whole.i_lateral] } else { [whole.i_lateral, whole.i_vertical] };
-        Ok(CrossSection { area: whole.area, iz, iy, ..section })
+        let [iz, iy] = if is_y_up {
+            [whole.i_vertical, whole.i_lateral]
+        } else {
+            [whole.i_lateral, whole.i_vertical]
+        };
+        Ok(CrossSection {
+            area: whole.area,
+            iz,
+            iy,
+            ..section
+        })
     }
 }

@@ -78,7 +78,10 @@ pub const SHAPES: [(&str, usize); 19] = [
 /// Number of dimensions of a shape; `None` if the shape is unknown.
 #[must_use]
 pub fn dimensions(shape: &str) -> Option<usize> {
-    SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, count)| *count)
+    SHAPES
+        .iter()
+        .find(|(name, _)| *name == shape)
+        .map(|(_, count)| *count)
 }
 
 /// A rectangular wall: its extent (from, to) along y and z.
@@ -91,7 +94,10 @@ struct Wall {
 impl Wall {
     /// The wall with this height and width, whose lower edge is at y and whose left edge is at z.
     fn new(y: f64, height: f64, z: f64, width: f64) -> Wall {
-        Wall { y: [y, y + height], z: [z, z + width] }
+        Wall {
+            y: [y, y + height],
+            z: [z, z + width],
+        }
     }
 
     fn sides(&self) -> [f64; 2] {
@@ -120,8 +126,17 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
     let circle = |r: f64, inner: f64, k: f64| {
         // a negative inner radius would be squared and treated as a positive one
         let inner = if inner < 0.0 { r } else { inner };
-        let [two, four] = [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
-        Properties { area: two, i1: four / 4.0, i2: four / 4.0, turn: 0.0, j: four / 2.0, k1: k, k2: k }
+        let [two, four] =
+            [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
+        Properties {
+            area: two,
+            i1: four / 4.0,
+            i2: four / 4.0,
+            turn: 0.0,
+            j: four / 2.0,
+            k1: k,
+            k2: k,
+        }
     };
     let found = match (shape, d) {
         ("ROD", &[r]) => circle(r, 0.0, 0.9),
@@ -143,10 +158,16 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
             let t = 0.5 * walls;
             of_drawing(&turned(flanged(inner + walls, [h; 2], web, [t; 2])))?
         }
-        ("T", &[b, h, flange, web]) | ("T2", &[b, h, flange, web]) => of_drawing(&tee(b, h, flange, web))?,
-        ("T1", &[h, reach, flange, web]) => of_drawing(&turned(tee(h, reach + flange, flange, web)))?,
+        ("T", &[b, h, flange, web]) | ("T2", &[b, h, flange, web]) => {
+            of_drawing(&tee(b, h, flange, web))?
+        }
+        ("T1", &[h, reach, flange, web]) => {
+            of_drawing(&turned(tee(h, reach + flange, flange, web)))?
+        }
         ("CHAN", &[b, h, web, flange]) => of_drawing(&channel(b, h, web, flange))?,
-        ("CHAN1", &[reach, web, inner, h]) => of_drawing(&channel(reach + web, h, web, 0.5 * (h - inner)))?,
+        ("CHAN1", &[reach, web, inner, h]) => {
+            of_drawing(&channel(reach + web, h, web, 0.5 * (h - inner)))?
+        }
         ("CHAN2", &[leg, web, h, b]) => of_drawing(&turned(channel(h, b, web, leg)))?,
         ("CROSS", &[reach, upright, h, level]) => of_drawing(&crossed(reach, upright, h, level))?,
         ("HAT", &[h, t, top, brim]) => of_drawing(&hat(h, t, top, brim))?,
@@ -155,7 +176,10 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
         _ => return Err(ShapeError::Unknown),
     };
     let numbers = [found.area, found.i1, found.i2, found.j, found.k1, found.k2];
-    if numbers.iter().all(|value| value.is_finite() && *value > 0.0) {
+    if numbers
+        .iter()
+        .all(|value| value.is_finite() && *value > 0.0)
+    {
         Ok(found)
     } else {
         Err(ShapeError::Dimensions)
@@ -165,13 +189,24 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
 /// Area and second moments of the walls about their common centroid.
 fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
     // a wall with a negative side does not fit between the others
-    if drawing.walls.iter().flat_map(Wall::sides).any(|side| side.is_nan() || side <= 0.0) {
+    if drawing
+        .walls
+        .iter()
+        .flat_map(Wall::sides)
+        .any(|side| side.is_nan() || side <= 0.0)
+    {
         return Err(ShapeError::Dimensions);
     }
     let area: f64 = drawing.walls.iter().map(Wall::area).sum();
     let middle = |range: [f64; 2]| 0.5 * (range[0] + range[1]);
-    let centre = [|wall: &Wall| wall.y, |wall: &Wall| wall.z]
-        .map(|of| drawing.walls.iter().map(|wall| wall.area() * middle(of(wall))).sum::<f64>() / area);
+    let centre = [|wall: &Wall| wall.y, |wall: &Wall| wall.z].map(|of| {
+        drawing
+            .walls
+            .iter()
+            .map(|wall| wall.area() * middle(of(wall)))
+            .sum::<f64>()
+            / area
+    });
     let (mut i1, mut i2, mut i12) = (0.0, 0.0, 0.0);
     for wall in &drawing.walls {
         let [h, b] = wall.sides();
@@ -181,21 +216,47 @@ fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
         i12 += b * h * y * z;
     }
     let [k1, k2] = drawing.shear.map(|shear| shear / area);
-    let plain = Properties { area, i1, i2, turn: 0.0, j: drawing.j, k1, k2 };
+    let plain = Properties {
+        area,
+        i1,
+        i2,
+        turn: 0.0,
+        j: drawing.j,
+        k1,
+        k2,
+    };
     if i12.abs() <= 1e-9 * (i1 * i2).sqrt() {
         return Ok(plain);
     }
     let (mean, radius) = (0.5 * (i1 + i2), (0.5 * (i1 - i2)).hypot(i12));
     let turn = 0.5 * (2.0 * i12).atan2(i1 - i2);
     let k = 0.5 * (k1 + k2);
-    Ok(Properties { i1: mean + radius, i2: mean - radius, turn, k1: k, k2: k, ..plain })
+    Ok(Properties {
+        i1: mean + radius,
+        i2: mean - radius,
+        turn,
+        k1: k,
+        k2: k,
+        ..plain
+    })
 }
 
 /// Exchanges y and z.
 fn turned(drawing: Drawing) -> Drawing {
-    let walls = drawing.walls.iter().map(|wall| Wall { y: wall.z, z: wall.y }).collect();
+    let walls = drawing
+        .walls
+        .iter()
+        .map(|wall| Wall {
+            y: wall.z,
+            z: wall.y,
+        })
+        .collect();
     let [y, z] = drawing.shear;
-    Drawing { walls, shear: [z, y], j: drawing.j }
+    Drawing {
+        walls,
+        shear: [z, y],
+        j: drawing.j,
+    }
 }
 
 /// A solid rectangle.
@@ -203,7 +264,11 @@ fn bar(b: f64, h: f64) -> Drawing {
     let [long, short] = [b.max(h), b.min(h)];
     let ratio = short / long;
     let j = long * short.powi(3) * (1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio.powi(4) / 12.0));
-    Drawing { walls: vec![Wall::new(0.0, h, 0.0, b)], shear: [5.0 / 6.0 * b * h; 2], j }
+    Drawing {
+        walls: vec![Wall::new(0.0, h, 0.0, b)],
+        shear: [5.0 / 6.0 * b * h; 2],
+        j,
+    }
 }
 
 /// A box of two horizontal walls (lower, upper) over the full width and two vertical ones (left, right) between them.
@@ -217,12 +282,23 @@ fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
         // the hollow space, which must have positive sides
         Wall::new(level[0], clear[0], upright[0], clear[1]),
     ];
-    let [height, width] = [h - 0.5 * (level[0] + level[1]), b - 0.5 * (upright[0] + upright[1])];
-    let around = height * (1.0 / upright[0] + 1.0 / upright[1]) + width * (1.0 / level[0] + 1.0 / level[1]);
-    let shear = [clear[0] * (upright[0] + upright[1]), clear[1] * (level[0] + level[1])];
+    let [height, width] = [
+        h - 0.5 * (level[0] + level[1]),
+        b - 0.5 * (upright[0] + upright[1]),
+    ];
+    let around =
+        height * (1.0 / upright[0] + 1.0 / upright[1]) + width * (1.0 / level[0] + 1.0 / level[1]);
+    let shear = [
+        clear[0] * (upright[0] + upright[1]),
+        clear[1] * (level[0] + level[1]),
+    ];
     let fits = walls[4].sides().iter().all(|side| *side > 0.0);
     let walls = if fits { walls[..4].to_vec() } else { walls };
-    Drawing { walls, shear, j: 4.0 * (height * width).powi(2) / around }
+    Drawing {
+        walls,
+        shear,
+        j: 4.0 * (height * width).powi(2) / around,
+    }
 }
 
 /// A web between a lower and an upper flange, symmetric about a vertical line.
@@ -235,16 +311,28 @@ fn flanged(h: f64, width: [f64; 2], web: f64, flange: [f64; 2]) -> Drawing {
     ];
     let flanges = width[0] * flange[0] + width[1] * flange[1];
     let depth = h - 0.5 * (flange[0] + flange[1]);
-    let j = (width[0] * flange[0].powi(3) + width[1] * flange[1].powi(3) + depth * web.powi(3)) / 3.0;
-    Drawing { walls, shear: [clear * web, 5.0 / 6.0 * flanges], j }
+    let j =
+        (width[0] * flange[0].powi(3) + width[1] * flange[1].powi(3) + depth * web.powi(3)) / 3.0;
+    Drawing {
+        walls,
+        shear: [clear * web, 5.0 / 6.0 * flanges],
+        j,
+    }
 }
 
 /// A flange perpendicular to the end of a web.
 fn tee(b: f64, h: f64, flange: f64, web: f64) -> Drawing {
     let clear = h - flange;
-    let walls = vec![Wall::new(0.0, clear, -0.5 * web, web), Wall::new(clear, flange, -0.5 * b, b)];
+    let walls = vec![
+        Wall::new(0.0, clear, -0.5 * web, web),
+        Wall::new(clear, flange, -0.5 * b, b),
+    ];
     let j = (b * flange.powi(3) + (h - 0.5 * flange) * web.powi(3)) / 3.0;
-    Drawing { walls, shear: [clear * web, 5.0 / 6.0 * b * flange], j }
+    Drawing {
+        walls,
+        shear: [clear * web, 5.0 / 6.0 * b * flange],
+        j,
+    }
 }
 
 /// A vertical web with two flanges on the same side.
@@ -259,7 +347,11 @@ fn channel(b: f64, h: f64, web: f64, flange: f64) -> Drawing {
     let fits = clear > 0.0;
     let walls = if fits { walls[..3].to_vec() } else { walls };
     let j = (2.0 * (b - 0.5 * web) * flange.powi(3) + (h - flange) * web.powi(3)) / 3.0;
-    Drawing { walls, shear: [clear * web, 2.0 * reach * flange], j }
+    Drawing {
+        walls,
+        shear: [clear * web, 2.0 * reach * flange],
+        j,
+    }
 }
 
 /// A vertical bar with two horizontal arms.
@@ -271,7 +363,11 @@ fn crossed(reach: f64, upright: f64, h: f64, level: f64) -> Drawing {
         Wall::new(low, level, upright, arm),
     ];
     let fits = low >= 0.0;
-    let walls = if fits { walls } else { vec![Wall::new(0.0, low, 0.0, arm)] };
+    let walls = if fits {
+        walls
+    } else {
+        vec![Wall::new(0.0, low, 0.0, arm)]
+    };
     let j = (h * upright.powi(3) + reach * level.powi(3)) / 3.0;
     let shear = [h * upright, (reach + upright) * level].map(|area| 5.0 / 6.0 * area);
     Drawing { walls, shear, j }
@@ -288,9 +384,17 @@ fn hat(h: f64, t: f64, top: f64, brim: f64) -> Drawing {
         Wall::new(0.0, t, top - t, brim + t),
     ];
     // a wall of negative width marks a hat without a hollow
-    let walls = if inner > 0.0 && brim >= 0.0 { walls } else { vec![Wall::new(0.0, -1.0, 0.0, -1.0)] };
+    let walls = if inner > 0.0 && brim >= 0.0 {
+        walls
+    } else {
+        vec![Wall::new(0.0, -1.0, 0.0, -1.0)]
+    };
     let j = ((top - t) + 2.0 * (h - t) + 2.0 * (brim + 0.5 * t)) * t.powi(3) / 3.0;
-    Drawing { walls, shear: [2.0 * clear * t, (inner + 2.0 * brim) * t], j }
+    Drawing {
+        walls,
+        shear: [2.0 * clear * t, (inner + 2.0 * brim) * t],
+        j,
+    }
 }
 
 /// A horizontal leg below and a vertical leg at its left end.
@@ -302,7 +406,11 @@ fn angle(b: f64, h: f64, level: f64, upright: f64) -> Drawing {
         Wall::new(level, clear, 0.0, upright),
     ];
     let j = ((b - 0.5 * upright) * level.powi(3) + (h - 0.5 * level) * upright.powi(3)) / 3.0;
-    Drawing { walls, shear: [clear * upright, reach * level], j }
+    Drawing {
+        walls,
+        shear: [clear * upright, reach * level],
+        j,
+    }
 }
 
 /// A vertical web with an upper flange to the left and a lower flange to the right.
@@ -314,9 +422,17 @@ fn zed(reach: f64, web: f64, inner: f64, h: f64) -> Drawing {
         Wall::new(0.0, flange, web, reach),
     ];
     let fits = inner > 0.0;
-    let walls = if fits { walls } else { vec![Wall::new(0.0, inner, 0.0, web)] };
+    let walls = if fits {
+        walls
+    } else {
+        vec![Wall::new(0.0, inner, 0.0, web)]
+    };
     let j = (2.0 * (reach + 0.5 * web) * flange.powi(3) + (h - flange) * web.powi(3)) / 3.0;
-    Drawing { walls, shear: [inner * web, 2.0 * reach * flange], j }
+    Drawing {
+        walls,
+        shear: [inner * web, 2.0 * reach * flange],
+        j,
+    }
 }
 
 #[cfg(test)]

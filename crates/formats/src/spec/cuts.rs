@@ -61,14 +61,19 @@ pub(super) fn read_girder(
     each(raw, root, check, |raw, at, name, check| {
         for (key, given) in [("cell", raw.cell.is_some()), ("at", raw.at.is_some())] {
             if given {
-                let fault =
-                    Fault::new(&at.key(key), format!("`{key}` is a key of the general form")).at_key();
-                check.faults.add(
-                    fault.hint("in the short form its position is `x`, measured from the first support"),
-                );
+                let fault = Fault::new(
+                    &at.key(key),
+                    format!("`{key}` is a key of the general form"),
+                )
+                .at_key();
+                check.faults.add(fault.hint(
+                    "in the short form its position is `x`, measured from the first support",
+                ));
             }
         }
-        let Some(&given) = check.faults.require(&raw.x, at, "x") else { return };
+        let Some(&given) = check.faults.require(&raw.x, at, "x") else {
+            return;
+        };
         let x = check.number(given, &at.key("x"), Dimension::LENGTH);
         let (first, last) = (bounds[0], bounds[bounds.len() - 1]);
         let slack = 1e-12 * (last - first);
@@ -79,13 +84,21 @@ pub(super) fn read_girder(
             let factor = check.scale.factor(Dimension::LENGTH);
             let [first, last] = [first, last].map(|end| number(end / factor));
             let expected = format!("must be on the girder, from {first} to {last}");
-            check.faults.add(Fault::new(&at.key("x"), expected).got(number(given)));
+            check
+                .faults
+                .add(Fault::new(&at.key("x"), expected).got(number(given)));
             return;
         }
         let members = bounds.len() - 1;
         let member = bounds[1..members].partition_point(|bound| *bound <= x + slack);
         let place = ((x - bounds[member]) / (bounds[member + 1] - bounds[member])).clamp(0.0, 1.0);
-        cuts.push(Cut { name, place_in_spec: CutPlace::Along(x), member, place, points: points.to_vec() });
+        cuts.push(Cut {
+            name,
+            place_in_spec: CutPlace::Along(x),
+            member,
+            place,
+            points: points.to_vec(),
+        });
     });
     cuts
 }
@@ -102,17 +115,19 @@ pub(super) fn read_frame(
     each(raw, root, check, |raw, at, name, check| {
         if raw.x.is_some() {
             let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
-            check
-                .faults
-                .add(fault.hint(
-                    "in the general form its position is `at`, a fraction of the length of its `cell`",
-                ));
+            check.faults.add(fault.hint(
+                "in the general form its position is `at`, a fraction of the length of its `cell`",
+            ));
         }
         let cell = check.faults.require(&raw.cell, at, "cell").copied();
         let place = check.faults.require(&raw.at, at, "at").copied();
         if let Some(place) = place.filter(|place| !(0.0..=1.0).contains(place)) {
-            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place)).of_value();
-            check.faults.add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
+            let fault = Fault::new(&at.key("at"), "must be from 0 to 1")
+                .got(number(place))
+                .of_value();
+            check
+                .faults
+                .add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
         if let (Some(cell), Some(member), Some(place)) = (cell, member, place) {
@@ -139,10 +154,14 @@ fn each(
     let mut names: Vec<&str> = Vec::new();
     for (index, raw) in raw.effects.iter().flatten().enumerate() {
         let at = list.index(index);
-        let name = check.faults.require(&raw.name, &at, "name").map(String::as_str).unwrap_or_default();
+        let name = check
+            .faults
+            .require(&raw.name, &at, "name")
+            .map(String::as_str)
+            .unwrap_or_default();
         if raw.name.is_some() && (name.is_empty() || names.contains(&name)) {
-            let fault =
-                Fault::new(&at.key("name"), "must differ from the other names").got(format!("\"{name}\""));
+            let fault = Fault::new(&at.key("name"), "must differ from the other names")
+                .got(format!("\"{name}\""));
             check.faults.add(fault);
         }
         names.push(name);

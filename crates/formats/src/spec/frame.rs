@@ -1,6 +1,8 @@
 //! The general form of a spec: points, members, supports and springs, links, masses, and rails.
 
-use fea::{BeamTheory, Dof, GroundSpring, Member, Model, PointMass, RailSegment, RigidLink, Support, Taper};
+use fea::{
+    BeamTheory, Dof, GroundSpring, Member, Model, PointMass, RailSegment, RigidLink, Support, Taper,
+};
 
 use super::cuts::{self, Cut};
 use super::outline::MemberOutline;
@@ -31,18 +33,37 @@ pub(super) fn read(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> (FrameSpec, Vec<Cut>, Option<SpecPreload>) {
-    let mut model = Model { theory, up: raw.up.unwrap_or(UP), ..Model::default() };
+    let mut model = Model {
+        theory,
+        up: raw.up.unwrap_or(UP),
+        ..Model::default()
+    };
     if length(model.up) == 0.0 {
-        check.faults.add(Fault::new(&root.key("up"), "must not be zero"));
+        check
+            .faults
+            .add(Fault::new(&root.key("up"), "must not be zero"));
     }
     let place = root.key("points");
-    for (index, point) in check.faults.require(&raw.points, root, "points").into_iter().flatten().enumerate()
+    for (index, point) in check
+        .faults
+        .require(&raw.points, root, "points")
+        .into_iter()
+        .flatten()
+        .enumerate()
     {
-        model.points.push(check.vector(*point, &place.index(index), Dimension::LENGTH));
+        model
+            .points
+            .push(check.vector(*point, &place.index(index), Dimension::LENGTH));
     }
     if raw.stations.is_some() {
-        let fault = Fault::new(&root.key("stations"), "`stations` is a key of the short form").at_key();
-        check.faults.add(fault.hint("in the general form each rail has its own `stations`"));
+        let fault = Fault::new(
+            &root.key("stations"),
+            "`stations` is a key of the short form",
+        )
+        .at_key();
+        check
+            .faults
+            .add(fault.hint("in the general form each rail has its own `stations`"));
     }
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &sections, &mut model, check);
@@ -50,7 +71,10 @@ pub(super) fn read(
         sections::check_complete(raw, root, &model, &cells.tapers, check);
     }
     let point_sets = read_sets(raw, root, &model, check);
-    let known = Points { count: model.points.len(), sets: &point_sets };
+    let known = Points {
+        count: model.points.len(),
+        sets: &point_sets,
+    };
     let supports = read_supports(raw, root, &known, &mut model, check);
     read_springs(raw, root, &known, &mut model, check);
     read_links(raw, root, &known, &mut model, check);
@@ -61,8 +85,15 @@ pub(super) fn read(
     // a tapered cell has no section of the file between its ends, and therefore no stress points
     let points_of = |member: usize| -> Vec<StressPoint> {
         let uniform = cells.tapers.get(member).is_some_and(Option::is_none);
-        let section = model.members.get(member).map(|member| member.section).filter(|_| uniform);
-        section.and_then(|section| points.get(section)).cloned().unwrap_or_default()
+        let section = model
+            .members
+            .get(member)
+            .map(|member| member.section)
+            .filter(|_| uniform);
+        section
+            .and_then(|section| points.get(section))
+            .cloned()
+            .unwrap_or_default()
     };
     let cuts = cuts::read_frame(raw, &cells, &points_of, root, check);
     let points = model.points.len();
@@ -81,7 +112,8 @@ pub(super) fn read(
     };
     let (mut frame, cuts) = if cells.complete {
         let shapes = shapes(raw, &frame.model, &cells.tapers, check);
-        let cut = |preload: &SpecPreload| preload::cut_for_weight(&frame.model, &cells.tapers, preload);
+        let cut =
+            |preload: &SpecPreload| preload::cut_for_weight(&frame.model, &cells.tapers, preload);
         let tapers = preload.as_ref().map_or_else(|| cells.tapers.clone(), cut);
         in_parts(frame, cuts, &tapers, &shapes)
     } else {
@@ -112,7 +144,11 @@ fn shapes(
     tapers: &[Option<Taper>],
     check: &Check<'_>,
 ) -> Vec<Option<ShapeTaper>> {
-    let section = |index: usize| raw.sections.as_ref().and_then(|sections| sections.get(index));
+    let section = |index: usize| {
+        raw.sections
+            .as_ref()
+            .and_then(|sections| sections.get(index))
+    };
     let between = |(member, taper): (&Member, &Option<Taper>)| {
         let (a, b) = section(member.section).zip(section((*taper)?.section))?;
         ShapeTaper::between(a, b, &check.scale)
@@ -143,7 +179,9 @@ fn in_parts(
         rail.segments = segments
             .iter()
             .flat_map(|segment| {
-                parts[segment.member].clone().map(|member| RailSegment { member, ..*segment })
+                parts[segment.member]
+                    .clone()
+                    .map(|member| RailSegment { member, ..*segment })
             })
             .collect();
     }
@@ -155,7 +193,12 @@ fn in_parts(
         cut.member = own.start + part;
         cut.place = (along - part as f64).min(1.0);
     }
-    let cells = frame.cells.iter().zip(&parts).flat_map(|(cell, own)| own.clone().map(|_| *cell)).collect();
+    let cells = frame
+        .cells
+        .iter()
+        .zip(&parts)
+        .flat_map(|(cell, own)| own.clone().map(|_| *cell))
+        .collect();
     let member_outlines = frame
         .member_outlines
         .iter()
@@ -163,12 +206,23 @@ fn in_parts(
         .flat_map(|(own, parts)| {
             let count = parts.len() as f64;
             (0..parts.len()).map(move |part| MemberOutline {
-                taper: own.taper.map(|(other, _)| (other, [part, part + 1].map(|k| k as f64 / count))),
+                taper: own
+                    .taper
+                    .map(|(other, _)| (other, [part, part + 1].map(|k| k as f64 / count))),
                 ..*own
             })
         })
         .collect();
-    (FrameSpec { model, rails, cells, member_outlines, ..frame }, cuts)
+    (
+        FrameSpec {
+            model,
+            rails,
+            cells,
+            member_outlines,
+            ..frame
+        },
+        cuts,
+    )
 }
 
 /// Reads the supports. The result contains, for each support of the model, the index of the corresponding support in
@@ -186,11 +240,18 @@ fn read_supports(
         let at = list.index(index);
         let supported = known.all(&raw.point, "point", &at, check);
         let place = at.key("fix");
-        let fix =
-            check.faults.require(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
+        let fix = check
+            .faults
+            .require(&raw.fix, &at, "fix")
+            .map(|words| words.as_slice())
+            .unwrap_or_default();
         let fix = dofs(fix, &place, check);
         given.extend(supported.iter().map(|_| index));
-        model.supports.extend(supported.into_iter().map(|point| Support { point, fixed: fix }));
+        model.supports.extend(
+            supported
+                .into_iter()
+                .map(|point| Support { point, fixed: fix }),
+        );
     }
     given
 }
@@ -211,14 +272,28 @@ fn read_springs(
             .require(&raw.dof, &at, "dof")
             .and_then(|word| check.faults.one_of(word, &at.key("dof"), &DOF_WORDS));
         let rotational = matches!(dof, Some(Dof::Rx | Dof::Ry | Dof::Rz));
-        let dimension = if rotational { Dimension::MOMENT } else { Dimension::STIFFNESS };
+        let dimension = if rotational {
+            Dimension::MOMENT
+        } else {
+            Dimension::STIFFNESS
+        };
         let stiffness = check.required_positive(raw.k, &at, "k", dimension, "stiffness to ground");
         let both = point.zip(dof);
-        model.springs.extend(both.map(|(point, dof)| GroundSpring { point, dof, stiffness }));
+        model.springs.extend(both.map(|(point, dof)| GroundSpring {
+            point,
+            dof,
+            stiffness,
+        }));
     }
 }
 
-fn read_links(raw: &RawSpec, root: &Place<'_>, known: &Points<'_>, model: &mut Model, check: &mut Check<'_>) {
+fn read_links(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    known: &Points<'_>,
+    model: &mut Model,
+    check: &mut Check<'_>,
+) {
     let list = root.key("links");
     for (index, raw) in raw.links.iter().flatten().enumerate() {
         let at = list.index(index);
@@ -226,9 +301,10 @@ fn read_links(raw: &RawSpec, root: &Place<'_>, known: &Points<'_>, model: &mut M
         let to = known.one(&raw.to, "to", &at, check);
         if let Some((from, to)) = from.zip(to) {
             if from == to {
-                check
-                    .faults
-                    .add(Fault::new(&at, "a link must join two points").got(format!("point {from} twice")));
+                check.faults.add(
+                    Fault::new(&at, "a link must join two points")
+                        .got(format!("point {from} twice")),
+                );
             }
             model.links.push(RigidLink { from, to });
         }
@@ -255,8 +331,17 @@ fn read_masses(
         for (axis, value) in raw.inertia.unwrap_or_default().into_iter().enumerate() {
             inertia[axis] = check.not_negative(value, &place.index(axis), Dimension::INERTIA, "");
         }
-        let offset = check.vector(raw.offset.unwrap_or_default(), &at.key("offset"), Dimension::LENGTH);
-        model.masses.extend(point.map(|point| PointMass { point, mass, inertia, offset }));
+        let offset = check.vector(
+            raw.offset.unwrap_or_default(),
+            &at.key("offset"),
+            Dimension::LENGTH,
+        );
+        model.masses.extend(point.map(|point| PointMass {
+            point,
+            mass,
+            inertia,
+            offset,
+        }));
     }
 }
 
@@ -272,7 +357,13 @@ fn read_sets(
     for (name, set) in sets.clone() {
         let at = place.key(name);
         for (index, point) in set.iter().enumerate() {
-            index_below(*point, model.points.len(), "points", &at.index(index), check);
+            index_below(
+                *point,
+                model.points.len(),
+                "points",
+                &at.index(index),
+                check,
+            );
         }
     }
     sets.cloned().collect()

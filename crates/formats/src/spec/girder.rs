@@ -34,17 +34,26 @@ pub(super) fn read(
     let ka_vertical = optional(raw.ka_vertical, "kA_vertical", Dimension::AREA);
     let ka_lateral = optional(raw.ka_lateral, "kA_lateral", Dimension::AREA);
     let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
-    let i_vertical = check.required_positive(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
+    let i_vertical = check.required_positive(
+        raw.i_vertical,
+        &at,
+        "I_vertical",
+        Dimension::SECOND_MOMENT,
+        "",
+    );
     let hint = "0 if the rail lies on the elastic axis";
     let height = raw.rail_height.unwrap_or_default();
     let rail_height = check.not_negative(height, &at.key("rail_height"), Dimension::LENGTH, hint);
     let mass_per_length = raw
         .mass_per_length
         .map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
-    let sheared = theory == BeamTheory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
+    let sheared =
+        theory == BeamTheory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
     if sheared && g.is_none() {
         let fault = Fault::new(&at, "missing key `G`");
-        check.faults.add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
+        check
+            .faults
+            .add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
     }
     let girder = Girder {
         stations: read_stations(stations, (&spans, overhangs), raw_range, root, check),
@@ -64,7 +73,9 @@ pub(super) fn read(
     };
     let [first, last] = range(&girder);
     if !(last - first).is_finite() {
-        check.faults.add(Fault::new(&at.key("spans"), "must have a finite sum"));
+        check
+            .faults
+            .add(Fault::new(&at.key("spans"), "must have a finite sum"));
     }
     girder
 }
@@ -75,9 +86,11 @@ fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<
     if let Some(given) = check.faults.require(&raw.spans, at, "spans") {
         let place = at.key("spans");
         if given.is_empty() {
-            check
-                .faults
-                .add(Fault::new(&place, "must have at least one span").got("an empty list").of_value());
+            check.faults.add(
+                Fault::new(&place, "must have at least one span")
+                    .got("an empty list")
+                    .of_value(),
+            );
         }
         check.items(given.len(), &SPANS, &place);
         for (index, span) in given.iter().enumerate() {
@@ -89,7 +102,8 @@ fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<
     let place = at.key("overhangs");
     for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
         let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
-        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
+        overhangs[index] =
+            check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
     }
     (spans, overhangs)
 }
@@ -134,12 +148,16 @@ fn read_stations(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<f64> {
-    let Some(given) = stations else { return default_stations(spans, overhangs) };
+    let Some(given) = stations else {
+        return default_stations(spans, overhangs);
+    };
     let place = root.key("stations");
     if given.is_empty() {
-        check
-            .faults
-            .add(Fault::new(&place, "must have at least one station").got("an empty list").of_value());
+        check.faults.add(
+            Fault::new(&place, "must have at least one station")
+                .got("an empty list")
+                .of_value(),
+        );
     }
     check.items(given.len(), &STATIONS, &place);
     check.faults.increasing(given, &place);
@@ -151,8 +169,11 @@ fn read_stations(
             let slack = 1e-12 * (last - first);
             if station < first - slack || station > last + slack {
                 let expected = format!("must be on the rail, from {first} to {last}");
-                let hint = "stations are coordinates from the first support, and may be on the overhangs";
-                check.faults.add(Fault::new(&item, expected).got(number(station)).hint(hint));
+                let hint =
+                    "stations are coordinates from the first support, and may be on the overhangs";
+                check
+                    .faults
+                    .add(Fault::new(&item, expected).got(number(station)).hint(hint));
             }
             station = station.max(first).min(last);
         }

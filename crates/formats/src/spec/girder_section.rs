@@ -16,9 +16,12 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
     let mut girder = raw.numbers();
     let units = check.scale.from;
     if let (Some(_), Some(_)) = (&raw.section, &raw.shape) {
-        let fault =
-            Fault::new(&at.key("shape"), "`shape` and `section` exclude each other").at_key().of_value();
-        check.faults.add(fault.hint("a rolled section has a name, a built-up one dimensions"));
+        let fault = Fault::new(&at.key("shape"), "`shape` and `section` exclude each other")
+            .at_key()
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("a rolled section has a name, a built-up one dimensions"));
     }
     match (&raw.section, &raw.shape) {
         (Some(name), _) => {
@@ -27,9 +30,15 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
             // the fault of an unknown name has been reported; placeholders prevent reports that properties are missing
             let found = found.map_or([1.0; 6], |section| rolled::in_file_units(section, units));
             check_density(raw, at, check);
-            girder.e.get_or_insert(from_si(STEEL_YOUNG, Dimension::STRESS, units));
-            girder.g.get_or_insert(from_si(STEEL_SHEAR, Dimension::STRESS, units));
-            girder.density.get_or_insert(from_si(STEEL_DENSITY, Dimension::DENSITY, units));
+            girder
+                .e
+                .get_or_insert(from_si(STEEL_YOUNG, Dimension::STRESS, units));
+            girder
+                .g
+                .get_or_insert(from_si(STEEL_SHEAR, Dimension::STRESS, units));
+            girder
+                .density
+                .get_or_insert(from_si(STEEL_DENSITY, Dimension::DENSITY, units));
             fill(&mut girder, found);
         }
         (None, Some(given)) => {
@@ -38,9 +47,12 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
             fill(&mut girder, found.unwrap_or([1.0; 6]));
         }
         (None, None) if raw.density.is_some() => {
-            let fault =
-                Fault::new(&at.key("density"), "`density` needs `section` or `shape`").at_key().of_value();
-            check.faults.add(fault.hint("a girder of numbers has `mass_per_length`"));
+            let fault = Fault::new(&at.key("density"), "`density` needs `section` or `shape`")
+                .at_key()
+                .of_value();
+            check
+                .faults
+                .add(fault.hint("a girder of numbers has `mass_per_length`"));
         }
         (None, None) => {}
     }
@@ -55,7 +67,12 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
 
 fn check_density(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) {
     if let Some(density) = raw.density {
-        check.positive(density, &at.key("density"), Dimension::DENSITY, "mass per volume");
+        check.positive(
+            density,
+            &at.key("density"),
+            Dimension::DENSITY,
+            "mass per volume",
+        );
     }
 }
 
@@ -77,29 +94,36 @@ fn fill(girder: &mut RawGirder, [area, iy, iz, j, asy, asz]: [f64; 6]) {
 ///
 /// Faults of the girder's own numbers are left to their check.
 fn combine(girder: &mut RawGirder, rail: &RailProfile, at: &Place<'_>, check: &mut Check<'_>) {
-    let Some((part, centroid)) = rolled::plane_section(rail, check.scale.from.length, at, check) else {
+    let Some((part, centroid)) = rolled::plane_section(rail, check.scale.from.length, at, check)
+    else {
         return;
     };
     if girder.rail_height.is_none() {
         let fault = Fault::new(at, "missing key `rail_height`").of_value();
-        check
-            .faults
-            .add(fault.hint(
-                "`composite` needs the height of the rail's base above the elastic axis of the girder",
-            ));
+        check.faults.add(fault.hint(
+            "`composite` needs the height of the rail's base above the elastic axis of the girder",
+        ));
     }
     let area = check.faults.require(&girder.area, at, "A").copied();
-    let (Some(height), Some(area), Some(i_vertical)) = (girder.rail_height, area, girder.i_vertical) else {
+    let (Some(height), Some(area), Some(i_vertical)) =
+        (girder.rail_height, area, girder.i_vertical)
+    else {
         return;
     };
     if height < 0.0 || [area, i_vertical].iter().any(|value| *value <= 0.0) {
         return;
     }
-    let own = PlaneSection { area, i_vertical, i_lateral: girder.i_lateral.unwrap_or_default() };
+    let own = PlaneSection {
+        area,
+        i_vertical,
+        i_lateral: girder.i_lateral.unwrap_or_default(),
+    };
     let (whole, _) = own.with_rail(&part, height + centroid);
     girder.area = Some(whole.area);
     girder.i_vertical = Some(whole.i_vertical);
-    girder.i_lateral = girder.i_lateral.map(|own| if own > 0.0 { whole.i_lateral } else { own });
+    girder.i_lateral = girder
+        .i_lateral
+        .map(|own| if own > 0.0 { whole.i_lateral } else { own });
 }
 
 /// Adds the height and the mass of a crane rail to a girder. Negative numbers are left to their check.

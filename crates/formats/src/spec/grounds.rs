@@ -26,15 +26,24 @@ impl Spec {
     pub fn supported_points(&self, model: &Model) -> Vec<SupportedPoint> {
         let mut all: Vec<SupportedPoint> = Vec::new();
         let supports = model.supports.iter().flat_map(|support| {
-            let fixed = Dof::ALL.into_iter().filter(|dof| support.fixed[*dof as usize]);
+            let fixed = Dof::ALL
+                .into_iter()
+                .filter(|dof| support.fixed[*dof as usize]);
             fixed.map(|dof| (support.point, dof))
         });
-        let springs = model.springs.iter().map(|spring| (spring.point, spring.dof));
+        let springs = model
+            .springs
+            .iter()
+            .map(|spring| (spring.point, spring.dof));
         for (point, dof) in supports.chain(springs) {
             match all.iter_mut().find(|ground| ground.point == point) {
                 Some(ground) if ground.dofs.contains(&dof) => {}
                 Some(ground) => ground.dofs.push(dof),
-                None => all.push(SupportedPoint { point, name: String::new(), dofs: vec![dof] }),
+                None => all.push(SupportedPoint {
+                    point,
+                    name: String::new(),
+                    dofs: vec![dof],
+                }),
             }
         }
         if let Form::Girder(_) = self.form {
@@ -43,7 +52,11 @@ impl Spec {
         for index in 0..all.len() {
             let name = self.ground_name(all[index].point, index);
             let taken = all[..index].iter().any(|ground| ground.name == name);
-            all[index].name = if taken { format!("point{}", all[index].point) } else { name };
+            all[index].name = if taken {
+                format!("point{}", all[index].point)
+            } else {
+                name
+            };
             all[index].dofs.sort();
         }
         all
@@ -51,18 +64,32 @@ impl Spec {
 
     /// Name of a point. `index` is its position among the supported points.
     fn ground_name(&self, point: usize, index: usize) -> String {
-        let Form::Frame(frame) = &self.form else { return format!("support{}", index + 1) };
-        let is_plain = |name: &str| {
-            !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
+        let Form::Frame(frame) = &self.form else {
+            return format!("support{}", index + 1);
         };
-        let sets =
-            || frame.point_sets.iter().filter(|(name, points)| is_plain(name) && points.contains(&point));
+        let is_plain = |name: &str| {
+            !name.is_empty()
+                && name
+                    .chars()
+                    .all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
+        };
+        let sets = || {
+            frame
+                .point_sets
+                .iter()
+                .filter(|(name, points)| is_plain(name) && points.contains(&point))
+        };
         // a set that contains only this point is the most specific name
-        let set = sets().find(|(_, points)| points.len() == 1).or_else(|| sets().next());
+        let set = sets()
+            .find(|(_, points)| points.len() == 1)
+            .or_else(|| sets().next());
         match set {
             Some((name, points)) if points.len() == 1 => name.clone(),
             Some((name, points)) => {
-                let number = points.iter().position(|known| *known == point).map_or(1, |at| at + 1);
+                let number = points
+                    .iter()
+                    .position(|known| *known == point)
+                    .map_or(1, |at| at + 1);
                 format!("{name}{number}")
             }
             None => format!("point{point}"),
@@ -78,7 +105,10 @@ impl Spec {
             (Form::Girder(_), Dof::Uy) => "vertical",
             (Form::Girder(_), Dof::Uz) => "lateral",
             (Form::Girder(_), Dof::Rx) => "twist",
-            _ => DOF_WORDS.iter().find(|(_, known)| *known == dof).map_or("", |(word, _)| word),
+            _ => DOF_WORDS
+                .iter()
+                .find(|(_, known)| *known == dof)
+                .map_or("", |(word, _)| word),
         }
     }
 }

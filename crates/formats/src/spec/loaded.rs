@@ -15,14 +15,18 @@ impl Spec {
     /// # Errors
     /// As [`fea::preloaded`], and those of [`Spec::model`].
     pub fn preloaded(&self) -> Result<Option<Arc<PreloadedState>>, fea::Error> {
-        let Some(preload) = &self.preload else { return Ok(None) };
+        let Some(preload) = &self.preload else {
+            return Ok(None);
+        };
         let (model, rails) = self.unloaded_model()?;
         preload.state(&model, &rails).map(Some)
     }
 
     /// Warnings about what the state of the preload leaves out, and about a small critical factor.
     pub(super) fn preload_warnings(&self) -> Vec<String> {
-        let Ok(Some(state)) = self.preloaded() else { return Vec::new() };
+        let Ok(Some(state)) = self.preloaded() else {
+            return Vec::new();
+        };
         let mut all = Vec::new();
         if let CriticalFactor::At(factor, mode) = &state.critical
             && *factor < SMALL_FACTOR
@@ -67,7 +71,9 @@ impl Spec {
 
     /// The loads of the preload in words.
     fn preload_words(&self) -> String {
-        let Some(preload) = &self.preload else { return String::new() };
+        let Some(preload) = &self.preload else {
+            return String::new();
+        };
         let mut words = Vec::new();
         if preload.weight {
             words.push("own weight".to_owned());
@@ -89,7 +95,11 @@ impl Spec {
         if most.between_ends {
             format!("{member} buckles between its ends")
         } else {
-            format!("{} moves in {}, by the axial force of {member}", self.point_words(most.point), most.dof)
+            format!(
+                "{} moves in {}, by the axial force of {member}",
+                self.point_words(most.point),
+                most.dof
+            )
         }
     }
 

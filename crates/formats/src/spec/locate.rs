@@ -41,7 +41,13 @@ impl Spec {
                 self.point_words(*point),
                 meaning(*dof)
             )),
-            Error::IllConditioned { condition, bound, asked, point, dof } => SolveError::NoSolution(format!(
+            Error::IllConditioned {
+                condition,
+                bound,
+                asked,
+                point,
+                dof,
+            } => SolveError::NoSolution(format!(
                 "{}: the condition {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy of \
                      {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or join the \
                      shortest members, or request less with --accuracy",
@@ -62,7 +68,11 @@ impl Spec {
                 number(rounded(*factor, 4)),
                 self.buckling_words(mode)
             )),
-            Error::Memory { quantity, bytes, most } => SolveError::NoSolution(format!(
+            Error::Memory {
+                quantity,
+                bytes,
+                most,
+            } => SolveError::NoSolution(format!(
                 "{}: the {quantity} would need {:.1} GB of memory, more than the permitted {:.1} GB  hint: {}",
                 source.name,
                 *bytes as f64 / 1e9,
@@ -101,16 +111,20 @@ impl Spec {
             (Form::Frame(_), ModelEntry::Up) => Path(vec![key("up")]),
             (Form::Frame(_), ModelEntry::Point(index)) => list("points", index),
             (Form::Frame(_), ModelEntry::Section(index)) => list("sections", index),
-            (Form::Frame(frame), ModelEntry::Support(index)) => {
-                list("supports", frame.supports.get(index).copied().unwrap_or(index))
-            }
+            (Form::Frame(frame), ModelEntry::Support(index)) => list(
+                "supports",
+                frame.supports.get(index).copied().unwrap_or(index),
+            ),
             (Form::Frame(_), ModelEntry::Spring(index)) => list("springs", index),
             (Form::Frame(_), ModelEntry::Link(index)) => list("links", index),
             (Form::Frame(_), ModelEntry::Mass(index)) => list("masses", index),
             (Form::Frame(frame), ModelEntry::Member(index)) => match frame.cells.get(index) {
-                Some(&[block, cell]) => {
-                    Path(vec![key("cells"), Step::Index(block), key("data"), Step::Index(cell)])
-                }
+                Some(&[block, cell]) => Path(vec![
+                    key("cells"),
+                    Step::Index(block),
+                    key("data"),
+                    Step::Index(cell),
+                ]),
                 None => Path(vec![key("cells")]),
             },
             (Form::Frame(_), ModelEntry::Rail(rail)) => self.rail_path(rail, None),
@@ -120,9 +134,10 @@ impl Spec {
             (Form::Frame(_), ModelEntry::Station { rail, station }) => {
                 self.rail_path(rail, Some(("stations", station)))
             }
-            (Form::Frame(_), ModelEntry::Span(_) | ModelEntry::Overhang(_) | ModelEntry::Girder) => {
-                Path::default()
-            }
+            (
+                Form::Frame(_),
+                ModelEntry::Span(_) | ModelEntry::Overhang(_) | ModelEntry::Girder,
+            ) => Path::default(),
         }
     }
 
@@ -130,7 +145,12 @@ impl Spec {
     fn rail_path(&self, rail: usize, below: Option<(&str, usize)>) -> Path {
         let mut steps = vec![Step::Key("rails".to_owned())];
         if let Form::Frame(frame) = &self.form {
-            steps.extend(frame.rails.get(rail).map(|(name, _)| Step::Key(name.clone())));
+            steps.extend(
+                frame
+                    .rails
+                    .get(rail)
+                    .map(|(name, _)| Step::Key(name.clone())),
+            );
         }
         if let Some((key, index)) = below {
             steps.extend([Step::Key(key.to_owned()), Step::Index(index)]);
@@ -150,11 +170,20 @@ impl Spec {
             },
             Form::Frame(frame) => {
                 let place = frame.model.points.get(index).copied().unwrap_or_default();
-                let set = frame.point_sets.iter().find(|(_, points)| points.contains(&index));
+                let set = frame
+                    .point_sets
+                    .iter()
+                    .find(|(_, points)| points.contains(&index));
                 let set = set.map_or_else(String::new, |(name, _)| format!(" of \"{name}\""));
-                let kind =
-                    if index < frame.points { format!("point {index}{set}") } else { "a cut".to_owned() };
-                format!("{kind} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
+                let kind = if index < frame.points {
+                    format!("point {index}{set}")
+                } else {
+                    "a cut".to_owned()
+                };
+                format!(
+                    "{kind} at [{}, {}, {}] {unit}",
+                    place[0], place[1], place[2]
+                )
             }
         }
     }

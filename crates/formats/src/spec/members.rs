@@ -28,12 +28,21 @@ pub(super) struct Cells {
 
 impl Cells {
     /// Index of the member of the cell [block, index]; a fault if there is no such cell.
-    pub fn of(&self, [block, index]: [usize; 2], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
+    pub fn of(
+        &self,
+        [block, index]: [usize; 2],
+        at: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Option<usize> {
         if self.counts.get(block).is_some_and(|count| index < *count) {
             return Some(self.counts[..block].iter().sum::<usize>() + index);
         }
         let fault = Fault::new(at, "must be [block, index] of a cell");
-        check.faults.add(fault.got(format!("[{block}, {index}]")).hint("indices count from 0"));
+        check.faults.add(
+            fault
+                .got(format!("[{block}, {index}]"))
+                .hint("indices count from 0"),
+        );
         None
     }
 }
@@ -46,9 +55,14 @@ pub(super) fn read(
     model: &mut Model,
     check: &mut Check<'_>,
 ) -> Cells {
-    let names: Vec<(&str, usize)> =
-        sections.iter().enumerate().map(|(index, name)| (name.as_str(), index)).collect();
-    let Some(blocks) = check.faults.require(&raw.cells, root, "cells") else { return Cells::default() };
+    let names: Vec<(&str, usize)> = sections
+        .iter()
+        .enumerate()
+        .map(|(index, name)| (name.as_str(), index))
+        .collect();
+    let Some(blocks) = check.faults.require(&raw.cells, root, "cells") else {
+        return Cells::default();
+    };
     let before = check.faults.0.len();
     let list = root.key("cells");
     let mut counts = Vec::new();
@@ -57,20 +71,35 @@ pub(super) fn read(
         if let Some(kind) = check.faults.require(&raw.kind, &at, "type") {
             check.faults.one_of(kind, &at.key("type"), &[("line", ())]);
         }
-        counts.push(check.faults.require(&raw.data, &at, "data").map_or(0, Vec::len));
+        counts.push(
+            check
+                .faults
+                .require(&raw.data, &at, "data")
+                .map_or(0, Vec::len),
+        );
     }
     let none = RawCellData::default();
     let data = raw.cell_data.as_ref().unwrap_or(&none);
     let columns = Columns::new(data, &counts, root, check);
     let tapers = Tapers::new(raw, data, &counts, root, check);
-    let mut cells = Cells { counts, ..Cells::default() };
+    let mut cells = Cells {
+        counts,
+        ..Cells::default()
+    };
     for (block, raw) in blocks.iter().enumerate() {
         let at = list.index(block);
         let at = at.key("data");
         for (index, ends) in raw.data.iter().flatten().enumerate() {
-            if let Some(member) =
-                columns.member(*ends, block, index, &at.index(index), root, &names, model, check)
-            {
+            if let Some(member) = columns.member(
+                *ends,
+                block,
+                index,
+                &at.index(index),
+                root,
+                &names,
+                model,
+                check,
+            ) {
                 cells.tapers.push(tapers.of(
                     &member,
                     [block, index],
@@ -86,7 +115,9 @@ pub(super) fn read(
         }
     }
     if model.members.is_empty() && check.faults.0.len() == before {
-        check.faults.add(Fault::new(&list, "must have at least one cell"));
+        check
+            .faults
+            .add(Fault::new(&list, "must have at least one cell"));
     }
     cells.complete = check.faults.0.len() == before;
     cells
@@ -102,7 +133,12 @@ struct Columns<'r> {
 }
 
 impl<'r> Columns<'r> {
-    fn new(data: &'r RawCellData, counts: &[usize], root: &Place<'_>, check: &mut Check<'_>) -> Self {
+    fn new(
+        data: &'r RawCellData,
+        counts: &[usize],
+        root: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Self {
         let at = root.key("cell_data");
         Columns {
             kind: Column::new("kind", &data.kind, counts, &at, check),
@@ -144,10 +180,11 @@ impl<'r> Columns<'r> {
             ("rod", MemberKind::Rod),
             ("cable", MemberKind::Cable),
         ];
-        let kind = self
-            .kind
-            .get(block, index)
-            .and_then(|word| self.kind.at(here, &data, |place| check.faults.one_of(word, place, &kinds)));
+        let kind = self.kind.get(block, index).and_then(|word| {
+            self.kind.at(here, &data, |place| {
+                check.faults.one_of(word, place, &kinds)
+            })
+        });
         let kind = kind.unwrap_or(MemberKind::Beam);
         let section = self.section(here, root, names, model.sections.len(), check);
         let (offsets, releases) = self.ends(here, &data, check);
@@ -157,14 +194,32 @@ impl<'r> Columns<'r> {
         let tip = |end: usize, axis: usize| model.points[points[end]][axis] + offsets[end][axis];
         let along = [0, 1, 2].map(|axis| tip(1, axis) - tip(0, axis));
         if length(along) == 0.0 {
-            let fault = Fault::new(cell, "must have a positive length between its flexible ends").got(0);
-            check.faults.add(fault.hint("its two ends coincide after the offsets are added"));
+            let fault = Fault::new(
+                cell,
+                "must have a positive length between its flexible ends",
+            )
+            .got(0);
+            check
+                .faults
+                .add(fault.hint("its two ends coincide after the offsets are added"));
         }
-        let orientation = self.orientation.get(block, index).copied().unwrap_or(model.up);
+        let orientation = self
+            .orientation
+            .get(block, index)
+            .copied()
+            .unwrap_or(model.up);
         if kind == MemberKind::Beam && length(along) > 0.0 && parallel(orientation, along) {
             self.refuse_orientation(here, (orientation, along), cell, &data, check);
         }
-        Some(Member { points, kind, section: section?, orientation, offsets, releases, tension: 0.0 })
+        Some(Member {
+            points,
+            kind,
+            section: section?,
+            orientation,
+            offsets,
+            releases,
+            tension: 0.0,
+        })
     }
 
     /// The section of a cell. It may be left out if the spec has only one section; otherwise a missing section is
@@ -180,7 +235,9 @@ impl<'r> Columns<'r> {
         let data = root.key("cell_data");
         let [block, index] = here;
         if let Some(section) = self.section.get(block, index) {
-            return self.section.at(here, &data, |place| refer(section, names, "section", place, check));
+            return self.section.at(here, &data, |place| {
+                refer(section, names, "section", place, check)
+            });
         }
         if count == 1 {
             return Some(0);
@@ -190,10 +247,13 @@ impl<'r> Columns<'r> {
             let hint = "if there are several sections, state the name or index of the section of each cell";
             if absent {
                 let place = data.key("section");
-                let fault = Fault::new(&place.index(block), "must state the sections of this block");
+                let fault =
+                    Fault::new(&place.index(block), "must state the sections of this block");
                 check.faults.add(fault.got("null").hint(hint));
             } else if !self.section.given {
-                check.faults.add(Fault::new(root, "missing key `cell_data.section`").hint(hint));
+                check
+                    .faults
+                    .add(Fault::new(root, "missing key `cell_data.section`").hint(hint));
             }
         }
         None
@@ -212,7 +272,9 @@ impl<'r> Columns<'r> {
         for end in 0..2 {
             let column = &self.offsets[end];
             if let Some(offset) = column.get(block, index) {
-                offsets[end] = column.at(here, data, |at| check.vector(*offset, at, Dimension::LENGTH));
+                offsets[end] = column.at(here, data, |at| {
+                    check.vector(*offset, at, Dimension::LENGTH)
+                });
             }
             let column = &self.releases[end];
             if let Some(words) = column.get(block, index) {
@@ -232,9 +294,17 @@ impl<'r> Columns<'r> {
         data: &Place<'_>,
         check: &mut Check<'_>,
     ) {
-        let found = format!("{} on a member along {}", listed(orientation), listed(along));
+        let found = format!(
+            "{} on a member along {}",
+            listed(orientation),
+            listed(along)
+        );
         let fault = |place: &Place<'_>| {
-            Fault::new(place, "its orientation must not be zero or along the member").got(found)
+            Fault::new(
+                place,
+                "its orientation must not be zero or along the member",
+            )
+            .got(found)
         };
         check.faults.add(match self.orientation.get(here[0], here[1]) {
             Some(_) => self

@@ -44,8 +44,8 @@ pub use grounds::SupportedPoint;
 pub use loaded::SMALL_FACTOR;
 pub use locate::SolveError;
 pub use outline::{
-    DrawnSection, MemberOutline, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, SpecCraneRail,
-    TaperedSection,
+    DrawnSection, MemberOutline, OutlineShape, OutlinedMember, SectionOutline, SectionPlates,
+    SpecCraneRail, TaperedSection,
 };
 pub use preload::SpecPreload;
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};

@@ -56,11 +56,17 @@ impl DrawnSection {
         if self.kind != other.kind {
             return None;
         }
-        let dimensions =
-            std::array::from_fn(|k| self.dimensions[k] + (other.dimensions[k] - self.dimensions[k]) * s);
+        let dimensions = std::array::from_fn(|k| {
+            self.dimensions[k] + (other.dimensions[k] - self.dimensions[k]) * s
+        });
         let found = shape::properties(self.kind, dimensions)?;
         let shape = of_shape((self.kind, dimensions))?;
-        Some(TaperedSection { shape, area: found.area, iy: found.i2, iz: found.i1 })
+        Some(TaperedSection {
+            shape,
+            area: found.area,
+            iy: found.i2,
+            iz: found.i1,
+        })
     }
 }
 
@@ -139,7 +145,10 @@ pub struct MemberOutline {
 pub(super) fn of_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> SectionOutline {
     let fy = check.optional_positive(raw.fy, &at.key("fy"), Dimension::STRESS, "a yield strength");
     let section = raw.section.as_deref().and_then(rolled);
-    let drawn = raw.shape.as_ref().and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?));
+    let drawn = raw
+        .shape
+        .as_ref()
+        .and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?));
     let named = section.map(|section| of_dimensions(&section.dimensions, check.scale.to.length));
     SectionOutline {
         name: section.map_or("girder", |section| section.name).to_owned(),
@@ -150,26 +159,43 @@ pub(super) fn of_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) 
 }
 
 /// The outlines of the sections of the general form, in their order.
-pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>) -> Vec<SectionOutline> {
+pub(super) fn of_sections(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<SectionOutline> {
     let list = root.key("materials");
     let mut strengths = Vec::new();
     for (index, material) in raw.materials.iter().flatten().enumerate() {
         let at = list.index(index);
-        let fy = check.optional_positive(material.fy, &at.key("fy"), Dimension::STRESS, "a yield strength");
+        let fy = check.optional_positive(
+            material.fy,
+            &at.key("fy"),
+            Dimension::STRESS,
+            "a yield strength",
+        );
         strengths.push((material.name.as_deref(), fy));
     }
     let length = check.scale.to.length;
     let outline = |section: &RawSection| {
         let own = section.material.as_deref();
-        let strength = strengths.iter().find(|(name, _)| own.is_some() && *name == own);
+        let strength = strengths
+            .iter()
+            .find(|(name, _)| own.is_some() && *name == own);
         let rolled = match &section.shape {
             Some(RawSectionShape::Name(name)) => rolled(name),
             _ => None,
         };
-        let named = rolled.map(|section| (section.name, of_dimensions(&section.dimensions, length)));
-        let name = named.map_or_else(|| section.name.as_deref().unwrap_or_default(), |(name, _)| name);
-        let drawn =
-            || shape::dimensions(section).and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?));
+        let named =
+            rolled.map(|section| (section.name, of_dimensions(&section.dimensions, length)));
+        let name = named.map_or_else(
+            || section.name.as_deref().unwrap_or_default(),
+            |(name, _)| name,
+        );
+        let drawn = || {
+            shape::dimensions(section)
+                .and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?))
+        };
         SectionOutline {
             name: name.to_owned(),
             shape: named.map(|(_, shape)| shape).or_else(drawn),
@@ -184,13 +210,18 @@ pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>
 pub(super) fn crane_rails(raw: &RawSpec) -> Vec<Option<SpecCraneRail>> {
     let carried = |name: &Option<String>, composite: Option<bool>| {
         let profile = crane_rail(name.as_deref()?)?;
-        Some(SpecCraneRail { profile, is_composite: composite.unwrap_or(false) })
+        Some(SpecCraneRail {
+            profile,
+            is_composite: composite.unwrap_or(false),
+        })
     };
     match &raw.girder {
         Some(girder) => vec![carried(&girder.crane_rail, girder.composite)],
         None => {
             let rails = raw.rails.iter().flat_map(|rails| &rails.0);
-            rails.map(|(_, rail)| carried(&rail.crane_rail, rail.composite)).collect()
+            rails
+                .map(|(_, rail)| carried(&rail.crane_rail, rail.composite))
+                .collect()
         }
     }
 }
@@ -208,7 +239,16 @@ fn of_dimensions(section: &SectionDimensions, unit: Length) -> OutlineShape {
 
 /// The shape of plates with dimensions in the order of the keys of `shape`.
 fn of_shape((kind, dimensions): (Kind, [f64; 8])) -> Option<OutlineShape> {
-    let [height, width, flange, web, lower_width, lower_flange, diameter, _] = dimensions;
+    let [
+        height,
+        width,
+        flange,
+        web,
+        lower_width,
+        lower_flange,
+        diameter,
+        _,
+    ] = dimensions;
     Some(match kind {
         Kind::I => OutlineShape::I(SectionPlates {
             height,

@@ -38,7 +38,10 @@ impl Spec {
     /// Warnings about values that are probably wrong, each with what is known of the unit that was meant.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let scale = Scale { from: self.units, to: Units::SI };
+        let scale = Scale {
+            from: self.units,
+            to: Units::SI,
+        };
         let mut all = Vec::new();
         match &self.form {
             Form::Girder(girder) => {
@@ -48,8 +51,11 @@ impl Spec {
             }
             Form::Frame(frame) => {
                 // where ties carry the rail, the sections of the model also include those of the ties
-                let named =
-                    frame.sections.iter().zip(&frame.model.sections).filter(|_| self.pads().is_empty());
+                let named = frame
+                    .sections
+                    .iter()
+                    .zip(&frame.model.sections)
+                    .filter(|_| self.pads().is_empty());
                 let mut seen: Vec<[u64; 2]> = Vec::new();
                 for (name, section) in named {
                     all.extend(shape(name, section, self.units));
@@ -58,7 +64,12 @@ impl Spec {
                         continue;
                     }
                     seen.push(key);
-                    all.extend(modulus(&format!("`E` of section \"{name}\""), section.e, self.units, scale));
+                    all.extend(modulus(
+                        &format!("`E` of section \"{name}\""),
+                        section.e,
+                        self.units,
+                        scale,
+                    ));
                     all.extend(heavy(name, section, self.units, scale));
                 }
                 for (name, rail) in &frame.rails {
@@ -66,16 +77,28 @@ impl Spec {
                 }
             }
         }
-        let mut strengths: Vec<f64> = self.outlines.iter().filter_map(|one| one.yield_strength).collect();
+        let mut strengths: Vec<f64> = self
+            .outlines
+            .iter()
+            .filter_map(|one| one.yield_strength)
+            .collect();
         strengths.dedup();
-        all.extend(strengths.into_iter().filter_map(|fy| strength(fy, self.units, scale)));
+        all.extend(
+            strengths
+                .into_iter()
+                .filter_map(|fy| strength(fy, self.units, scale)),
+        );
         all.extend(self.preload_warnings());
         all
     }
 
     /// A rail that lies too high above the axis of its girder, in comparison with the spans.
     fn rail_height(&self, girder: &Girder) -> Option<String> {
-        let most = RAIL_HEIGHT * girder.spans.iter().fold(0.0, |most: f64, span| most.max(*span));
+        let most = RAIL_HEIGHT
+            * girder
+                .spans
+                .iter()
+                .fold(0.0, |most: f64, span| most.max(*span));
         let height = girder.rail_height;
         let unit = self.units.label(Dimension::LENGTH);
         let meant = height * Length::Millimetre.in_units_of(self.units.length);
@@ -94,7 +117,10 @@ impl Spec {
 
     /// Warnings about the section of a girder: beside the rolled section that it names, or beside its spans.
     fn girder_properties(&self, girder: &Girder, scale: Scale) -> Vec<String> {
-        let named = self.outlines.first().and_then(|outline| rolled(&outline.name));
+        let named = self
+            .outlines
+            .first()
+            .and_then(|outline| rolled(&outline.name));
         let mut all = Vec::new();
         if let Some(section) = named {
             let found = section.dimensions.properties();
@@ -107,8 +133,18 @@ impl Spec {
                     found.i_strong * mm.powi(4),
                     Dimension::SECOND_MOMENT,
                 ),
-                ("I_lateral", girder.i_lateral, found.i_weak * mm.powi(4), Dimension::SECOND_MOMENT),
-                ("J", girder.j, found.j * mm.powi(4), Dimension::SECOND_MOMENT),
+                (
+                    "I_lateral",
+                    girder.i_lateral,
+                    found.i_weak * mm.powi(4),
+                    Dimension::SECOND_MOMENT,
+                ),
+                (
+                    "J",
+                    girder.j,
+                    found.j * mm.powi(4),
+                    Dimension::SECOND_MOMENT,
+                ),
             ];
             for (key, given, rolled, dimension) in pairs {
                 let ratio = given.map_or(1.0, |given| given / rolled);
@@ -123,9 +159,14 @@ impl Spec {
                 }
             }
         } else {
-            let span = girder.spans.iter().fold(0.0, |most: f64, span| most.max(*span));
+            let span = girder
+                .spans
+                .iter()
+                .fold(0.0, |most: f64, span| most.max(*span));
             let ratio = girder.i_vertical.powf(0.25) / span;
-            let area = girder.area.map_or(1.0, |area| girder.i_vertical / (area * area));
+            let area = girder
+                .area
+                .map_or(1.0, |area| girder.i_vertical / (area * area));
             let is_plausible = |i: f64| {
                 let factor = i / girder.i_vertical;
                 within(STIFFNESSES, ratio * factor.powf(0.25)) && within(SHAPES, area * factor)
@@ -156,13 +197,26 @@ impl Spec {
     fn second_moment(&self, given: f64, span: f64, is_plausible: impl Fn(f64) -> bool) -> String {
         let unit = self.units.label(Dimension::SECOND_MOMENT);
         let metre = Length::Metre.in_units_of(self.units.length);
-        let others =
-            [("cm^4", 0.01 * metre), ("mm^4", 0.001 * metre), ("in^4", 0.0254 * metre), ("m^4", metre)];
-        let meant = others.into_iter().map(|(name, size)| (name, given * size.powi(4)));
-        let meant = meant.filter(|(name, _)| **name != unit).find(|(_, value)| is_plausible(*value));
+        let others = [
+            ("cm^4", 0.01 * metre),
+            ("mm^4", 0.001 * metre),
+            ("in^4", 0.0254 * metre),
+            ("m^4", metre),
+        ];
+        let meant = others
+            .into_iter()
+            .map(|(name, size)| (name, given * size.powi(4)));
+        let meant = meant
+            .filter(|(name, _)| **name != unit)
+            .find(|(_, value)| is_plausible(*value));
         let meant = meant.map_or_else(
             || "check its unit, that of `A` and the spans".to_owned(),
-            |(name, value)| format!("if it is meant in {name}, write {}", number(rounded(value, 6))),
+            |(name, value)| {
+                format!(
+                    "if it is meant in {name}, write {}",
+                    number(rounded(value, 6))
+                )
+            },
         );
         format!(
             "the girder's `I_vertical` is {} {unit}, which does not fit its area and its span of {} {}: {meant}",
@@ -209,7 +263,11 @@ fn strength(fy: f64, units: Units, scale: Scale) -> Option<String> {
 
 /// Mass of a section per volume; 0 without area.
 fn density(section: &CrossSection) -> f64 {
-    if section.area > 0.0 { section.mass / section.area } else { 0.0 }
+    if section.area > 0.0 {
+        section.mass / section.area
+    } else {
+        0.0
+    }
 }
 
 /// Warning about a Young's modulus outside [`MODULI`].
@@ -286,7 +344,10 @@ mod tests {
     use crate::text::source::Source;
 
     fn found(text: &str) -> Vec<String> {
-        let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+        let source = Source {
+            name: "spec.json".to_owned(),
+            text: text.to_owned(),
+        };
         Spec::read(&source, None).expect("a sound spec").warnings()
     }
 
@@ -313,30 +374,57 @@ mod tests {
     fn warns_of_a_number_in_another_unit_and_says_what_is_meant() {
         assert_eq!(found(GIRDER), Vec::<String>::new());
         let slips = [
-            ("5.768e-4", "57680", "if it is meant in cm^4, write 0.0005768"),
-            ("5.768e-4", "5.768e8", "if it is meant in mm^4, write 0.0005768"),
-            ("0.01978", "197.8", "check its unit, that of `A` and the spans"),
+            (
+                "5.768e-4",
+                "57680",
+                "if it is meant in cm^4, write 0.0005768",
+            ),
+            (
+                "5.768e-4",
+                "5.768e8",
+                "if it is meant in mm^4, write 0.0005768",
+            ),
+            (
+                "0.01978",
+                "197.8",
+                "check its unit, that of `A` and the spans",
+            ),
             ("0.1555", "155.5", "a density of 7860000 kg/m3"),
-            ("\"fy\"", "\"rail_height\": 200, \"fy\"", "check its unit; if it is meant in mm, write 0.2"),
-            ("2.35e5", "235", "`fy` is 235 kN/m^2, 0.235 N/mm2: S235 has 235000 kN/m^2"),
+            (
+                "\"fy\"",
+                "\"rail_height\": 200, \"fy\"",
+                "check its unit; if it is meant in mm, write 0.2",
+            ),
+            (
+                "2.35e5",
+                "235",
+                "`fy` is 235 kN/m^2, 0.235 N/mm2: S235 has 235000 kN/m^2",
+            ),
         ];
         for (old, new, told) in slips {
             let warnings = found(&GIRDER.replace(old, new));
             assert!(
-                warnings.iter().any(|warning| warning.ends_with(told) || warning.contains(told)),
+                warnings
+                    .iter()
+                    .any(|warning| warning.ends_with(told) || warning.contains(told)),
                 "{warnings:?}"
             );
         }
-        let named = GIRDER.replace("0.01978", "197.8").replace("\"fy\"", "\"section\": \"HEB 400\", \"fy\"");
+        let named = GIRDER
+            .replace("0.01978", "197.8")
+            .replace("\"fy\"", "\"section\": \"HEB 400\", \"fy\"");
         let expected = "the girder's `A` is 198 m^2, but HEB 400 has 0.0198 m^2";
-        assert!(found(&named).iter().any(|warning| warning == expected), "{:?}", found(&named));
+        assert!(
+            found(&named).iter().any(|warning| warning == expected),
+            "{:?}",
+            found(&named)
+        );
     }
 
     #[test]
     fn warns_of_ksi_in_a_file_of_feet() {
         let warnings = found(&FRAME.replace("4176000", "29000"));
-        let expected =
-            "`E` of section \"girder\" is 29000 kip/ft^2, 1.39 GPa: steel has about 4180000 kip/ft^2";
+        let expected = "`E` of section \"girder\" is 29000 kip/ft^2, 1.39 GPa: steel has about 4180000 kip/ft^2";
         assert_eq!(warnings, [expected]);
     }
 
@@ -344,7 +432,10 @@ mod tests {
     fn warns_of_a_weight_in_the_place_of_a_density() {
         let warnings = found(&FRAME.replace("0.01523", "0.49"));
         assert_eq!(warnings.len(), 1);
-        assert!(warnings[0].contains("0.49 kip s^2/ft^4") && warnings[0].contains("0.0152"), "{warnings:?}");
+        assert!(
+            warnings[0].contains("0.49 kip s^2/ft^4") && warnings[0].contains("0.0152"),
+            "{warnings:?}"
+        );
     }
 
     #[test]
@@ -352,7 +443,9 @@ mod tests {
         let warnings = found(&FRAME.replace("{\"cell\": [0, 1]}, ", ""));
         assert_eq!(
             warnings,
-            ["no segment of rail top covers it from 40 to 80: there it moves rigidly with the nearer end"]
+            [
+                "no segment of rail top covers it from 40 to 80: there it moves rigidly with the nearer end"
+            ]
         );
     }
 }

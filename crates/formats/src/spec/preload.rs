@@ -69,7 +69,11 @@ impl SpecPreload {
     /// The preload on a model whose upward direction is `up`.
     fn forces(&self, up: [f64; 3]) -> Preload {
         let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();
-        let gravity = if self.weight && size > 0.0 { self.gravity / size } else { 0.0 };
+        let gravity = if self.weight && size > 0.0 {
+            self.gravity / size
+        } else {
+            0.0
+        };
         Preload {
             acceleration: up.map(|a| if gravity == 0.0 { 0.0 } else { -gravity * a }),
             points: self.loads.clone(),
@@ -81,15 +85,25 @@ impl SpecPreload {
     ///
     /// # Errors
     /// As [`fea::preloaded`].
-    pub(super) fn state(&self, model: &Model, rails: &[Rail]) -> Result<Arc<PreloadedState>, fea::Error> {
+    pub(super) fn state(
+        &self,
+        model: &Model,
+        rails: &[Rail],
+    ) -> Result<Arc<PreloadedState>, fea::Error> {
         let preload = self.forces(model.up);
         let mut known = self.solved.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = known.as_ref().filter(|known| known.model == *model && known.preload == preload)
+        if let Some(known) = known
+            .as_ref()
+            .filter(|known| known.model == *model && known.preload == preload)
         {
             return known.state.clone();
         }
         let state = fea::preloaded(model, rails, &preload).map(Arc::new);
-        *known = Some(Known { model: model.clone(), preload, state: state.clone() });
+        *known = Some(Known {
+            model: model.clone(),
+            preload,
+            state: state.clone(),
+        });
         state
     }
 }
@@ -108,10 +122,20 @@ pub(super) fn read(
     let at = root.key("preload");
     let weight = given.weight.unwrap_or(false);
     let gravity = match given.gravity {
-        Some(gravity) => {
-            check.not_negative(gravity, &at.key("gravity"), Dimension::ACCELERATION, "a magnitude")
+        Some(gravity) => check.not_negative(
+            gravity,
+            &at.key("gravity"),
+            Dimension::ACCELERATION,
+            "a magnitude",
+        ),
+        None => {
+            STANDARD_GRAVITY
+                * Scale {
+                    from: Units::SI,
+                    to: check.scale.to,
+                }
+                .factor(Dimension::LENGTH)
         }
-        None => STANDARD_GRAVITY * Scale { from: Units::SI, to: check.scale.to }.factor(Dimension::LENGTH),
     };
     let list = at.key("loads");
     let mut loads = Vec::new();
@@ -134,7 +158,13 @@ pub(super) fn read(
         };
         check.faults.add(fault);
     }
-    Some(SpecPreload { weight, gravity, loads, wheels: Vec::new(), solved: SolvedState::default() })
+    Some(SpecPreload {
+        weight,
+        gravity,
+        loads,
+        wheels: Vec::new(),
+        solved: SolvedState::default(),
+    })
 }
 
 fn point_of_frame(
@@ -145,7 +175,9 @@ fn point_of_frame(
 ) -> Option<usize> {
     if load.x.is_some() {
         let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
-        check.faults.add(fault.hint("in the general form a load has a `point`"));
+        check
+            .faults
+            .add(fault.hint("in the general form a load has a `point`"));
     }
     points.one(&load.point, "point", at, check)
 }
@@ -158,18 +190,22 @@ fn point_of_girder(
 ) -> Option<usize> {
     if load.point.is_some() {
         let fault = Fault::new(&at.key("point"), "`point` is a key of the general form").at_key();
-        check
-            .faults
-            .add(fault.hint("in the short form a load has the coordinate `x` of a support or an end"));
+        check.faults.add(
+            fault.hint("in the short form a load has the coordinate `x` of a support or an end"),
+        );
     }
     let x = *check.faults.require(&load.x, at, "x")?;
     let place = at.key("x");
     let own = check.number(x, &place, Dimension::LENGTH);
     let length = places.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let found = places.iter().position(|known| (known - own).abs() <= ROUNDING * length);
+    let found = places
+        .iter()
+        .position(|known| (known - own).abs() <= ROUNDING * length);
     if found.is_none() && !places.is_empty() {
         let fault = Fault::new(&place, "must be a support or an end of the girder").got(number(x));
-        check.faults.add(fault.hint("elsewhere a force needs a point of the general form"));
+        check
+            .faults
+            .add(fault.hint("elsewhere a force needs a point of the general form"));
     }
     found
 }
@@ -192,15 +228,32 @@ pub(super) fn cut_for_weight(
             return *taper;
         }
         let section = &model.sections[member.section];
-        let end = |end: usize, k: usize| model.points[member.points[end]][k] + member.offsets[end][k];
+        let end =
+            |end: usize, k: usize| model.points[member.points[end]][k] + member.offsets[end][k];
         let along: [f64; 3] = std::array::from_fn(|k| end(1, k) - end(0, k));
         let length = along.iter().map(|a| a * a).sum::<f64>().sqrt();
-        let rise = along.iter().zip(model.up).map(|(a, up)| a * up).sum::<f64>().abs() / size;
-        let second = [section.iy, section.iz].into_iter().filter(|i| *i > 0.0).fold(f64::INFINITY, f64::min);
+        let rise = along
+            .iter()
+            .zip(model.up)
+            .map(|(a, up)| a * up)
+            .sum::<f64>()
+            .abs()
+            / size;
+        let second = [section.iy, section.iz]
+            .into_iter()
+            .filter(|i| *i > 0.0)
+            .fold(f64::INFINITY, f64::min);
         // The weight along the member is that of its rise.
-        let varying = section.mass * preload.gravity * rise * length * length / (section.e * second);
-        let parts = (MEAN_ERROR * varying / WEIGHT_ERROR).sqrt().ceil().min(MOST_PARTS);
-        (parts > 1.0).then_some(Taper { section: member.section, parts: parts as usize })
+        let varying =
+            section.mass * preload.gravity * rise * length * length / (section.e * second);
+        let parts = (MEAN_ERROR * varying / WEIGHT_ERROR)
+            .sqrt()
+            .ceil()
+            .min(MOST_PARTS);
+        (parts > 1.0).then_some(Taper {
+            section: member.section,
+            parts: parts as usize,
+        })
     };
     tapers.iter().enumerate().map(cut).collect()
 }

@@ -22,17 +22,24 @@ pub(super) fn read(
     let list = root.key("rails");
     let mut rails = Vec::new();
     let mut ranges = Vec::new();
-    let given =
-        check.faults.require(&raw.rails, root, "rails").map(|rails| rails.0.as_slice()).unwrap_or_default();
+    let given = check
+        .faults
+        .require(&raw.rails, root, "rails")
+        .map(|rails| rails.0.as_slice())
+        .unwrap_or_default();
     if raw.rails.is_some() && given.is_empty() {
-        check.faults.add(Fault::new(&list, "must have at least one rail"));
+        check
+            .faults
+            .add(Fault::new(&list, "must have at least one rail"));
     }
     for (name, raw) in given {
         let at = list.key(name);
         if name.is_empty() || name.contains('.') {
-            check
-                .faults
-                .add(Fault::new(&at, "must be a name without dots").got(format!("\"{name}\"")).at_key());
+            check.faults.add(
+                Fault::new(&at, "must be a name without dots")
+                    .got(format!("\"{name}\""))
+                    .at_key(),
+            );
         }
         let (rail, range) = read_rail(raw, &at, model, cells, check);
         rails.push((name.clone(), rail));
@@ -52,9 +59,14 @@ fn read_rail(
     let before = check.faults.0.len();
     let origin = raw.origin.unwrap_or_default();
     let origin = check.vector(origin, &at.key("origin"), Dimension::LENGTH);
-    let axis = check.faults.require(&raw.axis, at, "axis").copied().unwrap_or([1.0, 0.0, 0.0]);
+    let axis = check
+        .faults
+        .require(&raw.axis, at, "axis")
+        .copied()
+        .unwrap_or([1.0, 0.0, 0.0]);
     if parallel(axis, model.up) && length(model.up) > 0.0 {
-        let fault = Fault::new(&at.key("axis"), "must not be zero or along `up`").got(format!("{axis:?}"));
+        let fault =
+            Fault::new(&at.key("axis"), "must not be zero or along `up`").got(format!("{axis:?}"));
         check.faults.add(fault);
     }
     let (segments, places) = read_segments(raw, at, cells, check);
@@ -65,13 +77,23 @@ fn read_rail(
     let stations = stations.unwrap_or_default();
     let line = at.key("stations");
     if raw.stations.is_some() && stations.is_empty() {
-        check.faults.add(Fault::new(&line, "must have at least one station").got("an empty list").of_value());
+        check.faults.add(
+            Fault::new(&line, "must have at least one station")
+                .got("an empty list")
+                .of_value(),
+        );
     }
     check.items(stations.len(), &STATIONS, &line);
     check.faults.increasing(stations, &line);
-    let mut rail = Rail { origin, axis, segments, stations: Vec::new() };
+    let mut rail = Rail {
+        origin,
+        axis,
+        segments,
+        stations: Vec::new(),
+    };
     for (index, station) in stations.iter().enumerate() {
-        rail.stations.push(check.number(*station, &line.index(index), Dimension::LENGTH));
+        rail.stations
+            .push(check.number(*station, &line.index(index), Dimension::LENGTH));
     }
     if check.faults.0.len() > before || !cells.complete {
         return (rail, [0.0; 2]);
@@ -87,7 +109,9 @@ fn read_rail(
             let [first, last] = range.map(|end| number(end / factor));
             let expected = format!("must be on the rail, from {first} to {last}");
             let fault = Fault::new(&line.index(index), expected).got(number(stations[index]));
-            check.faults.add(fault.hint("a station is a distance from `origin` along `axis`"));
+            check
+                .faults
+                .add(fault.hint("a station is a distance from `origin` along `axis`"));
         }
         *station = station.max(range[0]).min(range[1]);
     }
@@ -104,16 +128,26 @@ fn read_segments(
     let place = at.key("segments");
     let mut segments = Vec::new();
     let mut places = Vec::new();
-    let Some(given) = check.faults.require(&raw.segments, at, "segments") else { return (segments, places) };
+    let Some(given) = check.faults.require(&raw.segments, at, "segments") else {
+        return (segments, places);
+    };
     if given.is_empty() {
-        check
-            .faults
-            .add(Fault::new(&place, "must have at least one segment").got("an empty list").of_value());
+        check.faults.add(
+            Fault::new(&place, "must have at least one segment")
+                .got("an empty list")
+                .of_value(),
+        );
     }
     for (index, raw) in given.iter().enumerate() {
         let item = place.index(index);
-        let offset = check.vector(raw.offset.unwrap_or_default(), &item.key("offset"), Dimension::LENGTH);
-        let Some(&cell) = check.faults.require(&raw.cell, &item, "cell") else { continue };
+        let offset = check.vector(
+            raw.offset.unwrap_or_default(),
+            &item.key("offset"),
+            Dimension::LENGTH,
+        );
+        let Some(&cell) = check.faults.require(&raw.cell, &item, "cell") else {
+            continue;
+        };
         if let Some(member) = cells.of(cell, &item.key("cell"), check) {
             segments.push(RailSegment { member, offset });
             places.push(index);
@@ -124,11 +158,18 @@ fn read_segments(
 
 /// First and last coordinate of the segments along the rail. `places` contains their indices in the file. A segment
 /// whose member has no extent along the rail is a fault.
-fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &mut Check<'_>) -> [f64; 2] {
+fn cover(
+    rail: &Rail,
+    places: &[usize],
+    model: &Model,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> [f64; 2] {
     let size = length(rail.axis);
     let along = |point: usize, offset: [f64; 3]| {
-        let part =
-            |axis: usize| (model.points[point][axis] + offset[axis] - rail.origin[axis]) * rail.axis[axis];
+        let part = |axis: usize| {
+            (model.points[point][axis] + offset[axis] - rail.origin[axis]) * rail.axis[axis]
+        };
         (part(0) + part(1) + part(2)) / size
     };
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
@@ -136,10 +177,18 @@ fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &m
         let member = &model.members[segment.member];
         let ends = [0, 1].map(|end| along(member.points[end], member.offsets[end]));
         if ends[0] == ends[1] {
-            let fault = Fault::new(&at.index(*index), "its cell must have an extent along the rail");
-            check.faults.add(fault.hint("a cell that is perpendicular to the rail cannot carry it"));
+            let fault = Fault::new(
+                &at.index(*index),
+                "its cell must have an extent along the rail",
+            );
+            check
+                .faults
+                .add(fault.hint("a cell that is perpendicular to the rail cannot carry it"));
         }
-        range = [range[0].min(ends[0]).min(ends[1]), range[1].max(ends[0]).max(ends[1])];
+        range = [
+            range[0].min(ends[0]).min(ends[1]),
+            range[1].max(ends[0]).max(ends[1]),
+        ];
     }
     range
 }

@@ -23,23 +23,33 @@ impl Spec {
     /// # Errors
     /// All faults of the file, each with its place.
     pub fn read(source: &Source, target: Option<Units>) -> Result<Spec, Vec<Diagnostic>> {
-        source.read(FORMAT, |raw: &RawSpec, faults| Spec::check(raw, &source.name, target, faults))
+        source.read(FORMAT, |raw: &RawSpec, faults| {
+            Spec::check(raw, &source.name, target, faults)
+        })
     }
 
-    fn check(raw: &RawSpec, file: &str, target: Option<Units>, faults: &mut Faults) -> Option<Spec> {
+    fn check(
+        raw: &RawSpec,
+        file: &str,
+        target: Option<Units>,
+        faults: &mut Faults,
+    ) -> Option<Spec> {
         let root = Place::root();
         format(&raw.format, FORMAT, &root, faults);
         let own = Units::read(&raw.units, &root, faults);
         let theory = match &raw.theory {
-            Some(word) => {
-                faults.one_of(word, &root.key("theory"), &THEORIES).unwrap_or(BeamTheory::Timoshenko)
-            }
+            Some(word) => faults
+                .one_of(word, &root.key("theory"), &THEORIES)
+                .unwrap_or(BeamTheory::Timoshenko),
             None => BeamTheory::Timoshenko,
         };
         // without units the numbers are checked in an arbitrary system of units
         let from = own.unwrap_or(Units::SI);
         let to = target.filter(|_| own.is_some()).unwrap_or(from);
-        let mut check = Check { faults, scale: Scale { from, to } };
+        let mut check = Check {
+            faults,
+            scale: Scale { from, to },
+        };
         let (form, effects, preload) = match &raw.girder {
             Some(girder) => {
                 refuse_general(raw, &root, check.faults);
@@ -48,14 +58,19 @@ impl Spec {
                 let girder = girder::read(girder, &raw.stations, theory, &root, &mut check);
                 let faultless = check.faults.0.len() == before;
                 let points = stress::read(points, &root.key("girder"), &mut check);
-                let effects = cuts::read_girder(raw, &girder, &points, faultless, &root, &mut check);
+                let effects =
+                    cuts::read_girder(raw, &girder, &points, faultless, &root, &mut check);
                 let places = girder.model_and_rail().map_or_else(
                     |_| Vec::new(),
                     |(model, _)| model.points.iter().map(|point| point[0]).collect(),
                 );
                 let has_mass = girder.mass_per_length.is_some_and(|mass| mass > 0.0);
-                let known = Points { count: 0, sets: &[] };
-                let preload = preload::read(raw, &root, Some(&places), &known, has_mass, &mut check);
+                let known = Points {
+                    count: 0,
+                    sets: &[],
+                };
+                let preload =
+                    preload::read(raw, &root, Some(&places), &known, has_mass, &mut check);
                 (Form::Girder(girder), effects, preload)
             }
             None if raw.points.is_some() || raw.cells.is_some() => {
@@ -63,10 +78,11 @@ impl Spec {
                 (Form::Frame(frame), effects, preload)
             }
             None => {
-                let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`").got("neither");
-                check
-                    .faults
-                    .add(fault.hint("`girder` is the short form, `points` and `cells` the general one"));
+                let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`")
+                    .got("neither");
+                check.faults.add(
+                    fault.hint("`girder` is the short form, `points` and `cells` the general one"),
+                );
                 return None;
             }
         };
@@ -75,9 +91,23 @@ impl Spec {
             Some(girder) => vec![outline::of_girder(girder, &root.key("girder"), &mut check)],
             None => outline::of_sections(raw, &root, &mut check),
         };
-        let notes = if check.faults.0.is_empty() { notes::of(raw, from) } else { Vec::new() };
+        let notes = if check.faults.0.is_empty() {
+            notes::of(raw, from)
+        } else {
+            Vec::new()
+        };
         let crane_rails = outline::crane_rails(raw);
-        Some(Spec { name, units: to, theory, form, effects, notes, outlines, crane_rails, preload })
+        Some(Spec {
+            name,
+            units: to,
+            theory,
+            form,
+            effects,
+            notes,
+            outlines,
+            crane_rails,
+            preload,
+        })
     }
 }
 
@@ -101,11 +131,14 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
     ];
     for (key, given) in general {
         if given {
-            let fault =
-                Fault::new(&root.key(key), format!("`{key}` cannot be combined with `girder`")).at_key();
-            faults.add(
-                fault.hint("a spec is either a short `girder` or the general form with `points` and `cells`"),
-            );
+            let fault = Fault::new(
+                &root.key(key),
+                format!("`{key}` cannot be combined with `girder`"),
+            )
+            .at_key();
+            faults.add(fault.hint(
+                "a spec is either a short `girder` or the general form with `points` and `cells`",
+            ));
         }
     }
 }
@@ -124,5 +157,8 @@ pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: 
 /// The name of a file without folder and extension.
 pub fn stem(file: &str) -> String {
     let path = std::path::Path::new(file);
-    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(
+        || file.to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
 }

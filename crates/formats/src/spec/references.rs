@@ -31,12 +31,21 @@ impl Points<'_> {
                 if exists { vec![*index] } else { Vec::new() }
             }
             Some(name) => {
-                let names: Vec<(&str, usize)> =
-                    self.sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
+                let names: Vec<(&str, usize)> = self
+                    .sets
+                    .iter()
+                    .enumerate()
+                    .map(|(index, (name, _))| (name.as_str(), index))
+                    .collect();
                 let set = refer(name, &names, "point set", &at.key(key), check);
                 // points that do not exist are reported in the set itself
-                let all = set.map(|set| self.sets[set].1.as_slice()).unwrap_or_default();
-                all.iter().copied().filter(|point| *point < self.count).collect()
+                let all = set
+                    .map(|set| self.sets[set].1.as_slice())
+                    .unwrap_or_default();
+                all.iter()
+                    .copied()
+                    .filter(|point| *point < self.count)
+                    .collect()
             }
         }
     }
@@ -52,9 +61,11 @@ impl Points<'_> {
         let before = check.faults.0.len();
         let found = self.all(given, key, at, check);
         if found.len() != 1 && check.faults.0.len() == before {
-            let fault =
-                Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
-            check.faults.add(fault.hint("only supports accept sets of several points"));
+            let fault = Fault::new(&at.key(key), "must be one point")
+                .got(format!("a set of {}", found.len()));
+            check
+                .faults
+                .add(fault.hint("only supports accept sets of several points"));
         }
         found.first().copied().filter(|_| found.len() == 1)
     }
@@ -86,7 +97,8 @@ pub(super) fn index_below(
     check: &mut Check<'_>,
 ) -> bool {
     if index >= count {
-        let fault = Fault::new(at, format!("must be below {count}, the number of {what}")).got(index);
+        let fault =
+            Fault::new(at, format!("must be below {count}, the number of {what}")).got(index);
         check.faults.add(fault.hint("indices count from 0"));
     }
     index < count
@@ -97,9 +109,13 @@ pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [
     let mut set = [false; 6];
     for (index, word) in words.iter().enumerate() {
         let item = at.index(index);
-        let Some(dof) = check.faults.one_of(word, &item, &DOF_WORDS) else { continue };
+        let Some(dof) = check.faults.one_of(word, &item, &DOF_WORDS) else {
+            continue;
+        };
         if set[dof as usize] {
-            check.faults.add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
+            check.faults.add(
+                Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")),
+            );
         }
         set[dof as usize] = true;
     }

@@ -1,7 +1,8 @@
 //! Rolled sections and crane rails by name, in the units of the file.
 
 use sections::{
-    PlaneSection, RailProfile, RolledSection, crane_rail, nearest_crane_rails, nearest_rolled, rolled,
+    PlaneSection, RailProfile, RolledSection, crane_rail, nearest_crane_rails, nearest_rolled,
+    rolled,
 };
 
 use crate::check::Check;
@@ -10,12 +11,24 @@ use crate::text::place::Place;
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// The rolled section with this name. An unknown name is a fault that suggests the nearest ones.
-pub(super) fn section(name: &str, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'static RolledSection> {
+pub(super) fn section(
+    name: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<&'static RolledSection> {
     let found = rolled(name);
     if found.is_none() {
         let near = nearest_rolled(name);
-        let such = "names are such as \"HEA 300\", \"HEB 400\", \"HEM 300\", \"IPE 300\", \"W24X94\"";
-        unknown("must be the name of a rolled section", name, &near, such, at, check);
+        let such =
+            "names are such as \"HEA 300\", \"HEB 400\", \"HEM 300\", \"IPE 300\", \"W24X94\"";
+        unknown(
+            "must be the name of a rolled section",
+            name,
+            &near,
+            such,
+            at,
+            check,
+        );
     }
     found
 }
@@ -37,11 +50,25 @@ fn rail(name: &str, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'static Ra
     found
 }
 
-fn unknown(expected: &str, name: &str, near: &[&str], such: &str, at: &Place<'_>, check: &mut Check<'_>) {
-    let hint =
-        if near.is_empty() { such.to_owned() } else { format!("did you mean {}?", alternatives(near)) };
-    let fault = Fault::new(at, expected).got(format!("\"{name}\"")).of_value();
-    check.faults.add(fault.hint(format!("{hint}; \"girderway sections\" lists all")));
+fn unknown(
+    expected: &str,
+    name: &str,
+    near: &[&str],
+    such: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let hint = if near.is_empty() {
+        such.to_owned()
+    } else {
+        format!("did you mean {}?", alternatives(near))
+    };
+    let fault = Fault::new(at, expected)
+        .got(format!("\"{name}\""))
+        .of_value();
+    check
+        .faults
+        .add(fault.hint(format!("{hint}; \"girderway sections\" lists all")));
 }
 
 /// The crane rail of an object with the keys `crane_rail` and `composite`, and whether it is a part of the section.
@@ -52,8 +79,12 @@ pub(super) fn carried(
     check: &mut Check<'_>,
 ) -> Option<(&'static RailProfile, bool)> {
     if composite.is_some() && name.is_none() {
-        let fault = Fault::new(&at.key("composite"), "`composite` needs `crane_rail`").at_key().of_value();
-        check.faults.add(fault.hint("it says whether the rail is a part of the section"));
+        let fault = Fault::new(&at.key("composite"), "`composite` needs `crane_rail`")
+            .at_key()
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("it says whether the rail is a part of the section"));
     }
     let rail = rail(name.as_ref()?, &at.key("crane_rail"), check)?;
     Some((rail, composite.unwrap_or(false)))
@@ -70,20 +101,27 @@ pub(super) fn plane_section(
     let one = Length::Millimetre.in_units_of(unit);
     match rail.plane_section() {
         Ok((section, centroid)) => {
-            let PlaneSection { area, i_vertical, i_lateral } = section;
+            let PlaneSection {
+                area,
+                i_vertical,
+                i_lateral,
+            } = section;
             let [two, four] = [one.powi(2), one.powi(4)];
-            let section =
-                PlaneSection { area: area * two, i_vertical: i_vertical * four, i_lateral: i_lateral * four };
+            let section = PlaneSection {
+                area: area * two,
+                i_vertical: i_vertical * four,
+                i_lateral: i_lateral * four,
+            };
             Some((section, centroid * one))
         }
         Err(missing) => {
-            let fault =
-                Fault::new(&at.key("composite"), format!("the tables lack the {missing} of {}", rail.name));
-            check.faults.add(
-                fault
-                    .at_key()
-                    .hint("leave `composite` out and give the properties of the whole section as numbers"),
+            let fault = Fault::new(
+                &at.key("composite"),
+                format!("the tables lack the {missing} of {}", rail.name),
             );
+            check.faults.add(fault.at_key().hint(
+                "leave `composite` out and give the properties of the whole section as numbers",
+            ));
             None
         }
     }
@@ -106,5 +144,10 @@ pub(super) fn in_file_units(section: &RolledSection, units: Units) -> [f64; 6] {
 
 /// A number in SI units (m, N, s) in the units of a file.
 pub(super) fn from_si(value: f64, dimension: Dimension, units: Units) -> f64 {
-    value * Scale { from: Units::SI, to: units }.factor(dimension)
+    value
+        * Scale {
+            from: Units::SI,
+            to: units,
+        }
+        .factor(dimension)
 }

@@ -18,15 +18,26 @@ struct Material {
 }
 
 /// Reads materials and sections into the model and returns the names of the sections.
-pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Vec<String> {
+pub(super) fn read(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    model: &mut Model,
+    check: &mut Check<'_>,
+) -> Vec<String> {
     let mut materials = BTreeMap::new();
     let list = root.key("materials");
-    for (index, raw) in
-        check.faults.require(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    for (index, raw) in check
+        .faults
+        .require(&raw.materials, root, "materials")
+        .into_iter()
+        .flatten()
+        .enumerate()
     {
         let at = list.index(index);
         let material = read_material(raw, &at, check);
-        let Some(name) = check.faults.require(&raw.name, &at, "name") else { continue };
+        let Some(name) = check.faults.require(&raw.name, &at, "name") else {
+            continue;
+        };
         if materials.insert(name.as_str(), material).is_some() {
             check.faults.add(
                 Fault::new(&at.key("name"), "must differ from the other materials")
@@ -36,19 +47,30 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
     }
     let list = root.key("sections");
     let mut names: Vec<String> = Vec::new();
-    for (index, raw) in
-        check.faults.require(&raw.sections, root, "sections").into_iter().flatten().enumerate()
+    for (index, raw) in check
+        .faults
+        .require(&raw.sections, root, "sections")
+        .into_iter()
+        .flatten()
+        .enumerate()
     {
         let at = list.index(index);
-        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check
+            .faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
         if !name.is_empty() && names.contains(&name) {
             check.faults.add(
-                Fault::new(&at.key("name"), "must differ from the other sections").got(format!("\"{name}\"")),
+                Fault::new(&at.key("name"), "must differ from the other sections")
+                    .got(format!("\"{name}\"")),
             );
         }
         names.push(name);
         let filled = super::shape::filled(raw, &at, check);
-        model.sections.push(read_section(&filled, &materials, &at, check));
+        model
+            .sections
+            .push(read_section(&filled, &materials, &at, check));
     }
     names
 }
@@ -57,7 +79,12 @@ fn read_material(raw: &RawMaterial, at: &Place<'_>, check: &mut Check<'_>) -> Ma
     let e = check.required_positive(raw.e, at, "E", Dimension::STRESS, "");
     let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
     let density = raw.density.unwrap_or_default();
-    let density = check.not_negative(density, &at.key("density"), Dimension::DENSITY, "mass per volume");
+    let density = check.not_negative(
+        density,
+        &at.key("density"),
+        Dimension::DENSITY,
+        "mass per volume",
+    );
     Material { e, g, density }
 }
 
@@ -77,15 +104,20 @@ fn read_section(
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => format!("known: {}", known.join(", ")),
             };
-            let fault = Fault::new(&place, "must be the name of a material").got(format!("\"{name}\""));
+            let fault =
+                Fault::new(&place, "must be the name of a material").got(format!("\"{name}\""));
             check.faults.add(fault.hint(hint));
         }
     }
     let mut plain = |value: Option<f64>, key: &str, dimension| {
-        check.optional_positive(value, &at.key(key), dimension, "").unwrap_or_default()
+        check
+            .optional_positive(value, &at.key(key), dimension, "")
+            .unwrap_or_default()
     };
     let area = plain(raw.area, "A", Dimension::AREA);
-    let (e, g) = material.map_or((1.0, 1.0), |material| (material.e, material.g.unwrap_or_default()));
+    let (e, g) = material.map_or((1.0, 1.0), |material| {
+        (material.e, material.g.unwrap_or_default())
+    });
     CrossSection {
         e,
         g,
@@ -122,7 +154,12 @@ pub(super) fn check_complete(
     check: &mut Check<'_>,
 ) {
     let list = root.key("sections");
-    for (index, (section, raw)) in model.sections.iter().zip(raw.sections.iter().flatten()).enumerate() {
+    for (index, (section, raw)) in model
+        .sections
+        .iter()
+        .zip(raw.sections.iter().flatten())
+        .enumerate()
+    {
         let at = list.index(index);
         let ends = |taper: &Option<Taper>| taper.is_some_and(|taper| taper.section == index);
         let pairs = model.members.iter().zip(tapers);
@@ -132,15 +169,24 @@ pub(super) fn check_complete(
             continue;
         }
         let [beams, rods] = [MemberKind::Beam, MemberKind::Rod].map(|kind| kinds.contains(&kind));
-        for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
-            if value.is_none() && raw.shape.is_none() && (beams || key == "A" || (rods && key == "J")) {
+        for (key, value) in [
+            ("A", raw.area),
+            ("Iy", raw.iy),
+            ("Iz", raw.iz),
+            ("J", raw.j),
+        ] {
+            if value.is_none()
+                && raw.shape.is_none()
+                && (beams || key == "A" || (rods && key == "J"))
+            {
                 let user = match (beams, rods) {
                     (true, _) => "beams",
                     (false, true) => "rods",
                     (false, false) => "members",
                 };
                 check.faults.add(
-                    Fault::new(&at, format!("missing key `{key}`")).hint(format!("{user} use this section")),
+                    Fault::new(&at, format!("missing key `{key}`"))
+                        .hint(format!("{user} use this section")),
                 );
             }
         }
@@ -149,7 +195,9 @@ pub(super) fn check_complete(
         let needs = (beams && (section.j > 0.0 || sheared)) || (rods && section.j > 0.0);
         if needs && section.g == 0.0 {
             let fault = Fault::new(&at, "its material needs `G`");
-            check.faults.add(fault.hint("torsion and shear depend on the shear modulus"));
+            check
+                .faults
+                .add(fault.hint("torsion and shear depend on the shear modulus"));
         }
     }
 }

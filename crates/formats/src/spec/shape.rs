@@ -11,8 +11,16 @@ use crate::text::place::Place;
 use crate::units::{Dimension, Length, Scale};
 
 /// Keys of dimensions, in the order in which [`read`] returns them.
-const KEYS: [&str; 8] =
-    ["height", "width", "flange", "web", "lower_width", "lower_flange", "diameter", "wall"];
+const KEYS: [&str; 8] = [
+    "height",
+    "width",
+    "flange",
+    "web",
+    "lower_width",
+    "lower_flange",
+    "diameter",
+    "wall",
+];
 
 /// Kinds of shapes in specs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,13 +32,20 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    const WORDS: [(&'static str, Kind); 4] =
-        [("I", Kind::I), ("box", Kind::Box), ("tube", Kind::Tube), ("bar", Kind::Bar)];
+    const WORDS: [(&'static str, Kind); 4] = [
+        ("I", Kind::I),
+        ("box", Kind::Box),
+        ("tube", Kind::Tube),
+        ("bar", Kind::Bar),
+    ];
 
     /// Keys of dimensions that are required, and keys that are optional.
     const fn keys(self) -> (&'static [&'static str], &'static [&'static str]) {
         match self {
-            Kind::I => (&["height", "width", "flange", "web"], &["lower_width", "lower_flange"]),
+            Kind::I => (
+                &["height", "width", "flange", "web"],
+                &["lower_width", "lower_flange"],
+            ),
             Kind::Box => (&["height", "width", "flange", "web"], &[]),
             Kind::Tube => (&["diameter", "wall"], &[]),
             Kind::Bar => (&["height", "width"], &[]),
@@ -47,14 +62,18 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
     let found = match &raw.shape {
         None => return section,
         Some(RawSectionShape::Dimensions(shape)) => read(shape, &place, check),
-        Some(RawSectionShape::Name(name)) => {
-            rolled::section(name, &place, check).map(|found| rolled::in_file_units(found, check.scale.from))
-        }
+        Some(RawSectionShape::Name(name)) => rolled::section(name, &place, check)
+            .map(|found| rolled::in_file_units(found, check.scale.from)),
     };
     let Some(found) = found else {
         // the fault of the shape has been reported; placeholders prevent a second report that the section is
         // incomplete
-        for number in [&mut section.area, &mut section.iy, &mut section.iz, &mut section.j] {
+        for number in [
+            &mut section.area,
+            &mut section.iy,
+            &mut section.iz,
+            &mut section.j,
+        ] {
             number.get_or_insert(1.0);
         }
         return section;
@@ -86,11 +105,16 @@ pub(super) fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Opt
         return None;
     }
     let Some(found) = properties(kind, dimensions) else {
-        let listed: Vec<String> =
-            dimensions.iter().filter(|value| **value > 0.0).map(|value| number(*value)).collect();
-        let fault =
-            Fault::new(at, "its dimensions must leave space between the plates").got(listed.join(", "));
-        check.faults.add(fault.hint("all dimensions have the unit `length`, by default that of the file"));
+        let listed: Vec<String> = dimensions
+            .iter()
+            .filter(|value| **value > 0.0)
+            .map(|value| number(*value))
+            .collect();
+        let fault = Fault::new(at, "its dimensions must leave space between the plates")
+            .got(listed.join(", "));
+        check
+            .faults
+            .add(fault.hint("all dimensions have the unit `length`, by default that of the file"));
         return None;
     };
     let unit = own.map_or(1.0, |own| own.in_units_of(check.scale.from.length));
@@ -128,11 +152,17 @@ fn read_dimensions(raw: &RawShape, kind: Kind, at: &Place<'_>, check: &mut Check
             Some(_) => {
                 let known: Vec<&str> = required.iter().chain(optional).copied().collect();
                 let fault = Fault::new(&place, format!("`{key}` is not a dimension of this kind"));
-                check.faults.add(fault.at_key().hint(format!("its dimensions are {}", known.join(", "))));
+                check.faults.add(
+                    fault
+                        .at_key()
+                        .hint(format!("its dimensions are {}", known.join(", "))),
+                );
             }
             None if required.contains(key) => {
                 let fault = Fault::new(at, format!("missing key `{key}`"));
-                check.faults.add(fault.hint(format!("this kind needs {}", required.join(", "))));
+                check
+                    .faults
+                    .add(fault.hint(format!("this kind needs {}", required.join(", "))));
             }
             None => {}
         }
@@ -152,9 +182,21 @@ fn completed(mut dimensions: [f64; 8]) -> [f64; 8] {
 
 /// The properties of a shape in powers of the unit of its dimensions; `None` if no space is left between its plates.
 pub(super) fn properties(kind: Kind, dimensions: [f64; 8]) -> Option<Properties> {
-    let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = completed(dimensions);
+    let [
+        height,
+        width,
+        flange,
+        web,
+        lower_width,
+        lower_flange,
+        diameter,
+        wall,
+    ] = completed(dimensions);
     let found = match kind {
-        Kind::I => section_properties("I", &[height, lower_width, width, web, lower_flange, flange]),
+        Kind::I => section_properties(
+            "I",
+            &[height, lower_width, width, web, lower_flange, flange],
+        ),
         Kind::Box => section_properties("BOX", &[width, height, flange, web]),
         Kind::Tube => section_properties("TUBE2", &[0.5 * diameter, wall]),
         Kind::Bar => section_properties("BAR", &[width, height]),
@@ -188,11 +230,16 @@ impl ShapeTaper {
     pub fn between(a: &RawSection, b: &RawSection, scale: &Scale) -> Option<ShapeTaper> {
         let (kind, from) = in_model_units(dimensions(a)?, scale)?;
         let (other, to) = in_model_units(dimensions(b)?, scale)?;
-        let stated =
-            |raw: &RawSection| [raw.area, raw.iy, raw.iz, raw.j, raw.asy, raw.asz].map(|q| q.is_some());
+        let stated = |raw: &RawSection| {
+            [raw.area, raw.iy, raw.iz, raw.j, raw.asy, raw.asz].map(|q| q.is_some())
+        };
         let stated = [stated(a), stated(b)];
         let follows = std::array::from_fn(|k| !stated[0][k] && !stated[1][k]);
-        (kind == other).then_some(ShapeTaper { kind, ends: [from, to], follows })
+        (kind == other).then_some(ShapeTaper {
+            kind,
+            ends: [from, to],
+            follows,
+        })
     }
 
     /// The uniform section that replaces the stretch `from`..`to` (fractions of the length) of a member from section
@@ -201,7 +248,12 @@ impl ShapeTaper {
     /// Each stiffness is the reciprocal of its mean reciprocal over the stretch, as for properties that vary linearly:
     /// elongation and twist under end loads are exact, and deflections converge with the square of the number of
     /// parts. The mass is the mean mass. `None` if dimensions in the stretch leave no space between the plates.
-    pub fn section(&self, a: &CrossSection, b: &CrossSection, [from, to]: [f64; 2]) -> Option<CrossSection> {
+    pub fn section(
+        &self,
+        a: &CrossSection,
+        b: &CrossSection,
+        [from, to]: [f64; 2],
+    ) -> Option<CrossSection> {
         let mut reciprocals = [0.0; 6];
         let mut mass = 0.0;
         let densities = [a.mass / a.area, b.mass / b.area];
@@ -219,7 +271,13 @@ impl ShapeTaper {
             }
         }
         let linear = a.between(b, from, to);
-        let or = |k: usize, stated: f64| if self.follows[k] { 1.0 / reciprocals[k] } else { stated };
+        let or = |k: usize, stated: f64| {
+            if self.follows[k] {
+                1.0 / reciprocals[k]
+            } else {
+                stated
+            }
+        };
         Some(CrossSection {
             area: or(0, linear.area),
             iy: or(1, linear.iy),
@@ -235,8 +293,18 @@ impl ShapeTaper {
     /// A, Iy, Iz, J, Asy, Asz at the fraction `s` of the length.
     fn properties(&self, s: f64) -> Option<[f64; 6]> {
         let [from, to] = self.ends;
-        let found = properties(self.kind, std::array::from_fn(|k| from[k] + (to[k] - from[k]) * s))?;
-        Some([found.area, found.i2, found.i1, found.j, found.k1 * found.area, found.k2 * found.area])
+        let found = properties(
+            self.kind,
+            std::array::from_fn(|k| from[k] + (to[k] - from[k]) * s),
+        )?;
+        Some([
+            found.area,
+            found.i2,
+            found.i1,
+            found.j,
+            found.k1 * found.area,
+            found.k2 * found.area,
+        ])
     }
 }
 
@@ -267,5 +335,8 @@ pub(super) fn in_model_units(raw: &RawShape, scale: &Scale) -> Option<(Kind, [f6
         raw.wall,
     ];
     let factor = unit.in_units_of(scale.to.length);
-    Some((kind, completed(given.map(|value| factor * value.unwrap_or_default()))))
+    Some((
+        kind,
+        completed(given.map(|value| factor * value.unwrap_or_default())),
+    ))
 }

@@ -13,9 +13,15 @@ impl Spec {
     /// that are connected to a support, a spring, a link, or a member that is not under a rail, such as a column.
     #[must_use]
     pub fn spans(&self, model: &Model, rails: &[Rail], index: usize) -> Vec<f64> {
-        let Some(rail) = rails.get(index) else { return Vec::new() };
+        let Some(rail) = rails.get(index) else {
+            return Vec::new();
+        };
         let mut ends = match &self.form {
-            Form::Girder(_) => model.supports.iter().map(|support| model.points[support.point][0]).collect(),
+            Form::Girder(_) => model
+                .supports
+                .iter()
+                .map(|support| model.points[support.point][0])
+                .collect(),
             Form::Frame(_) => supported_points(model, rails, rail),
         };
         ends.sort_by(f64::total_cmp);
@@ -33,13 +39,36 @@ fn supported_points(model: &Model, rails: &[Rail], rail: &Rail) -> Vec<f64> {
         carries[segment.member] = true;
     }
     let mut is_supported = vec![false; model.points.len()];
-    model.supports.iter().for_each(|support| is_supported[support.point] = true);
-    model.springs.iter().for_each(|spring| is_supported[spring.point] = true);
-    model.links.iter().flat_map(|link| [link.from, link.to]).for_each(|point| is_supported[point] = true);
-    let others = model.members.iter().zip(&carries).filter(|(_, carries)| !**carries);
-    others.flat_map(|(member, _)| member.points).for_each(|point| is_supported[point] = true);
+    model
+        .supports
+        .iter()
+        .for_each(|support| is_supported[support.point] = true);
+    model
+        .springs
+        .iter()
+        .for_each(|spring| is_supported[spring.point] = true);
+    model
+        .links
+        .iter()
+        .flat_map(|link| [link.from, link.to])
+        .for_each(|point| is_supported[point] = true);
+    let others = model
+        .members
+        .iter()
+        .zip(&carries)
+        .filter(|(_, carries)| !**carries);
+    others
+        .flat_map(|(member, _)| member.points)
+        .for_each(|point| is_supported[point] = true);
     let axis = Vector3::from(rail.axis).normalize();
-    let place = |point: usize| (Vector3::from(model.points[point]) - Vector3::from(rail.origin)).dot(&axis);
-    let points = rail.segments.iter().flat_map(|segment| model.members[segment.member].points);
-    points.filter(|point| is_supported[*point]).map(place).collect()
+    let place =
+        |point: usize| (Vector3::from(model.points[point]) - Vector3::from(rail.origin)).dot(&axis);
+    let points = rail
+        .segments
+        .iter()
+        .flat_map(|segment| model.members[segment.member].points);
+    points
+        .filter(|point| is_supported[*point])
+        .map(place)
+        .collect()
 }

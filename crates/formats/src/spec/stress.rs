@@ -47,10 +47,15 @@ impl Detail {
 }
 
 /// Stress points of every section of the general form.
-pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Vec<StressPoint>> {
+pub(super) fn of_sections(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<Vec<StressPoint>> {
     let list = root.key("sections");
     let all = raw.sections.iter().flatten().enumerate();
-    all.map(|(index, section)| read(&section.points, &list.index(index), check)).collect()
+    all.map(|(index, section)| read(&section.points, &list.index(index), check))
+        .collect()
 }
 
 /// Stress points of the section at `at`.
@@ -59,10 +64,17 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
     let mut points: Vec<StressPoint> = Vec::new();
     for (index, raw) in raw.iter().enumerate() {
         let at = list.index(index);
-        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check
+            .faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
         let is_taken = points.iter().any(|other| other.name == name);
         if raw.name.is_some() && (name.is_empty() || is_taken || name.contains('.')) {
-            let fault = Fault::new(&at.key("name"), "must differ from the other names and contain no dots");
+            let fault = Fault::new(
+                &at.key("name"),
+                "must differ from the other names and contain no dots",
+            );
             check.faults.add(fault.got(format!("\"{name}\"")));
         } else if COMPONENTS.iter().any(|(word, _)| *word == name) {
             let fault = Fault::new(&at.key("name"), "must not be the name of an internal force");
@@ -70,13 +82,18 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
         }
         if raw.y.is_none() && raw.z.is_none() {
             let fault = Fault::new(&at, "must have `y`, `z` or both");
-            check.faults.add(fault.hint("coordinates from the centroid along the local axes of the section"));
+            check.faults.add(
+                fault.hint("coordinates from the centroid along the local axes of the section"),
+            );
         }
         let mut place = |value: Option<f64>, key: &str| {
             check.number(value.unwrap_or_default(), &at.key(key), Dimension::LENGTH)
         };
         let (y, z) = (place(raw.y, "y"), place(raw.z, "z"));
-        let detail = raw.detail.as_ref().and_then(|raw| read_detail(raw, &at.key("detail"), check));
+        let detail = raw
+            .detail
+            .as_ref()
+            .and_then(|raw| read_detail(raw, &at.key("detail"), check));
         points.push(StressPoint { name, y, z, detail });
     }
     points
@@ -87,8 +104,11 @@ fn read_detail(raw: &RawDetail, at: &Place<'_>, check: &mut Check<'_>) -> Option
         RawDetail::Number(value) if CATEGORIES.contains(value) => Some(Detail::Eurocode(*value)),
         RawDetail::Number(value) => {
             let known: Vec<String> = CATEGORIES.iter().map(f64::to_string).collect();
-            let fault = Fault::new(at, "must be a detail category of EN 1993-1-9").got(number(*value));
-            check.faults.add(fault.hint(format!("in N/mm2: {}", known.join(", "))));
+            let fault =
+                Fault::new(at, "must be a detail category of EN 1993-1-9").got(number(*value));
+            check
+                .faults
+                .add(fault.hint(format!("in N/mm2: {}", known.join(", "))));
             None
         }
         RawDetail::Word(word) => {
@@ -97,7 +117,9 @@ fn read_detail(raw: &RawDetail, at: &Place<'_>, check: &mut Check<'_>) -> Option
                 let words = AiscCategory::ALL.map(|(word, _)| word);
                 let fault = Fault::new(at, format!("must be {}", alternatives(&words)));
                 let fault = fault.got(format!("\"{word}\""));
-                check.faults.add(fault.hint("categories of EN 1993-1-9 are numbers, such as 112"));
+                check
+                    .faults
+                    .add(fault.hint("categories of EN 1993-1-9 are numbers, such as 112"));
             }
             found.map(|(_, category)| Detail::Aisc(*category))
         }

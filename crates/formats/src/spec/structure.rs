@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use fea::{BeamTheory, EntryFault, FactoredFrame, Girder, Member, MemberKind, Model, ModelEntry, Rail};
+use fea::{
+    BeamTheory, EntryFault, FactoredFrame, Girder, Member, MemberKind, Model, ModelEntry, Rail,
+};
 
 use super::cuts::Cut;
 use super::outline::{MemberOutline, OutlinedMember, SectionOutline, SpecCraneRail};
@@ -55,7 +57,10 @@ pub struct Spec {
 
 /// The two forms of a spec.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(clippy::large_enum_variant, reason = "there are few specs, and most have the general form")]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there are few specs, and most have the general form"
+)]
 pub enum Form {
     /// A straight girder, continuous over its supports.
     Girder(Girder),
@@ -134,14 +139,20 @@ impl Spec {
     #[must_use]
     pub fn outline(&self, member: usize) -> Option<OutlinedMember<'_>> {
         match &self.form {
-            Form::Girder(_) => Some(OutlinedMember { section: self.outlines.first()?, taper: None }),
+            Form::Girder(_) => Some(OutlinedMember {
+                section: self.outlines.first()?,
+                taper: None,
+            }),
             Form::Frame(frame) => {
                 let own = frame.member_outlines.get(member)?;
                 let taper = match own.taper {
                     Some((other, stretch)) => Some((self.outlines.get(other)?, stretch)),
                     None => None,
                 };
-                Some(OutlinedMember { section: self.outlines.get(own.section)?, taper })
+                Some(OutlinedMember {
+                    section: self.outlines.get(own.section)?,
+                    taper,
+                })
             }
         }
     }
@@ -185,7 +196,11 @@ impl Spec {
         if let Some(preload) = &self.preload {
             return Ok((preload.state(&model, &rails)?.model.clone(), rails));
         }
-        match model.members.iter().position(|member| member.kind == MemberKind::Cable) {
+        match model
+            .members
+            .iter()
+            .position(|member| member.kind == MemberKind::Cable)
+        {
             Some(member) => Err(fea::Error::Invalid {
                 entry: ModelEntry::Member(member),
                 fault: EntryFault::Slack { tension: 0.0 },
@@ -217,10 +232,13 @@ impl Spec {
     /// A girder from whose numbers no model can be built.
     pub fn unloaded_model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
         match &self.form {
-            Form::Girder(girder) => girder.model_and_rail().map(|(model, rail)| (model, vec![rail])),
-            Form::Frame(frame) => {
-                Ok((frame.model.clone(), frame.rails.iter().map(|(_, rail)| rail.clone()).collect()))
-            }
+            Form::Girder(girder) => girder
+                .model_and_rail()
+                .map(|(model, rail)| (model, vec![rail])),
+            Form::Frame(frame) => Ok((
+                frame.model.clone(),
+                frame.rails.iter().map(|(_, rail)| rail.clone()).collect(),
+            )),
         }
     }
 
@@ -238,11 +256,19 @@ impl Spec {
 
 /// Whether anything of a model has mass.
 pub(super) fn has_mass(model: &Model) -> bool {
-    let mass = |member: &Member| model.sections.get(member.section).is_some_and(|section| section.mass > 0.0);
+    let mass = |member: &Member| {
+        model
+            .sections
+            .get(member.section)
+            .is_some_and(|section| section.mass > 0.0)
+    };
     model.masses.iter().any(|point| point.mass > 0.0) || model.members.iter().any(mass)
 }
 
 /// First and last rail coordinate of a girder.
 pub(super) fn range(girder: &Girder) -> [f64; 2] {
-    [-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]]
+    [
+        -girder.overhangs[0],
+        girder.spans.iter().sum::<f64>() + girder.overhangs[1],
+    ]
 }

@@ -58,10 +58,14 @@ impl<'r> Tapers<'r> {
         let here = [block, index];
         let own = self.parts.get(block, index).copied().flatten();
         if let Some(parts) = own {
-            self.parts.at(here, &data, |place| check_parts(parts, place, check));
+            self.parts
+                .at(here, &data, |place| check_parts(parts, place, check));
         }
         let Some(other) = self.section_b.get(block, index).and_then(Option::as_ref) else {
-            return own.map(|parts| Taper { section: member.section, parts });
+            return own.map(|parts| Taper {
+                section: member.section,
+                parts,
+            });
         };
         self.section_b.at(here, &data, |item| {
             let other = refer(other, names, "section", item, check)?;
@@ -84,12 +88,21 @@ impl<'r> Tapers<'r> {
         let (a, b) = (&model.sections[member.section], &model.sections[other]);
         if (a.e, a.g) != (b.e, b.g) {
             let fault = Fault::new(item, "must be of the material of the cell's `section`");
-            check.faults.add(fault.hint("a tapered cell has one material"));
+            check
+                .faults
+                .add(fault.hint("a tapered cell has one material"));
         }
-        for (name, pair) in [("Asy", [a.shear_y, b.shear_y]), ("Asz", [a.shear_z, b.shear_z])] {
+        for (name, pair) in [
+            ("Asy", [a.shear_y, b.shear_y]),
+            ("Asz", [a.shear_z, b.shear_z]),
+        ] {
             if member.kind == MemberKind::Beam && pair[0].is_some() != pair[1].is_some() {
-                let fault = Fault::new(item, format!("must have `{name}` where the cell's `section` has it"));
-                let hint = "shear areas vary linearly between two values, or are absent at both ends";
+                let fault = Fault::new(
+                    item,
+                    format!("must have `{name}` where the cell's `section` has it"),
+                );
+                let hint =
+                    "shear areas vary linearly between two values, or are absent at both ends";
                 check.faults.add(fault.hint(hint));
             }
         }
@@ -98,18 +111,27 @@ impl<'r> Tapers<'r> {
         let Some(parts) = own.or(self.default).or(of_kind) else {
             let hint = "a cell with `section_b` is solved in uniform parts: state their number in `parts` or \
                         `cell_data.parts`";
-            check.faults.add(Fault::new(place, "missing key `parts`").hint(hint));
+            check
+                .faults
+                .add(Fault::new(place, "missing key `parts`").hint(hint));
             return None;
         };
-        Some(Taper { section: other, parts })
+        Some(Taper {
+            section: other,
+            parts,
+        })
     }
 }
 
 /// Adds a fault if the number of parts is out of range.
 fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
     if !(1..=MAX_PARTS).contains(&parts) {
-        let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}")).got(parts).of_value();
-        check.faults.add(fault.hint("errors fall with the square of the number of parts"));
+        let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}"))
+            .got(parts)
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("errors fall with the square of the number of parts"));
     }
 }
 

@@ -7,7 +7,10 @@ use crate::grid::StationGrid;
 use crate::text::source::Source;
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
-const FT_KIP: Units = Units { length: Length::Foot, force: Force::Kip };
+const FT_KIP: Units = Units {
+    length: Length::Foot,
+    force: Force::Kip,
+};
 
 fn frame() -> Source {
     let text = r#"{
@@ -32,7 +35,10 @@ fn frame() -> Source {
       "rails": {"top": {"origin": [1, 0, 0], "axis": [2, 0, 0], "stations": [-1, 2, 5, 8],
                         "segments": [{"cell": [0, 0], "offset": [0, 0.3, 0.1]}, {"cell": [0, 1], "offset": [0, 0.3, 0]}]}}
     }"#;
-    Source { name: "frame.json".to_owned(), text: text.to_owned() }
+    Source {
+        name: "frame.json".to_owned(),
+        text: text.to_owned(),
+    }
 }
 
 fn read(source: &Source, units: Option<Units>) -> Spec {
@@ -50,20 +56,31 @@ fn solve(spec: &Spec) -> StationGrid {
 fn a_frame_in_other_units_has_the_same_influence_coefficients() {
     let own = read(&frame(), None);
     let other = read(&frame(), Some(FT_KIP));
-    let factor = Scale { from: own.units, to: FT_KIP }.factor(Dimension::FLEXIBILITY);
+    let factor = Scale {
+        from: own.units,
+        to: FT_KIP,
+    }
+    .factor(Dimension::FLEXIBILITY);
     let (own, other) = (solve(&own), solve(&other));
     assert_eq!(own.blocks.len(), 6);
     for ((quantity, a), (_, b)) in own.blocks.iter().zip(&other.blocks) {
         let largest = a.amax() * factor;
         let difference = (a * factor - b).amax();
-        assert!(difference < 1e-12 * largest, "{quantity}: {difference:e} of {largest:e}");
+        assert!(
+            difference < 1e-12 * largest,
+            "{quantity}: {difference:e} of {largest:e}"
+        );
     }
 }
 
 #[test]
 fn masses_are_converted_by_force_time_squared_over_length() {
-    let Form::Frame(own) = read(&frame(), None).form else { panic!("the general form") };
-    let Form::Frame(other) = read(&frame(), Some(FT_KIP)).form else { panic!("the general form") };
+    let Form::Frame(own) = read(&frame(), None).form else {
+        panic!("the general form")
+    };
+    let Form::Frame(other) = read(&frame(), Some(FT_KIP)).form else {
+        panic!("the general form")
+    };
     // one kip s^2/ft in kilograms, one foot in metres
     let kip = 4448.2216152605 / 0.3048;
     let close = |a: f64, b: f64| (a - b).abs() < 1e-15 * a.abs();
@@ -72,7 +89,10 @@ fn masses_are_converted_by_force_time_squared_over_length() {
     assert!(close(a.inertia[2], b.inertia[2] * kip * 0.3048 * 0.3048));
     assert!(close(a.offset[2], b.offset[2] * 0.3048));
     assert!(close(own.model.sections[0].mass, 7850.0 * 0.02));
-    assert!(close(own.model.sections[0].mass, other.model.sections[0].mass * kip / 0.3048));
+    assert!(close(
+        own.model.sections[0].mass,
+        other.model.sections[0].mass * kip / 0.3048
+    ));
 }
 
 #[test]
@@ -101,26 +121,44 @@ fn named_sections_and_rails_are_the_same_in_all_units() {
         )
     };
     let own = |units: Units| {
-        let si = Scale { from: units, to: Units::SI };
-        [Dimension::LENGTH, Dimension::STRESS, Dimension::DENSITY].map(|dimension| si.factor(dimension))
+        let si = Scale {
+            from: units,
+            to: Units::SI,
+        };
+        [Dimension::LENGTH, Dimension::STRESS, Dimension::DENSITY]
+            .map(|dimension| si.factor(dimension))
     };
     let all = [
         (r#"{"length": "m", "force": "N", "time": "s"}"#, Units::SI),
         (r#"{"length": "ft", "force": "kip", "time": "s"}"#, FT_KIP),
         (
             r#"{"length": "in", "force": "lbf", "time": "s"}"#,
-            Units { length: Length::Inch, force: Force::Pound },
+            Units {
+                length: Length::Inch,
+                force: Force::Pound,
+            },
         ),
         (
             r#"{"length": "mm", "force": "kN", "time": "s"}"#,
-            Units { length: Length::Millimetre, force: Force::Kilonewton },
+            Units {
+                length: Length::Millimetre,
+                force: Force::Kilonewton,
+            },
         ),
     ];
     let specs = all.map(|(words, units)| {
-        let source = Source { name: "frame.json".to_owned(), text: text(words, own(units)) };
+        let source = Source {
+            name: "frame.json".to_owned(),
+            text: text(words, own(units)),
+        };
         assert_eq!(read(&source, None).notes.len(), 2);
-        let Form::Frame(frame) = read(&source, Some(Units::SI)).form else { panic!("a frame") };
-        (frame.model.sections[frame.model.members[0].section], frame.rails[0].1.segments[0].offset)
+        let Form::Frame(frame) = read(&source, Some(Units::SI)).form else {
+            panic!("a frame")
+        };
+        (
+            frame.model.sections[frame.model.members[0].section],
+            frame.rails[0].1.segments[0].offset,
+        )
     });
     let (known, offset) = specs[0];
     // an A100 of 95 mm on a base 304.8 mm above the axis
@@ -164,29 +202,51 @@ fn two_rails(cell_data: &str, keys: [&str; 2]) -> Source {
                                                               {{"cell": [0, 1], "offset": [0, 0.2, 0]}}]{}}}}}}}"#,
         keys[0], keys[1]
     );
-    Source { name: "rails.json".to_owned(), text }
+    Source {
+        name: "rails.json".to_owned(),
+        text,
+    }
 }
 
 fn sections_of(source: &Source) -> Vec<fea::CrossSection> {
-    let Form::Frame(frame) = read(source, None).form else { panic!("a frame") };
-    frame.model.members.iter().map(|member| frame.model.sections[member.section]).collect()
+    let Form::Frame(frame) = read(source, None).form else {
+        panic!("a frame")
+    };
+    frame
+        .model
+        .members
+        .iter()
+        .map(|member| frame.model.sections[member.section])
+        .collect()
 }
 
 #[test]
 fn each_rail_adds_its_mass_to_its_own_members() {
     let uniform = r#""section": [0]"#;
     let bare = sections_of(&two_rails(uniform, ["", ""]));
-    let railed = sections_of(&two_rails(uniform, [r#", "crane_rail": "A75""#, r#", "crane_rail": "A45""#]));
+    let railed = sections_of(&two_rails(
+        uniform,
+        [r#", "crane_rail": "A75""#, r#", "crane_rail": "A45""#],
+    ));
     assert!((railed[0].mass - bare[0].mass - 56.2 - 22.1).abs() < 1e-10);
     assert!((railed[1].mass - bare[1].mass - 22.1).abs() < 1e-10);
-    assert_eq!(fea::CrossSection { mass: bare[0].mass, ..railed[0] }, bare[0]);
+    assert_eq!(
+        fea::CrossSection {
+            mass: bare[0].mass,
+            ..railed[0]
+        },
+        bare[0]
+    );
 }
 
 #[test]
 fn a_composite_rail_stiffens_the_plane_that_is_upright() {
     let rail = [r#", "crane_rail": "A75", "composite": true"#, ""];
     let upright = sections_of(&two_rails(r#""section": [0]"#, rail));
-    let lying = sections_of(&two_rails(r#""section": [0], "orientation": [[0, 0, 1]]"#, rail));
+    let lying = sections_of(&two_rails(
+        r#""section": [0], "orientation": [[0, 0, 1]]"#,
+        rail,
+    ));
     let bare = sections_of(&two_rails(r#""section": [0]"#, ["", ""]))[0];
     let (own, part, distance) = (bare.area, 71.6e-4, 0.2 + 35.27e-3);
     let steiner = own * part / (own + part) * distance * distance;
@@ -194,17 +254,23 @@ fn a_composite_rail_stiffens_the_plane_that_is_upright() {
         (upright[0], upright[0].iz - bare.iz, upright[0].iy - bare.iy),
         (lying[0], lying[0].iy - bare.iy, lying[0].iz - bare.iz),
     ] {
-        assert!((vertical / (531e-8 + steiner) - 1.0).abs() < 1e-12, "{section:?}");
+        assert!(
+            (vertical / (531e-8 + steiner) - 1.0).abs() < 1e-12,
+            "{section:?}"
+        );
         assert!((lateral / 1011e-8 - 1.0).abs() < 1e-12, "{section:?}");
         assert!((section.area - own - part).abs() < 1e-15);
     }
     assert_eq!(upright[1], bare);
     let twice = r#", "crane_rail": "A75", "composite": true"#;
-    let faults =
-        Spec::read(&two_rails(r#""section": [0]"#, [twice; 2]), None).expect_err("two composite rails");
+    let faults = Spec::read(&two_rails(r#""section": [0]"#, [twice; 2]), None)
+        .expect_err("two composite rails");
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0].path, "rails.two.composite");
-    assert_eq!(faults[0].expected, "a member can be a plane section with one rail only");
+    assert_eq!(
+        faults[0].expected,
+        "a member can be a plane section with one rail only"
+    );
 }
 
 #[test]
@@ -223,17 +289,25 @@ fn rails_lie_on_every_part_of_a_tapered_member() {
 fn stations_are_tenths_of_the_spans_by_default() {
     let text = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
         "girder": {"spans": [6, 10], "overhangs": [1.5, 0], "section": "HEB 400"}}"#;
-    let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+    let source = Source {
+        name: "spec.json".to_owned(),
+        text: text.to_owned(),
+    };
     let spec = Spec::read(&source, None).expect("a spec of a section and its spans");
     let stations = &spec.rails()[0].stations;
     assert_eq!(stations.len(), 1 + 10 + 10 + 1);
     assert_eq!((stations[0], stations[1], stations[2]), (-1.5, 0.0, 0.6));
     assert_eq!((stations[11], stations[12], stations[21]), (6.0, 7.0, 16.0));
     let spans = vec!["6"; 3000].join(", ");
-    let many = Source { text: text.replace("6, 10", &spans), ..source };
+    let many = Source {
+        text: text.replace("6, 10", &spans),
+        ..source
+    };
     let spec = Spec::read(&many, None).expect("a long runway");
     let stations = &spec.rails()[0].stations;
-    assert!((500..=1100).contains(&stations.len()) && stations.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(
+        (500..=1100).contains(&stations.len()) && stations.windows(2).all(|pair| pair[0] < pair[1])
+    );
 }
 
 /// The portal of two columns and a girder with a preload of its own weight and forces on its corners.
@@ -248,13 +322,15 @@ fn portal(preload: &str) -> Source {
                      {"point": 3, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"]}],
         "rails": {"top": {"origin": [0, 5, 0], "axis": [1, 0, 0], "segments": [{"cell": [0, 1]}], "stations": [0, 3, 6]}},
         "preload": PRELOAD}"#;
-    Source { name: "portal.json".to_owned(), text: text.replace("PRELOAD", preload) }
+    Source {
+        name: "portal.json".to_owned(),
+        text: text.replace("PRELOAD", preload),
+    }
 }
 
 #[test]
 fn the_model_of_a_spec_with_a_preload_is_that_about_its_state() {
-    let loads =
-        r#"{"loads": [{"point": "corner", "force": [0, -200, 0]}, {"point": 2, "force": [0, -200, 0]}]}"#;
+    let loads = r#"{"loads": [{"point": "corner", "force": [0, -200, 0]}, {"point": 2, "force": [0, -200, 0]}]}"#;
     let spec = Spec::read(&portal(loads), None).expect("a spec with a preload");
     let (model, _) = spec.model().expect("it stands");
     let (unloaded, _) = spec.unloaded_model().expect("a model");
@@ -265,32 +341,68 @@ fn the_model_of_a_spec_with_a_preload_is_that_about_its_state() {
     assert!(unloaded.members.iter().all(|member| member.tension == 0.0));
     // The state is solved once: copies share it, and other units have their own.
     let state = spec.preloaded().expect("it stands").expect("a state");
-    let copy = spec.clone().preloaded().expect("it stands").expect("a state");
+    let copy = spec
+        .clone()
+        .preloaded()
+        .expect("it stands")
+        .expect("a state");
     assert!(std::sync::Arc::ptr_eq(&state, &copy));
-    let si = Spec::read(&portal(loads), Some(crate::units::Units::SI)).expect("the same in newtons");
+    let si =
+        Spec::read(&portal(loads), Some(crate::units::Units::SI)).expect("the same in newtons");
     let (model, _) = si.model().expect("it stands");
     assert!((model.members[0].tension / -200e3 - 1.0).abs() < 1e-9);
-    let factor = si.preloaded().expect("it stands").expect("a state").critical.value();
-    assert!((factor / state.critical.value() - 1.0).abs() < 1e-9, "{factor}");
+    let factor = si
+        .preloaded()
+        .expect("it stands")
+        .expect("a state")
+        .critical
+        .value();
+    assert!(
+        (factor / state.critical.value() - 1.0).abs() < 1e-9,
+        "{factor}"
+    );
 }
 
 #[test]
 fn weight_cuts_the_members_that_rise_and_warnings_name_cells() {
-    let spec =
-        Spec::read(&portal(r#"{"weight": true, "loads": [{"point": 1, "force": [0, -300, 0]}]}"#), None)
-            .expect("a spec with a preload");
-    let Form::Frame(frame) = &spec.form else { panic!("the general form") };
+    let spec = Spec::read(
+        &portal(r#"{"weight": true, "loads": [{"point": 1, "force": [0, -300, 0]}]}"#),
+        None,
+    )
+    .expect("a spec with a preload");
+    let Form::Frame(frame) = &spec.form else {
+        panic!("the general form")
+    };
     // w L^3/EI of a column is 0.0092: one part suffices; ten times as long it is cut.
     assert_eq!(frame.model.members.len(), 3);
-    let high =
-        portal(r#"{"weight": true}"#).text.replace("5, 0]", "20, 0]").replace("[0, 5, 0]", "[0, 20, 0]");
-    let tall = Spec::read(&Source { name: "tall.json".to_owned(), text: high }, None).expect("a tall portal");
-    let Form::Frame(frame) = &tall.form else { panic!("the general form") };
-    assert!(frame.model.members.len() > 5 && frame.cells.iter().filter(|cell| **cell == [0, 1]).count() == 1);
+    let high = portal(r#"{"weight": true}"#)
+        .text
+        .replace("5, 0]", "20, 0]")
+        .replace("[0, 5, 0]", "[0, 20, 0]");
+    let tall = Spec::read(
+        &Source {
+            name: "tall.json".to_owned(),
+            text: high,
+        },
+        None,
+    )
+    .expect("a tall portal");
+    let Form::Frame(frame) = &tall.form else {
+        panic!("the general form")
+    };
+    assert!(
+        frame.model.members.len() > 5
+            && frame.cells.iter().filter(|cell| **cell == [0, 1]).count() == 1
+    );
     let warnings = spec.warnings();
     assert!(
-        warnings.iter().any(|text| text.contains("critical factor") && text.contains("5.2.1(3)")),
+        warnings
+            .iter()
+            .any(|text| text.contains("critical factor") && text.contains("5.2.1(3)")),
         "{warnings:?}"
     );
-    assert!(warnings.iter().any(|text| text.contains("cell [0, 0]")), "{warnings:?}");
+    assert!(
+        warnings.iter().any(|text| text.contains("cell [0, 0]")),
+        "{warnings:?}"
+    );
 }

@@ -9,7 +9,8 @@
 //! to a global axis, because the supports that restrain the new rail longitudinally exist for global axes only.
 
 use fea::{
-    BeamTheory, CrossSection, Dof, GroundSpring, Member, Model, PointMass, Rail, RailSegment, Support,
+    BeamTheory, CrossSection, Dof, GroundSpring, Member, Model, PointMass, Rail, RailSegment,
+    Support,
 };
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -80,11 +81,15 @@ impl Ties {
         let slack = SAME * self.spacing;
         // at least two ties are required
         if start < first - slack || start + self.spacing > last + slack {
-            return Err(TiesError::Few { range: [first, last] });
+            return Err(TiesError::Few {
+                range: [first, last],
+            });
         }
         let count = ((last - start + slack) / self.spacing).floor();
         if (count + 2.0) * self.elements as f64 > MAX_ELEMENTS {
-            return Err(TiesError::Many { bays: (count + 2.0) * self.elements as f64 });
+            return Err(TiesError::Many {
+                bays: (count + 2.0) * self.elements as f64,
+            });
         }
         let place = |k: usize| (start + k as f64 * self.spacing).max(first).min(last);
         Ok((0..=count as usize).map(place).collect())
@@ -129,21 +134,52 @@ pub enum TiesError {
 ///
 /// # Errors
 /// Fewer than two ties; more than [`MAX_ELEMENTS`] elements.
-pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Result<Spec, TiesError> {
-    let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
+pub fn on_ground(
+    name: &str,
+    units: Units,
+    ties: &Ties,
+    range: [f64; 2],
+) -> Result<Spec, TiesError> {
+    let mut model = Model {
+        up: [0.0, 1.0, 0.0],
+        ..Model::default()
+    };
     let places = ties.places(range)?;
     let mut pads = Vec::new();
-    let line = Line { origin: Vector3::zeros(), x: Vector3::x(), y: Vector3::y() };
-    let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
+    let line = Line {
+        origin: Vector3::zeros(),
+        x: Vector3::x(),
+        y: Vector3::y(),
+    };
+    let mut rail = Rail {
+        axis: [1.0, 0.0, 0.0],
+        ..Rail::default()
+    };
     let points = lay(&mut model, &mut rail, ties, &line, range, &places);
     for point in points {
         restrain(&mut model, ties, point, &line);
-        model.springs.push(GroundSpring { point, dof: Dof::Uy, stiffness: ties.k });
-        let lateral = ties.lateral_k.map(|stiffness| GroundSpring { point, dof: Dof::Uz, stiffness });
+        model.springs.push(GroundSpring {
+            point,
+            dof: Dof::Uy,
+            stiffness: ties.k,
+        });
+        let lateral = ties.lateral_k.map(|stiffness| GroundSpring {
+            point,
+            dof: Dof::Uz,
+            stiffness,
+        });
         model.springs.extend(lateral);
-        pads.push(Pad { rail: point, base: None, up: model.up });
+        pads.push(Pad {
+            rail: point,
+            base: None,
+            up: model.up,
+        });
     }
-    rail.stations = places.iter().copied().step_by(places.len().div_ceil(STATIONS)).collect();
+    rail.stations = places
+        .iter()
+        .copied()
+        .step_by(places.len().div_ceil(STATIONS))
+        .collect();
     let frame = FrameSpec {
         sections: vec![GIRDER_RAIL.to_owned()],
         rails: vec![(GIRDER_RAIL.to_owned(), rail)],
@@ -160,7 +196,17 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     let theory = BeamTheory::EulerBernoulli;
     let (outlines, crane_rails) = (Vec::new(), Vec::new());
     let (effects, notes, preload) = (Vec::new(), Vec::new(), None);
-    Ok(Spec { name, units, theory, form, effects, notes, outlines, crane_rails, preload })
+    Ok(Spec {
+        name,
+        units,
+        theory,
+        form,
+        effects,
+        notes,
+        outlines,
+        crane_rails,
+        preload,
+    })
 }
 
 /// The structure with a rail on ties above each of its rails. The new rails have the names, coordinates and stations
@@ -178,7 +224,11 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     let (mut model, points, parts) = split(&model, &seats)?;
     let base = model.points.len();
     // EA / L = k for a truss member of length L = spacing
-    let stiff = |k: f64| CrossSection { e: k * ties.spacing, area: 1.0, ..CrossSection::default() };
+    let stiff = |k: f64| CrossSection {
+        e: k * ties.spacing,
+        area: 1.0,
+        ..CrossSection::default()
+    };
     let section = model.sections.len() + 1;
     let mut new_rails = Vec::new();
     let mut pads = Vec::new();
@@ -186,11 +236,24 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     let mut seated = seats.iter().zip(points);
     for (rail, (line, places, outline)) in rails.iter().zip(lines) {
         let own: Vec<_> = seated.by_ref().take(places.len()).collect();
-        let above = RailAbove::new(&mut model, rail, (line, &places, outline.range), &own, section, ties);
+        let above = RailAbove::new(
+            &mut model,
+            rail,
+            (line, &places, outline.range),
+            &own,
+            section,
+            ties,
+        );
         pads.extend(above.pads);
         trusses.extend(above.trusses);
         let stations = outline.stations;
-        new_rails.push((outline.name, Rail { stations, ..above.rail }));
+        new_rails.push((
+            outline.name,
+            Rail {
+                stations,
+                ..above.rail
+            },
+        ));
     }
     let mut sections = match &spec.form {
         Form::Girder(_) => vec!["girder".to_owned()],
@@ -206,16 +269,22 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     model.members.extend(trusses);
     let cells = match &spec.form {
         Form::Girder(_) => Vec::new(),
-        Form::Frame(frame) => {
-            parts.iter().filter_map(|(member, _)| frame.cells.get(*member)).copied().collect()
-        }
+        Form::Frame(frame) => parts
+            .iter()
+            .filter_map(|(member, _)| frame.cells.get(*member))
+            .copied()
+            .collect(),
     };
     let (point_sets, supports) = match &spec.form {
         Form::Girder(_) => Default::default(),
         Form::Frame(frame) => (frame.point_sets.clone(), frame.supports.clone()),
     };
     let ranges = spec.rails().iter().map(|rail| rail.range).collect();
-    let effects = spec.effects.iter().map(|cut| on_part(cut, &parts)).collect();
+    let effects = spec
+        .effects
+        .iter()
+        .map(|cut| on_part(cut, &parts))
+        .collect();
     let frame = FrameSpec {
         model,
         rails: new_rails,
@@ -228,7 +297,12 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
         pads,
         member_outlines: Vec::new(),
     };
-    Ok(Spec { form: Form::Frame(frame), effects, crane_rails: Vec::new(), ..spec.clone() })
+    Ok(Spec {
+        form: Form::Frame(frame),
+        effects,
+        crane_rails: Vec::new(),
+        ..spec.clone()
+    })
 }
 
 /// The seats of the ties of all rails of a structure, and the line, the positions of the ties and the outline of each
@@ -276,7 +350,10 @@ impl RailAbove {
             let off = seat.place - line.origin;
             line.origin += off - line.x * off.dot(&line.x);
         }
-        let mut new = Rail { segments: Vec::new(), ..rail.clone() };
+        let mut new = Rail {
+            segments: Vec::new(),
+            ..rail.clone()
+        };
         let on_rail = lay(model, &mut new, ties, &line, range, places);
         let (mut trusses, mut pads) = (Vec::new(), Vec::new());
         for (&x, (&point, &(_, seat))) in places.iter().zip(on_rail.iter().zip(own)) {
@@ -286,16 +363,28 @@ impl RailAbove {
                 let tip = at + direction * ties.spacing;
                 let offsets = [[0.0; 3], (tip - foot).into()];
                 let kind = fea::MemberKind::Truss;
-                trusses.push(Member { kind, offsets, ..Member::beam([point, seat], section, line.y.into()) });
+                trusses.push(Member {
+                    kind,
+                    offsets,
+                    ..Member::beam([point, seat], section, line.y.into())
+                });
             };
             spring(-line.y, section);
             if ties.lateral_k.is_some() {
                 spring(line.x.cross(&line.y), section + 1);
             }
-            pads.push(Pad { rail: point, base: Some((seat, (at - foot).into())), up: line.y.into() });
+            pads.push(Pad {
+                rail: point,
+                base: Some((seat, (at - foot).into())),
+                up: line.y.into(),
+            });
             restrain(model, ties, point, &line);
         }
-        RailAbove { rail: new, trusses, pads }
+        RailAbove {
+            rail: new,
+            trusses,
+            pads,
+        }
     }
 }
 
@@ -315,7 +404,11 @@ impl Line {
             ((unit - axis).amax() < 1e-12).then_some(axis)
         };
         let (x, y) = unit(rail.axis).zip(unit(model.up))?;
-        (x.dot(&y) == 0.0).then(|| Line { origin: Vector3::from(rail.origin), x, y })
+        (x.dot(&y) == 0.0).then(|| Line {
+            origin: Vector3::from(rail.origin),
+            x,
+            y,
+        })
     }
 }
 
@@ -355,8 +448,13 @@ fn lay(
                 _ => add(model, ends[k - 1] + (x - ends[k - 1]) * fraction),
             };
             if k > 0 {
-                model.members.push(Member::beam([point - 1, point], section, line.y.into()));
-                rail.segments.push(RailSegment { member: model.members.len() - 1, offset: [0.0; 3] });
+                model
+                    .members
+                    .push(Member::beam([point - 1, point], section, line.y.into()));
+                rail.segments.push(RailSegment {
+                    member: model.members.len() - 1,
+                    offset: [0.0; 3],
+                });
             }
         }
         if places.contains(&x) {
@@ -378,7 +476,12 @@ fn restrain(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
     });
     model.supports.push(Support { point, fixed: fix });
     if ties.mass > 0.0 {
-        model.masses.push(PointMass { point, mass: ties.mass, inertia: [0.0; 3], offset: [0.0; 3] });
+        model.masses.push(PointMass {
+            point,
+            mass: ties.mass,
+            inertia: [0.0; 3],
+            offset: [0.0; 3],
+        });
     }
 }
 
@@ -411,11 +514,24 @@ impl Seat {
             };
             let place = a + (b - a) * fraction + Vector3::from(segment.offset);
             let away = (x - from - (to - from) * fraction).abs();
-            Some((away, Seat { x, member: segment.member, fraction, place }))
+            Some((
+                away,
+                Seat {
+                    x,
+                    member: segment.member,
+                    fraction,
+                    place,
+                },
+            ))
         });
         // if two segments are equally near, the first is taken
-        let nearest =
-            seats.reduce(|best, other| if other.0 < best.0 - SAME * x.abs().max(1.0) { other } else { best });
+        let nearest = seats.reduce(|best, other| {
+            if other.0 < best.0 - SAME * x.abs().max(1.0) {
+                other
+            } else {
+                best
+            }
+        });
         nearest.map(|(_, seat)| seat)
     }
 }
@@ -437,17 +553,26 @@ type Parts = Vec<(usize, [f64; 2])>;
 /// # Errors
 /// A seat at an end with releases, because it would be ambiguous on which side of the tie the hinge is.
 fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesError> {
-    let mut model = Model { members: Vec::new(), ..m.clone() };
+    let mut model = Model {
+        members: Vec::new(),
+        ..m.clone()
+    };
     let mut points = vec![0; seats.len()];
     let mut parts = Vec::new();
     for (index, member) in m.members.iter().enumerate() {
-        let mut own: Vec<(usize, &Seat)> =
-            seats.iter().enumerate().filter(|(_, seat)| seat.member == index).collect();
+        let mut own: Vec<(usize, &Seat)> = seats
+            .iter()
+            .enumerate()
+            .filter(|(_, seat)| seat.member == index)
+            .collect();
         own.sort_by(|a, b| a.1.fraction.total_cmp(&b.1.fraction));
         let [a, b] = ends(m, member);
         let mut last = (member.points[0], 0.0);
         let add = |model: &mut Model, last: (usize, f64), next: (usize, f64)| {
-            let mut part = Member { points: [last.0, next.0], ..*member };
+            let mut part = Member {
+                points: [last.0, next.0],
+                ..*member
+            };
             for (end, outer) in [last.1 == 0.0, next.1 == 1.0].into_iter().enumerate() {
                 if !outer {
                     part.offsets[end] = [0.0; 3];
@@ -457,7 +582,11 @@ fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesEr
             model.members.push(part);
         };
         for (seat, Seat { x, fraction, .. }) in own {
-            let end = if *fraction == 0.0 { Some(0) } else { (*fraction == 1.0).then_some(1) };
+            let end = if *fraction == 0.0 {
+                Some(0)
+            } else {
+                (*fraction == 1.0).then_some(1)
+            };
             if let Some(end) = end {
                 if member.releases[end] != [false; 6] {
                     return Err(TiesError::Hinge { x: *x, cell: index });
@@ -482,9 +611,20 @@ fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesEr
 
 /// Moves a cut to the part of its member that contains it.
 fn on_part(cut: &Cut, parts: &[(usize, [f64; 2])]) -> Cut {
-    let own = parts.iter().enumerate().filter(|(_, (member, _))| *member == cut.member);
-    let part = own.into_iter().rfind(|(_, (_, range))| range[0] <= cut.place);
-    let Some((member, (_, [from, to]))) = part else { return cut.clone() };
+    let own = parts
+        .iter()
+        .enumerate()
+        .filter(|(_, (member, _))| *member == cut.member);
+    let part = own
+        .into_iter()
+        .rfind(|(_, (_, range))| range[0] <= cut.place);
+    let Some((member, (_, [from, to]))) = part else {
+        return cut.clone();
+    };
     let place = ((cut.place - from) / (to - from)).clamp(0.0, 1.0);
-    Cut { member, place, ..cut.clone() }
+    Cut {
+        member,
+        place,
+        ..cut.clone()
+    }
 }

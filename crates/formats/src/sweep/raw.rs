@@ -80,7 +80,8 @@ impl<'de> Deserialize<'de> for RawAxis {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawAxis, A::Error> {
-                RawLaw::deserialize(MapAccessDeserializer::new(map)).map(|law| RawAxis::Law(Box::new(law)))
+                RawLaw::deserialize(MapAccessDeserializer::new(map))
+                    .map(|law| RawAxis::Law(Box::new(law)))
             }
         }
         deserializer.deserialize_any(Reader)

@@ -107,7 +107,11 @@ fn open(input: &SweepInput, folder: &Path) -> Result<Inputs, Vec<Diagnostic>> {
 }
 
 fn sampling(raw: &RawSweep, root: &Place<'_>, faults: &mut Faults) -> Option<Sampling> {
-    let words = [("grid", Sampling::Grid), ("latin", Sampling::Latin), ("sobol", Sampling::Sobol)];
+    let words = [
+        ("grid", Sampling::Grid),
+        ("latin", Sampling::Latin),
+        ("sobol", Sampling::Sobol),
+    ];
     match &raw.sampling {
         Some(word) => faults.one_of(word, &root.key("sampling"), &words),
         None => {
@@ -127,13 +131,16 @@ fn axes(
     faults: &mut Faults,
 ) -> Vec<Option<SweepAxis>> {
     let at = root.key("axes");
-    let Some(axes) = faults.require(&raw.axes, root, "axes") else { return vec![None] };
+    let Some(axes) = faults.require(&raw.axes, root, "axes") else {
+        return vec![None];
+    };
     if axes.0.is_empty() {
         faults.add(Fault::new(&at, "must have at least one axis").of_value());
         return vec![None];
     }
     if axes.0.len() > SWEEP_AXES.most {
-        let fault = Fault::new(&at, format!("must have at most {} axes", SWEEP_AXES.most)).of_value();
+        let fault =
+            Fault::new(&at, format!("must have at most {} axes", SWEEP_AXES.most)).of_value();
         faults.add(fault.got(axes.0.len()).hint(SWEEP_AXES.reason));
         return vec![None];
     }
@@ -152,12 +159,20 @@ fn axes(
             all.push(None);
             continue;
         };
-        if let Some(other) = all.iter().flatten().find(|other| other.place == place_in_file) {
+        if let Some(other) = all
+            .iter()
+            .flatten()
+            .find(|other| other.place == place_in_file)
+        {
             let fault = Fault::new(&place, "leads to the value of another axis").at_key();
             faults.add(fault.got(format!("{:?} as well", other.pointer)));
         }
         check_kind(&values, &old, &place, faults);
-        all.push(Some(SweepAxis { pointer: pointer.clone(), place: place_in_file, values }));
+        all.push(Some(SweepAxis {
+            pointer: pointer.clone(),
+            place: place_in_file,
+            values,
+        }));
     }
     all
 }
@@ -172,13 +187,23 @@ fn check_kind(values: &AxisValues, old: &AxisValue, at: &Place<'_>, faults: &mut
     let wanted = word(old);
     match values {
         AxisValues::List(list) => {
-            for (index, value) in list.iter().enumerate().filter(|(_, value)| word(value) != wanted) {
-                let fault = Fault::new(&at.index(index), format!("must be {wanted}, as in the file"));
+            for (index, value) in list
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| word(value) != wanted)
+            {
+                let fault = Fault::new(
+                    &at.index(index),
+                    format!("must be {wanted}, as in the file"),
+                );
                 faults.add(fault.got(value.json().to_string()));
             }
         }
         _ if wanted != "a number" => {
-            let fault = Fault::new(at, format!("must be a list: the value in the file is {wanted}"));
+            let fault = Fault::new(
+                at,
+                format!("must be a list: the value in the file is {wanted}"),
+            );
             faults.add(fault.got(old.json().to_string()));
         }
         _ => {}
@@ -207,8 +232,11 @@ fn axis_values(
         RawAxis::Law(law) => {
             let values = law_values(law, at, faults)?;
             if sampling == Some(Sampling::Grid) && values.levels().is_none() {
-                let fault =
-                    Fault::new(at, "must be a list or a range with `\"sampling\": \"grid\"`").of_value();
+                let fault = Fault::new(
+                    at,
+                    "must be a list or a range with `\"sampling\": \"grid\"`",
+                )
+                .of_value();
                 faults.add(fault.hint("distributions need \"latin\" or \"sobol\" and `count`"));
                 return None;
             }
@@ -218,10 +246,18 @@ fn axis_values(
 }
 
 fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisValues> {
-    let given = [law.range.is_some(), law.uniform.is_some(), law.normal.is_some(), law.lognormal.is_some()];
+    let given = [
+        law.range.is_some(),
+        law.uniform.is_some(),
+        law.normal.is_some(),
+        law.lognormal.is_some(),
+    ];
     if given.iter().filter(|given| **given).count() != 1 {
-        let fault =
-            Fault::new(at, "must have one of `range`, `uniform`, `normal` and `lognormal`").of_value();
+        let fault = Fault::new(
+            at,
+            "must have one of `range`, `uniform`, `normal` and `lognormal`",
+        )
+        .of_value();
         faults.add(fault);
         return None;
     }
@@ -242,28 +278,54 @@ fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisV
         let is_count = levels >= 1.0 && levels.fract() == 0.0 && levels <= SWEEP_RUNS.most as f64;
         if !is_count {
             let expected = format!("must be a whole number from 1 to {}", SWEEP_RUNS.most);
-            let fault = Fault::new(&place.index(2), expected).got(number(levels)).of_value();
+            let fault = Fault::new(&place.index(2), expected)
+                .got(number(levels))
+                .of_value();
             faults.add(fault.hint("a range is [first, last, number of values]"));
         } else if (levels == 1.0) != (from == to) {
-            let fault = Fault::new(&place, "must have several values between two ends, or one value at both")
-                .of_value();
+            let fault = Fault::new(
+                &place,
+                "must have several values between two ends, or one value at both",
+            )
+            .of_value();
             faults.add(fault);
         }
         AxisValues::Range(from, to, if is_count { levels as usize } else { 1 })
     } else if let Some([low, high]) = law.uniform {
         if low >= high {
             let place = at.key("uniform");
-            let fault = Fault::new(&place.index(1), format!("must be above the first, {}", number(low)));
+            let fault = Fault::new(
+                &place.index(1),
+                format!("must be above the first, {}", number(low)),
+            );
             faults.add(fault.got(number(high)).of_value());
         }
         AxisValues::Uniform(low, high)
     } else if let Some(pair) = law.normal {
-        positive(pair, 1, "normal", "the second number is the standard deviation", faults);
+        positive(
+            pair,
+            1,
+            "normal",
+            "the second number is the standard deviation",
+            faults,
+        );
         AxisValues::Normal(pair[0], pair[1])
     } else {
         let pair = law.lognormal.unwrap_or([1.0, 1.0]);
-        positive(pair, 0, "lognormal", "the first number is the mean of the values", faults);
-        positive(pair, 1, "lognormal", "the second number is the standard deviation of the values", faults);
+        positive(
+            pair,
+            0,
+            "lognormal",
+            "the first number is the mean of the values",
+            faults,
+        );
+        positive(
+            pair,
+            1,
+            "lognormal",
+            "the second number is the standard deviation of the values",
+            faults,
+        );
         AxisValues::Lognormal(pair[0], pair[1])
     };
     (faults.0.len() == before).then_some(values)
@@ -285,12 +347,18 @@ fn count(
             None
         }
         (Sampling::Grid, None) => {
-            let levels = axes.iter().flatten().filter_map(|axis| axis.values.levels());
+            let levels = axes
+                .iter()
+                .flatten()
+                .filter_map(|axis| axis.values.levels());
             let runs = levels.map(|levels| levels as f64).product::<f64>();
             if runs > SWEEP_RUNS.most as f64 {
                 let fault = Fault::new(
                     &root.key("axes"),
-                    format!("must have at most {} combinations of values", SWEEP_RUNS.most),
+                    format!(
+                        "must have at most {} combinations of values",
+                        SWEEP_RUNS.most
+                    ),
                 );
                 faults.add(fault.got(number(runs)).hint(SWEEP_RUNS.reason));
                 return None;
@@ -307,7 +375,12 @@ fn count(
                 return Some(count as usize);
             }
             let expected = format!("must be a whole number from 1 to {}", SWEEP_RUNS.most);
-            faults.add(Fault::new(&at, expected).got(number(count)).hint(SWEEP_RUNS.reason).of_value());
+            faults.add(
+                Fault::new(&at, expected)
+                    .got(number(count))
+                    .hint(SWEEP_RUNS.reason)
+                    .of_value(),
+            );
             None
         }
     }
@@ -323,14 +396,19 @@ fn results(
     let written = faults.require(&raw.results, root, "results")?;
     if written.is_empty() {
         let fault = Fault::new(&at, "must have at least one result").of_value();
-        faults.add(fault.hint("\"peaks\", \"extremes\", \"fatigue\", \"ratios\", or names of columns"));
+        faults.add(
+            fault.hint("\"peaks\", \"extremes\", \"fatigue\", \"ratios\", or names of columns"),
+        );
         return None;
     }
     let is_design = matches!(input, Some(SweepInput::Design(_)));
     let mut kinds = Vec::new();
     for (index, word) in written.iter().enumerate() {
         let place = at.index(index);
-        let kind = RESULTS.iter().find(|(known, _)| known == word).map(|(_, kind)| kind.clone());
+        let kind = RESULTS
+            .iter()
+            .find(|(known, _)| known == word)
+            .map(|(_, kind)| kind.clone());
         // names of columns have a dot
         let kind = kind.or_else(|| word.contains('.').then(|| ResultKind::Column(word.clone())));
         let Some(kind) = kind else {
@@ -339,11 +417,24 @@ fn results(
             continue;
         };
         if kinds.contains(&kind) {
-            faults.add(Fault::new(&place, "must be listed once").got(format!("\"{word}\" again")).of_value());
+            faults.add(
+                Fault::new(&place, "must be listed once")
+                    .got(format!("\"{word}\" again"))
+                    .of_value(),
+            );
         }
-        if is_design && matches!(kind, ResultKind::Peaks | ResultKind::Fatigue | ResultKind::Column(_)) {
+        if is_design
+            && matches!(
+                kind,
+                ResultKind::Peaks | ResultKind::Fatigue | ResultKind::Column(_)
+            )
+        {
             let fault = Fault::new(&place, "must be \"extremes\" or \"ratios\" for a design");
-            faults.add(fault.got(format!("\"{word}\"")).hint("a design has no histories"));
+            faults.add(
+                fault
+                    .got(format!("\"{word}\""))
+                    .hint("a design has no histories"),
+            );
         }
         kinds.push(kind);
     }

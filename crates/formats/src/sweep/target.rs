@@ -51,7 +51,10 @@ impl SweepTarget {
     pub fn with(&self, changes: &[(&AxisPlace, &AxisValue)]) -> Inputs {
         let mut inputs = self.inputs.clone();
         for file in 0..self.inputs.all().len() {
-            let mut own: Vec<_> = changes.iter().filter(|(place, _)| place.file == file).collect();
+            let mut own: Vec<_> = changes
+                .iter()
+                .filter(|(place, _)| place.file == file)
+                .collect();
             if own.is_empty() {
                 continue;
             }
@@ -73,22 +76,32 @@ impl SweepTarget {
     /// The place of the value to which a pointer leads, such as `/bodies/crane/weight` or `spec.json#/girder/E`, and
     /// the value.
     pub(super) fn find(&self, pointer: &str) -> Result<(AxisPlace, AxisValue), PointerError> {
-        let (file, within) =
-            pointer.split_once('#').map_or((None, pointer), |(file, rest)| (Some(file), rest));
+        let (file, within) = pointer
+            .split_once('#')
+            .map_or((None, pointer), |(file, rest)| (Some(file), rest));
         let all = self.inputs.all();
         let index = match file {
             None => 0,
-            Some(name) => {
-                all.iter().skip(1).position(|input| input.name == name).map(|k| k + 1).ok_or_else(|| {
-                    PointerError {
-                        expected: format!("must name a file of the {}, \"{name}\" is none", self.word()),
-                        hint: match all.iter().skip(1).map(|input| input.name.as_str()).collect::<Vec<_>>() {
-                            names if names.is_empty() => "it names no file".to_owned(),
-                            names => format!("its files: {}", names.join(", ")),
-                        },
-                    }
-                })?
-            }
+            Some(name) => all
+                .iter()
+                .skip(1)
+                .position(|input| input.name == name)
+                .map(|k| k + 1)
+                .ok_or_else(|| PointerError {
+                    expected: format!(
+                        "must name a file of the {}, \"{name}\" is none",
+                        self.word()
+                    ),
+                    hint: match all
+                        .iter()
+                        .skip(1)
+                        .map(|input| input.name.as_str())
+                        .collect::<Vec<_>>()
+                    {
+                        names if names.is_empty() => "it names no file".to_owned(),
+                        names => format!("its files: {}", names.join(", ")),
+                    },
+                })?,
         };
         let Ok(source) = all[index].source() else {
             return Err(PointerError {
@@ -108,7 +121,8 @@ impl SweepTarget {
         if !pointer.starts_with('/') {
             return Err(PointerError {
                 expected: "must be a JSON pointer".to_owned(),
-                hint: "it begins with /, such as /bodies/crane/weight or spec.json#/girder/E".to_owned(),
+                hint: "it begins with /, such as /bodies/crane/weight or spec.json#/girder/E"
+                    .to_owned(),
             });
         }
         if file == 0 && (pointer == "/compare" || pointer.starts_with("/compare/")) {
@@ -138,7 +152,10 @@ impl SweepTarget {
             Value::Bool(flag) => AxisValue::Flag(*flag),
             Value::Null | Value::List(_) | Value::Object(_) => {
                 return Err(PointerError {
-                    expected: format!("must lead to a number, a string, true or false in {}", source.name),
+                    expected: format!(
+                        "must lead to a number, a string, true or false in {}",
+                        source.name
+                    ),
                     hint: match below(node) {
                         below if below.is_empty() => "the value there is empty".to_owned(),
                         below => format!("below it: {below}"),
@@ -146,29 +163,50 @@ impl SweepTarget {
                 });
             }
         };
-        Ok((AxisPlace { file, start: node.start, end: node.end }, value))
+        Ok((
+            AxisPlace {
+                file,
+                start: node.start,
+                end: node.end,
+            },
+            value,
+        ))
     }
 
     fn word(&self) -> &'static str {
         let is_design = |source: Source| {
             let tree = source.tree();
-            let format = tree.root().member("format").and_then(|member| member.value.as_text());
+            let format = tree
+                .root()
+                .member("format")
+                .and_then(|member| member.value.as_text());
             format == Some(crate::design::FORMAT)
         };
-        if self.inputs.all()[0].source().is_ok_and(is_design) { "design" } else { "scene" }
+        if self.inputs.all()[0].source().is_ok_and(is_design) {
+            "design"
+        } else {
+            "scene"
+        }
     }
 }
 
 /// The error of a pointer whose step `key` does not exist in the value that was reached.
 fn nowhere(node: &TreeNode<'_>, walked: &str, key: &str, file: &str) -> PointerError {
-    let above = if walked.is_empty() { "the file" } else { walked };
+    let above = if walked.is_empty() {
+        "the file"
+    } else {
+        walked
+    };
     let hint = match below(node) {
         below if below.is_empty() => format!("{above} has nothing below it"),
         below => format!(
             "{above} has {below}; a key that the file leaves out cannot be varied until it is written there"
         ),
     };
-    PointerError { expected: format!("must lead to a value of {file}, \"{key}\" is not in {above}"), hint }
+    PointerError {
+        expected: format!("must lead to a value of {file}, \"{key}\" is not in {above}"),
+        hint,
+    }
 }
 
 /// Keys or indices below a value, in words.
@@ -191,8 +229,11 @@ mod tests {
     use super::*;
 
     fn target(folder: &std::path::Path) -> SweepTarget {
-        fs::write(folder.join("scene.json"), "{\"a/b\": [1, {\"c\": -2.5e3}], \"spec\": \"spec.json\"}")
-            .expect("writable");
+        fs::write(
+            folder.join("scene.json"),
+            "{\"a/b\": [1, {\"c\": -2.5e3}], \"spec\": \"spec.json\"}",
+        )
+        .expect("writable");
         fs::write(folder.join("spec.json"), "{\"girder\": {\"E\": 210}}").expect("writable");
         let (mut inputs, _) = Inputs::open(&folder.join("scene.json")).expect("readable");
         inputs.open_referenced("spec.json").expect("readable");
@@ -207,10 +248,22 @@ mod tests {
         assert_eq!(old, AxisValue::Number(-2500.0));
         let (first, _) = target.find("/a~1b/0").expect("a number");
         let (modulus, _) = target.find("spec.json#/girder/E").expect("a number");
-        let values = [AxisValue::Number(0.1), AxisValue::Number(7.0), AxisValue::Number(2.1e8)];
-        let inputs = target.with(&[(&c, &values[0]), (&modulus, &values[2]), (&first, &values[1])]);
-        let text = |index: usize| String::from_utf8(inputs.all()[index].bytes.clone()).expect("text");
-        assert_eq!(text(0), "{\"a/b\": [7.0, {\"c\": 0.1}], \"spec\": \"spec.json\"}");
+        let values = [
+            AxisValue::Number(0.1),
+            AxisValue::Number(7.0),
+            AxisValue::Number(2.1e8),
+        ];
+        let inputs = target.with(&[
+            (&c, &values[0]),
+            (&modulus, &values[2]),
+            (&first, &values[1]),
+        ]);
+        let text =
+            |index: usize| String::from_utf8(inputs.all()[index].bytes.clone()).expect("text");
+        assert_eq!(
+            text(0),
+            "{\"a/b\": [7.0, {\"c\": 0.1}], \"spec\": \"spec.json\"}"
+        );
         assert_eq!(text(1), "{\"girder\": {\"E\": 210000000.0}}");
     }
 
@@ -218,8 +271,16 @@ mod tests {
     fn pointers_that_lead_nowhere_say_what_is_there() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let target = target(folder.path());
-        let wrong = |pointer: &str| target.find(pointer).expect_err("a pointer that leads nowhere");
-        assert!(wrong("/a/b").hint.contains("a/b, spec"), "{:?}", wrong("/a/b"));
+        let wrong = |pointer: &str| {
+            target
+                .find(pointer)
+                .expect_err("a pointer that leads nowhere")
+        };
+        assert!(
+            wrong("/a/b").hint.contains("a/b, spec"),
+            "{:?}",
+            wrong("/a/b")
+        );
         assert!(wrong("other.json#/E").hint.contains("spec.json"));
         assert!(wrong("a").expected.contains("JSON pointer"));
         assert!(wrong("/a~1b").hint.contains("0 to 1"));

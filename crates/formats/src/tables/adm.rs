@@ -33,7 +33,11 @@ impl TableSet {
 pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
     let draft = |spline: Spline| Draft {
         id: Some(spline.id),
-        name: Some(spline.name.unwrap_or_else(|| format!("SPLINE_{}", spline.id))),
+        name: Some(
+            spline
+                .name
+                .unwrap_or_else(|| format!("SPLINE_{}", spline.id)),
+        ),
         linear_extrapolate: Some(spline.linear_extrapolate),
         ..Draft::of(spline.curves)
     };
@@ -46,7 +50,9 @@ const TITLE: &str = ": influence coefficients, ";
 /// The name of the structure in the title of a data set written by this program, by Adams View or by another program.
 fn name_of_title(title: &str) -> &str {
     let own = title.split_once(TITLE).map(|(name, _)| name);
-    own.or_else(|| title.strip_prefix("Adams View model name: ")).unwrap_or(title).trim()
+    own.or_else(|| title.strip_prefix("Adams View model name: "))
+        .unwrap_or(title)
+        .trim()
 }
 
 /// The tables of a grid, [`TableSet::of_grid`], as SPLINE statements.
@@ -61,8 +67,15 @@ pub fn data_set(grid: &StationGrid) -> Tables {
 /// # Errors
 /// More tables than available identifiers.
 pub fn adm(name: &str, grid: &StationGrid) -> Result<Option<String>, adams::Error> {
-    let set = data_set(&StationGrid { name: name.to_owned(), ..grid.clone() });
-    if set.splines.is_empty() { Ok(None) } else { adams::tables::write(&set).map(Some) }
+    let set = data_set(&StationGrid {
+        name: name.to_owned(),
+        ..grid.clone()
+    });
+    if set.splines.is_empty() {
+        Ok(None)
+    } else {
+        adams::tables::write(&set).map(Some)
+    }
 }
 
 /// The text of a data set: comments with the products, followed by UNITS and SPLINE statements.
@@ -71,12 +84,20 @@ pub fn adm(name: &str, grid: &StationGrid) -> Result<Option<String>, adams::Erro
 /// Two tables with the same number.
 pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     let tables = set.adams();
-    let mut statements: Vec<_> = tables.units.iter().map(adams::AdamsUnits::statement).collect();
+    let mut statements: Vec<_> = tables
+        .units
+        .iter()
+        .map(adams::AdamsUnits::statement)
+        .collect();
     if let Some(first) = statements.first_mut() {
         first.remarks = remarks(set);
     }
     statements.extend(tables.splines.iter().map(adams::Spline::statement));
-    DataSet { title: tables.title.unwrap_or_default(), statements }.write()
+    DataSet {
+        title: tables.title.unwrap_or_default(),
+        statements,
+    }
+    .write()
 }
 
 /// Comment lines that state the products of the factored form.
@@ -85,20 +106,30 @@ pub(super) fn remarks(set: &TableSet) -> Vec<String> {
         return Vec::new();
     }
     let head =
-        "x: where the load stands, z: where the deflection is taken. Deflection per unit load:".to_owned();
-    std::iter::once(head).chain(set.products.iter().map(Product::expression)).collect()
+        "x: where the load stands, z: where the deflection is taken. Deflection per unit load:"
+            .to_owned();
+    std::iter::once(head)
+        .chain(set.products.iter().map(Product::expression))
+        .collect()
 }
 
 /// The text of the comment lines, which are the lines that begin with `mark`.
 pub(super) fn comments(text: &str, mark: char) -> String {
-    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(mark));
+    let lines = text
+        .lines()
+        .filter_map(|line| line.trim_start().strip_prefix(mark));
     lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Reads the SPLINE statements of a data set.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
-    let set = adams::tables::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
-    let title = set.title.as_deref().map(name_of_title).filter(|name| !name.is_empty());
+    let set =
+        adams::tables::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
+    let title = set
+        .title
+        .as_deref()
+        .map(name_of_title)
+        .filter(|name| !name.is_empty());
     Ok(Parsed {
         name: title.map_or_else(|| stem(&source.name), str::to_owned),
         units: set.units.map(Units::of_adams),
@@ -116,7 +147,11 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
 /// Converts an error of `adams` to a diagnostic with its position in the file.
 pub(super) fn unreadable(source: &Source, error: &adams::Error) -> Diagnostic {
     match error {
-        adams::Error::At { line, column, fault } => Diagnostic {
+        adams::Error::At {
+            line,
+            column,
+            fault,
+        } => Diagnostic {
             line: Some(*line),
             column: Some(*column),
             ..Diagnostic::of_file(&source.name, fault.to_string())

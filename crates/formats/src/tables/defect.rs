@@ -32,7 +32,12 @@ pub(super) struct Defect {
 
 impl Defect {
     fn of(part: Part, expected: impl Into<String>, found: impl ToString) -> Defect {
-        Defect { part, expected: expected.into(), found: Some(found.to_string()), hint: None }
+        Defect {
+            part,
+            expected: expected.into(),
+            found: Some(found.to_string()),
+            hint: None,
+        }
     }
 }
 
@@ -42,11 +47,18 @@ impl Defect {
 /// # Errors
 /// The first defect: fewer than four x, coordinates that do not increase, rows of a wrong length, or numbers that are
 /// not finite.
-pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<SplineValues, Defect> {
+pub(super) fn checked(
+    x: Vec<f64>,
+    z: Vec<f64>,
+    values: Vec<Vec<f64>>,
+) -> Result<SplineValues, Defect> {
     if x.len() < SplineValues::MIN_POINTS {
         let expected = format!("must have at least {} x", SplineValues::MIN_POINTS);
         let hint = Some("a SPLINE has four x values or more");
-        return Err(Defect { hint, ..Defect::of(Part::Xs, expected, x.len()) });
+        return Err(Defect {
+            hint,
+            ..Defect::of(Part::Xs, expected, x.len())
+        });
     }
     let part_x: fn(usize) -> Part = Part::X;
     for (list, part) in [(&x, part_x), (&z, Part::Z)] {
@@ -83,9 +95,10 @@ pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result
 /// a step, may have the same x.
 pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
     match rows {
-        [.., before, last] if last[0] < before[0] => {
-            Some(format!("x must not decrease: the row before is at {}", number(before[0])))
-        }
+        [.., before, last] if last[0] < before[0] => Some(format!(
+            "x must not decrease: the row before is at {}",
+            number(before[0])
+        )),
         [.., first, _, last] if last[0] == first[0] => {
             Some("at most two rows can have the same x: they form a step".to_owned())
         }

@@ -65,15 +65,25 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError>
         let (x, z) = (table.curves.x().to_vec(), table.curves.z().to_vec());
         let values = DMatrix::from_row_iterator(z.len(), x.len(), table.curves.y().concat());
         let values = Values::new(x, z, values)?;
-        sheets.push(InfluenceBlock { deflection: *deflection, load: *load, table: values });
+        sheets.push(InfluenceBlock {
+            deflection: *deflection,
+            load: *load,
+            table: values,
+        });
     }
     let form = FactoredTable::new(&sheets, rank)?;
     let curves = curves_of(&tables, &directions.of_tables, &form)?;
-    let ids =
-        |direction: &Direction| curves.iter().find(|(known, _)| known == direction).map(|(_, tables)| tables);
+    let ids = |direction: &Direction| {
+        curves
+            .iter()
+            .find(|(known, _)| known == direction)
+            .map(|(_, tables)| tables)
+    };
     let mut products = Vec::new();
     for (table, [deflection, load]) in tables.iter().zip(&directions.of_tables) {
-        let Some((x, z)) = ids(load).zip(ids(deflection)) else { continue };
+        let Some((x, z)) = ids(load).zip(ids(deflection)) else {
+            continue;
+        };
         products.push(Product {
             name: table.name.clone(),
             quantity: table.quantity,
@@ -86,8 +96,11 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError>
         products,
         ..set.clone()
     };
-    let ranks =
-        form.factors().iter().map(|factor| [factor.rank(), factor.rank() + significant(factor)]).collect();
+    let ranks = form
+        .factors()
+        .iter()
+        .map(|factor| [factor.rank(), factor.rank() + significant(factor)])
+        .collect();
     let stations = deviation(&tables, &new);
     let skipped = skipped.iter().map(|table| table.id).collect();
     Ok(FactoredTables {
@@ -104,7 +117,11 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError>
 /// Number of dropped eigenvalues that exceed the rounding error of the largest one.
 fn significant(factor: &TableFactor) -> usize {
     let largest = factor.kept.first().copied().unwrap_or(0.0);
-    factor.dropped.iter().filter(|value| value.abs() > 1e-15 * factor.dropped.len() as f64 * largest).count()
+    factor
+        .dropped
+        .iter()
+        .filter(|value| value.abs() > 1e-15 * factor.dropped.len() as f64 * largest)
+        .count()
 }
 
 /// Why tables have no factored form.
@@ -114,7 +131,9 @@ pub enum FactorError {
     #[error("no table has four stations in both directions")]
     Empty,
     /// A table whose rails or directions are unknown.
-    #[error("SPLINE/{id} does not state which directions and rails it relates, and its x differ from its z")]
+    #[error(
+        "SPLINE/{id} does not state which directions and rails it relates, and its x differ from its z"
+    )]
     Unknown {
         /// The table.
         id: u32,
@@ -132,10 +151,13 @@ pub enum FactorError {
 fn directions(tables: &[&Table]) -> Result<Directions, FactorError> {
     let mut rails: Vec<String> = Vec::new();
     let mut number = |name: String| {
-        rails.iter().position(|known| *known == name).unwrap_or_else(|| {
-            rails.push(name);
-            rails.len() - 1
-        })
+        rails
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or_else(|| {
+                rails.push(name);
+                rails.len() - 1
+            })
     };
     if tables.is_empty() {
         return Err(FactorError::Empty);
@@ -148,13 +170,18 @@ fn directions(tables: &[&Table]) -> Result<Directions, FactorError> {
         of_tables.push(match (table.quantity, &table.rails) {
             (Some(quantity), Some([rail, load])) => {
                 let (deflection_axis, load_axis) = axes(quantity);
-                [(number(rail.clone()), deflection_axis), (number(load.clone()), load_axis)]
+                [
+                    (number(rail.clone()), deflection_axis),
+                    (number(load.clone()), load_axis),
+                ]
             }
             (Some(quantity), None) if unique => {
                 let rail = number(String::new());
                 [(rail, axes(quantity).0), (rail, axes(quantity).1)]
             }
-            (quantity, _) if square && quantity.is_none_or(|quantity| quantity.direct() == [quantity; 2]) => {
+            (quantity, _)
+                if square && quantity.is_none_or(|quantity| quantity.direct() == [quantity; 2]) =>
+            {
                 let axis = quantity.map_or(Axis::Vertical, |quantity| axes(quantity).0);
                 // no rail has such a name
                 [(number(format!("\0{}", table.id)), axis); 2]
@@ -172,18 +199,34 @@ fn curves_of(
     directions: &[[Direction; 2]],
     form: &FactoredTable,
 ) -> Result<Vec<(Direction, Vec<Table>)>, FactorError> {
-    let most = form.factors().iter().map(TableFactor::rank).max().unwrap_or(0);
+    let most = form
+        .factors()
+        .iter()
+        .map(TableFactor::rank)
+        .max()
+        .unwrap_or(0);
     if most == 0 {
         return Err(FactorError::Zero);
     }
-    let step = if most < 100 { 100 } else { 10_usize.pow(most.ilog10() + 1) };
+    let step = if most < 100 {
+        100
+    } else {
+        10_usize.pow(most.ilog10() + 1)
+    };
     let mut out: Vec<(Direction, Vec<Table>)> = Vec::new();
-    for (curves, rank) in
-        form.factors().iter().flat_map(|one| one.curves.iter().map(move |c| (c, one.rank())))
+    for (curves, rank) in form
+        .factors()
+        .iter()
+        .flat_map(|one| one.curves.iter().map(move |c| (c, one.rank())))
     {
-        let own = tables.iter().zip(directions).find(|(_, both)| **both == [curves.direction; 2]);
+        let own = tables
+            .iter()
+            .zip(directions)
+            .find(|(_, both)| **both == [curves.direction; 2]);
         let Some((table, _)) = own else { continue };
-        let direct = table.quantity.map(|quantity: GridBlock| quantity.direct()[0]);
+        let direct = table
+            .quantity
+            .map(|quantity: GridBlock| quantity.direct()[0]);
         let mut own = Vec::new();
         for k in 0..rank {
             let values = curves.values.column(k).iter().copied().collect();
@@ -206,9 +249,14 @@ fn deviation(tables: &[&Table], factored: &TableSet) -> TableDeviation {
     let plain = expand(factored);
     let mut out = TableDeviation::default();
     for table in tables {
-        let Some(back) = plain.tables.iter().find(|back| back.name == table.name) else { continue };
+        let Some(back) = plain.tables.iter().find(|back| back.name == table.name) else {
+            continue;
+        };
         let (given, back) = (table.curves.y(), back.curves.y());
-        let largest = given.iter().flatten().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let largest = given
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |largest, value| largest.max(value.abs()));
         if largest == 0.0 {
             continue;
         }
@@ -225,27 +273,47 @@ impl FactoredTables {
     /// Deviation from the exact compliance at the stations and at three points in each interval between them. `None`
     /// if a rail of the tables is missing in `rails`, the rails of the compliance.
     #[must_use]
-    pub fn deviation_from(&self, surface: &ExactSurface, rails: &[GridRail]) -> Option<TableDeviation> {
+    pub fn deviation_from(
+        &self,
+        surface: &ExactSurface,
+        rails: &[GridRail],
+    ) -> Option<TableDeviation> {
         let mut out = TableDeviation::default();
         for (product, [deflection, load]) in self.set.products.iter().zip(&self.directions) {
             let find = |id: Option<u32>| id.and_then(|id| self.set.table(id));
             let x = places(find(product.terms.first().map(|term| term[0]))?.curves.x());
             let z = places(find(product.terms.first().map(|term| term[1]))?.curves.x());
-            let own = |direction: &Direction, x: f64| Probe { rail: direction.0, x, axis: direction.1 };
+            let own = |direction: &Direction, x: f64| Probe {
+                rail: direction.0,
+                x,
+                axis: direction.1,
+            };
             let exact_rail = |direction: &Direction| {
                 let name = self.rails.get(direction.0)?;
                 rails.iter().position(|rail| rail.name == *name)
             };
             let exact = |direction: &Direction, x: f64| {
-                Some(Probe { rail: exact_rail(direction)?, ..own(direction, x) })
+                Some(Probe {
+                    rail: exact_rail(direction)?,
+                    ..own(direction, x)
+                })
             };
-            let own_probes: Vec<Probe> =
-                z.iter().map(|z| own(deflection, *z)).chain(x.iter().map(|x| own(load, *x))).collect();
-            let exact_probes =
-                z.iter().map(|z| exact(deflection, *z)).chain(x.iter().map(|x| exact(load, *x)));
+            let own_probes: Vec<Probe> = z
+                .iter()
+                .map(|z| own(deflection, *z))
+                .chain(x.iter().map(|x| own(load, *x)))
+                .collect();
+            let exact_probes = z
+                .iter()
+                .map(|z| exact(deflection, *z))
+                .chain(x.iter().map(|x| exact(load, *x)));
             let exact_probes: Vec<Probe> = exact_probes.collect::<Option<_>>()?;
-            let [approximate, exact] = [filled(&self.form, &own_probes)?, filled(surface, &exact_probes)?];
-            let block = |matrix: &DMatrix<f64>| matrix.view((0, z.len()), (z.len(), x.len())).into_owned();
+            let [approximate, exact] = [
+                filled(&self.form, &own_probes)?,
+                filled(surface, &exact_probes)?,
+            ];
+            let block =
+                |matrix: &DMatrix<f64>| matrix.view((0, z.len()), (z.len(), x.len())).into_owned();
             let (approximate, exact) = (block(&approximate), block(&exact));
             let largest = exact.amax();
             if largest == 0.0 {
@@ -253,7 +321,12 @@ impl FactoredTables {
             }
             for (j, x) in x.iter().enumerate() {
                 for (i, z) in z.iter().enumerate() {
-                    out.take(&product.name, *x, *z, (approximate[(i, j)] - exact[(i, j)]).abs() / largest);
+                    out.take(
+                        &product.name,
+                        *x,
+                        *z,
+                        (approximate[(i, j)] - exact[(i, j)]).abs() / largest,
+                    );
                 }
             }
         }
@@ -274,7 +347,11 @@ fn places(stations: &[f64]) -> Vec<f64> {
         let (a, b) = (pair[0], pair[1]);
         [0.0, 0.25, 0.5, 0.75].map(|s| a + s * (b - a))
     };
-    stations.windows(2).flat_map(between).chain(stations.last().copied()).collect()
+    stations
+        .windows(2)
+        .flat_map(between)
+        .chain(stations.last().copied())
+        .collect()
 }
 
 /// Converts tables to the plain form by evaluating the sums of products at the stations of the curves.
@@ -287,14 +364,22 @@ pub fn expand(set: &TableSet) -> TableSet {
     if set.products.is_empty() {
         return set.clone();
     }
-    let unused =
-        |table: &&Table| !set.products.iter().any(|p| p.terms.iter().flatten().any(|&id| id == table.id));
+    let unused = |table: &&Table| {
+        !set.products
+            .iter()
+            .any(|p| p.terms.iter().flatten().any(|&id| id == table.id))
+    };
     let mut drafts = Vec::new();
     for product in &set.products {
-        let terms: Option<Vec<[&Table; 2]>> =
-            product.terms.iter().map(|[x, z]| Some([set.table(*x)?, set.table(*z)?])).collect();
+        let terms: Option<Vec<[&Table; 2]>> = product
+            .terms
+            .iter()
+            .map(|[x, z]| Some([set.table(*x)?, set.table(*z)?]))
+            .collect();
         let Some(terms) = terms else { continue };
-        let Some([first_x, first_z]) = terms.first() else { continue };
+        let Some([first_x, first_z]) = terms.first() else {
+            continue;
+        };
         let (x, z) = (first_x.curves.x(), first_z.curves.x());
         let on_same_stations = |[a, b]: &[&Table; 2]| a.curves.x() == x && b.curves.x() == z;
         if !terms.iter().all(on_same_stations) {
@@ -304,8 +389,12 @@ pub fn expand(set: &TableSet) -> TableSet {
             let term = |[a, b]: &[&Table; 2]| a.curves.y()[0][j] * b.curves.y()[0][i];
             terms.iter().map(term).sum::<f64>()
         };
-        let values = (0..z.len()).map(|i| (0..x.len()).map(|j| value(i, j)).collect()).collect();
-        let Ok(curves) = SplineValues::new(x.to_vec(), z.to_vec(), values) else { continue };
+        let values = (0..z.len())
+            .map(|i| (0..x.len()).map(|j| value(i, j)).collect())
+            .collect();
+        let Ok(curves) = SplineValues::new(x.to_vec(), z.to_vec(), values) else {
+            continue;
+        };
         drafts.push(Draft {
             name: Some(product.name.clone()),
             quantity: product.quantity,
@@ -345,14 +434,24 @@ impl TableDeviation {
     /// One line for the terminal.
     #[must_use]
     pub fn message(&self) -> String {
-        let place = self.at.as_ref().map(|(name, x, z)| format!(" ({name} at x = {x}, z = {z})"));
-        format!("{:.2e} of the largest value{}", self.largest, place.unwrap_or_default())
+        let place = self
+            .at
+            .as_ref()
+            .map(|(name, x, z)| format!(" ({name} at x = {x}, z = {z})"));
+        format!(
+            "{:.2e} of the largest value{}",
+            self.largest,
+            place.unwrap_or_default()
+        )
     }
 
     /// The same as JSON.
     #[must_use]
     pub fn json(&self) -> Value {
-        let at = self.at.as_ref().map(|(name, x, z)| json!({ "table": name, "x": x, "z": z }));
+        let at = self
+            .at
+            .as_ref()
+            .map(|(name, x, z)| json!({ "table": name, "x": x, "z": z }));
         json!({ "largest": self.largest, "at": at })
     }
 }

@@ -36,7 +36,9 @@ impl TableFormat {
     /// # Errors
     /// An extension other than `.adm`, `.cmd`, `.csv`, `.json` and `.npz`.
     pub fn of(name: &str) -> Result<TableFormat, Box<Diagnostic>> {
-        let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let ending = Path::new(name)
+            .extension()
+            .map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref().unwrap_or_default() {
             "adm" => Ok(TableFormat::Adams),
             "cmd" => Ok(TableFormat::View),
@@ -44,8 +46,10 @@ impl TableFormat {
             "csv" => Ok(TableFormat::Csv),
             "npz" => Ok(TableFormat::Npz),
             _ => {
-                let fault =
-                    Diagnostic::of_file(name, "the extension of the file is not that of a known format");
+                let fault = Diagnostic::of_file(
+                    name,
+                    "the extension of the file is not that of a known format",
+                );
                 Err(Box::new(fault.hint("use .adm, .cmd, .csv, .json or .npz")))
             }
         }
@@ -88,17 +92,22 @@ pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, 
     let parsed = parse(name, bytes)?;
     let units = match (parsed.units, units) {
         (Some(own), Some(given)) if own != given => {
-            let words = |units: Units| format!("{} and {}", units.length.word(), units.force.word());
+            let words =
+                |units: Units| format!("{} and {}", units.length.word(), units.force.word());
             let expected = format!("already states its units: {}", words(own));
-            let fault = Diagnostic { found: Some(words(given)), ..Diagnostic::of_file(name, expected) };
+            let fault = Diagnostic {
+                found: Some(words(given)),
+                ..Diagnostic::of_file(name, expected)
+            };
             return Err(vec![fault.hint("leave the units out")]);
         }
         (Some(units), _) | (None, Some(units)) => units,
         (None, None) => {
             let [missing, hint] = parsed.missing_units;
-            let more =
-                "units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
-            return Err(vec![Diagnostic::of_file(name, missing).hint(format!("{hint}; {more}"))]);
+            let more = "units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
+            return Err(vec![
+                Diagnostic::of_file(name, missing).hint(format!("{hint}; {more}")),
+            ]);
         }
     };
     Ok(parsed.set(units))
@@ -120,13 +129,26 @@ pub struct Contents {
 pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
     let units = parsed.units;
-    let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear_extrapolate).collect();
+    let linear: Vec<Option<bool>> = parsed
+        .drafts
+        .iter()
+        .map(|draft| draft.linear_extrapolate)
+        .collect();
     // no conversion takes place, so the choice of units has no effect on the numbers
     let set = parsed.set(units.unwrap_or(Units::SI));
-    let extrapolate =
-        |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
-    let tables =
-        expand(&set).tables.into_iter().enumerate().map(|(k, table)| (table, extrapolate(k))).collect();
+    let extrapolate = |k: usize| {
+        if set.products.is_empty() {
+            linear.get(k).copied().flatten()
+        } else {
+            None
+        }
+    };
+    let tables = expand(&set)
+        .tables
+        .into_iter()
+        .enumerate()
+        .map(|(k, table)| (table, extrapolate(k)))
+        .collect();
     Ok(Contents { units, tables })
 }
 

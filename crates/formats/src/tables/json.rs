@@ -24,7 +24,10 @@ pub(super) const FORMAT: &str = "girderway-tables/1";
 
 /// The text, with one row of values per line and every number in its shortest exact decimal form.
 pub(super) fn write(set: &TableSet) -> String {
-    let mut text = format!("{{\n  \"format\": \"{FORMAT}\",\n  \"name\": {},\n", json!(set.name));
+    let mut text = format!(
+        "{{\n  \"format\": \"{FORMAT}\",\n  \"name\": {},\n",
+        json!(set.name)
+    );
     // writing to a string cannot fail
     let _ = writeln!(text, "  \"units\": {},\n  \"tables\": [", set.units.json());
     for (k, table) in set.tables.iter().enumerate() {
@@ -34,14 +37,26 @@ pub(super) fn write(set: &TableSet) -> String {
         relation(&mut head, table.quantity, &table.rails);
         let head = Value::Object(head).to_string();
         let head = head.trim_start_matches('{').trim_end_matches('}');
-        let _ = writeln!(text, "    {{{head},\n      \"x\": {},", json!(table.curves.x()));
+        let _ = writeln!(
+            text,
+            "    {{{head},\n      \"x\": {},",
+            json!(table.curves.x())
+        );
         if !table.curves.z().is_empty() {
             let _ = writeln!(text, "      \"z\": {},", json!(table.curves.z()));
         }
-        let rows: Vec<String> =
-            table.curves.y().iter().map(|row| format!("        {}", json!(row))).collect();
+        let rows: Vec<String> = table
+            .curves
+            .y()
+            .iter()
+            .map(|row| format!("        {}", json!(row)))
+            .collect();
         let comma = if k + 1 < set.tables.len() { "," } else { "" };
-        let _ = writeln!(text, "      \"values\": [\n{}\n      ]}}{comma}", rows.join(",\n"));
+        let _ = writeln!(
+            text,
+            "      \"values\": [\n{}\n      ]}}{comma}",
+            rows.join(",\n")
+        );
     }
     text.push_str("  ]");
     if !set.products.is_empty() {
@@ -61,7 +76,11 @@ pub(super) fn write(set: &TableSet) -> String {
 }
 
 /// Adds the quantity and the rails, if known.
-fn relation(object: &mut Map<String, Value>, quantity: Option<GridBlock>, rails: &Option<[String; 2]>) {
+fn relation(
+    object: &mut Map<String, Value>,
+    quantity: Option<GridBlock>,
+    rails: &Option<[String; 2]>,
+) {
     if let Some(quantity) = quantity {
         object.insert("quantity".into(), json!(quantity.name()));
     }
@@ -114,7 +133,9 @@ struct RawProduct {
 
 /// Reads `girderway-tables/1`, or an object of `x`, `z` (or `stations` for both) and `values`.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
-    source.read(FORMAT, |raw: &RawSet, faults| Some(check(raw, source, faults)))
+    source.read(FORMAT, |raw: &RawSet, faults| {
+        Some(check(raw, source, faults))
+    })
 }
 
 fn check(raw: &RawSet, source: &Source, faults: &mut Faults) -> Parsed {
@@ -139,9 +160,15 @@ fn check(raw: &RawSet, source: &Source, faults: &mut Faults) -> Parsed {
             }
         }
         let list = root.key("tables");
-        let tables = faults.require(&raw.tables, &root, "tables").map(Vec::as_slice).unwrap_or_default();
-        let drafts: Vec<Option<Draft>> =
-            tables.iter().enumerate().map(|(k, table)| draft(table, &list.index(k), faults)).collect();
+        let tables = faults
+            .require(&raw.tables, &root, "tables")
+            .map(Vec::as_slice)
+            .unwrap_or_default();
+        let drafts: Vec<Option<Draft>> = tables
+            .iter()
+            .enumerate()
+            .map(|(k, table)| draft(table, &list.index(k), faults))
+            .collect();
         check_ids(tables, &list, faults);
         products = read_products(raw, tables, &root.key("factored"), faults);
         if drafts.is_empty() && faults.0.is_empty() {
@@ -151,9 +178,19 @@ fn check(raw: &RawSet, source: &Source, faults: &mut Faults) -> Parsed {
     } else {
         single(raw, &root, faults).into_iter().collect()
     };
-    let missing_units =
-        ["has no `units`", "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}"];
-    Parsed { name, units, missing_units, drafts, comments: String::new(), products, left_out: Vec::new() }
+    let missing_units = [
+        "has no `units`",
+        "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}",
+    ];
+    Parsed {
+        name,
+        units,
+        missing_units,
+        drafts,
+        comments: String::new(),
+        products,
+        left_out: Vec::new(),
+    }
 }
 
 /// The one table of a file without `format` and `tables`.
@@ -161,7 +198,10 @@ fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> 
     let values = faults.require(&raw.values, root, "values")?;
     let (key, x) = match (&raw.stations, &raw.x) {
         (Some(_), Some(_)) => {
-            faults.add(Fault::new(&root.key("x"), "cannot be combined with `stations`"));
+            faults.add(Fault::new(
+                &root.key("x"),
+                "cannot be combined with `stations`",
+            ));
             return None;
         }
         (Some(stations), None) => ("stations", stations),
@@ -169,37 +209,68 @@ fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> 
     };
     let z = match (&raw.stations, &raw.z) {
         (Some(_), Some(_)) => {
-            faults.add(Fault::new(&root.key("z"), "cannot be combined with `stations`"));
+            faults.add(Fault::new(
+                &root.key("z"),
+                "cannot be combined with `stations`",
+            ));
             return None;
         }
         (Some(stations), None) => stations.clone(),
         (None, z) => z.clone().unwrap_or_default(),
     };
     let curves = defect::checked(x.clone(), z, values.clone());
-    let curves = curves.map_err(|defect| faults.add(placed(defect, root, key))).ok()?;
-    Some(Draft { name: raw.name.clone(), ..Draft::of(curves) })
+    let curves = curves
+        .map_err(|defect| faults.add(placed(defect, root, key)))
+        .ok()?;
+    Some(Draft {
+        name: raw.name.clone(),
+        ..Draft::of(curves)
+    })
 }
 
 /// One of `tables`.
 fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let quantity = quantity(&raw.quantity, at, faults);
-    let (x, values) = (faults.require(&raw.x, at, "x"), faults.require(&raw.values, at, "values"));
+    let (x, values) = (
+        faults.require(&raw.x, at, "x"),
+        faults.require(&raw.values, at, "values"),
+    );
     let (x, values) = x.zip(values)?;
     let z = raw.z.clone().unwrap_or_default();
     let curves: Result<SplineValues, Defect> = defect::checked(x.clone(), z, values.clone());
-    let curves = curves.map_err(|defect| faults.add(placed(defect, at, "x"))).ok()?;
-    let rails = raw.rail.clone().zip(raw.load_rail.clone()).map(|(rail, load)| [rail, load]);
-    Some(Draft { id: raw.id, name: raw.name.clone(), quantity, rails, ..Draft::of(curves) })
+    let curves = curves
+        .map_err(|defect| faults.add(placed(defect, at, "x")))
+        .ok()?;
+    let rails = raw
+        .rail
+        .clone()
+        .zip(raw.load_rail.clone())
+        .map(|(rail, load)| [rail, load]);
+    Some(Draft {
+        id: raw.id,
+        name: raw.name.clone(),
+        quantity,
+        rails,
+        ..Draft::of(curves)
+    })
 }
 
 fn quantity(word: &Option<String>, at: &Place<'_>, faults: &mut Faults) -> Option<GridBlock> {
-    let words: Vec<(&str, GridBlock)> = GridBlock::ALL.iter().map(|one| (one.name(), *one)).collect();
-    word.as_ref().and_then(|word| faults.one_of(word, &at.key("quantity"), &words))
+    let words: Vec<(&str, GridBlock)> = GridBlock::ALL
+        .iter()
+        .map(|one| (one.name(), *one))
+        .collect();
+    word.as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("quantity"), &words))
 }
 
 /// Converts a defect to a fault below `at`. `x` is the key of the x coordinates.
 fn placed(defect: Defect, at: &Place<'_>, x: &str) -> Fault {
-    let (values, xs, zs) = (at.key("values"), at.key(x), at.key(if x == "x" { "z" } else { x }));
+    let (values, xs, zs) = (
+        at.key("values"),
+        at.key(x),
+        at.key(if x == "x" { "z" } else { x }),
+    );
     let fault = |place: &Place<'_>| Fault {
         found: defect.found.clone(),
         hint: defect.hint.map(str::to_owned),
@@ -229,30 +300,54 @@ fn check_ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
 }
 
 /// Reads the products in `factored`. Their terms must be curves with the same x.
-fn read_products(raw: &RawSet, tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) -> Vec<Product> {
+fn read_products(
+    raw: &RawSet,
+    tables: &[RawTable],
+    list: &Place<'_>,
+    faults: &mut Faults,
+) -> Vec<Product> {
     let mut out = Vec::new();
     for (k, raw) in raw.factored.iter().flatten().enumerate() {
         let at = list.index(k);
-        let name = faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
-        let terms = faults.require(&raw.terms, &at, "terms").cloned().unwrap_or_default();
+        let name = faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
+        let terms = faults
+            .require(&raw.terms, &at, "terms")
+            .cloned()
+            .unwrap_or_default();
         let place = at.key("terms");
         let find = |id: u32| tables.iter().find(|table| table.id == Some(id));
         let x_of = |id: u32| {
-            find(id).filter(|table| table.z.as_ref().is_none_or(Vec::is_empty)).map(|table| &table.x)
+            find(id)
+                .filter(|table| table.z.as_ref().is_none_or(Vec::is_empty))
+                .map(|table| &table.x)
         };
         for (t, term) in terms.iter().enumerate() {
             for (side, &id) in term.iter().enumerate() {
                 let term = place.index(t);
                 let expected = match x_of(id) {
                     None => "must be the id of a table of one curve",
-                    Some(x) if Some(x) != x_of(terms[0][side]) => "must have the x of the first term",
+                    Some(x) if Some(x) != x_of(terms[0][side]) => {
+                        "must have the x of the first term"
+                    }
                     Some(_) => continue,
                 };
                 faults.add(Fault::new(&term.index(side), expected).got(id));
             }
         }
-        let rails = raw.rail.clone().zip(raw.load_rail.clone()).map(|(rail, load)| [rail, load]);
-        out.push(Product { name, quantity: quantity(&raw.quantity, &at, faults), rails, terms });
+        let rails = raw
+            .rail
+            .clone()
+            .zip(raw.load_rail.clone())
+            .map(|(rail, load)| [rail, load]);
+        out.push(Product {
+            name,
+            quantity: quantity(&raw.quantity, &at, faults),
+            rails,
+            terms,
+        });
     }
     out
 }

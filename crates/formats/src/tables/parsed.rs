@@ -48,17 +48,30 @@ pub(super) struct Draft {
 impl Draft {
     /// A table without any other properties.
     pub fn of(curves: SplineValues) -> Draft {
-        Draft { id: None, name: None, quantity: None, rails: None, linear_extrapolate: None, curves }
+        Draft {
+            id: None,
+            name: None,
+            quantity: None,
+            rails: None,
+            linear_extrapolate: None,
+            curves,
+        }
     }
 }
 
 /// Chooses a number for a table that has none and adds it to `used`. It is the number of its quantity
 /// (SPLINE/6 to 11) if that is unused, and otherwise one above all used numbers and above 11.
 fn free(used: &mut Vec<u32>, quantity: Option<GridBlock>) -> u32 {
-    let own = quantity.and_then(|quantity| GridBlock::ALL.into_iter().position(|one| one == quantity));
-    let own = own.and_then(|index| u32::try_from(index).ok()).map(|index| FIRST + index);
+    let own =
+        quantity.and_then(|quantity| GridBlock::ALL.into_iter().position(|one| one == quantity));
+    let own = own
+        .and_then(|index| u32::try_from(index).ok())
+        .map(|index| FIRST + index);
     let beyond = FIRST + 6;
-    let next = used.iter().max().map_or(beyond, |last| last.saturating_add(1).max(beyond));
+    let next = used
+        .iter()
+        .max()
+        .map_or(beyond, |last| last.saturating_add(1).max(beyond));
     let id = own.filter(|id| !used.contains(id)).unwrap_or(next);
     used.push(id);
     id
@@ -67,22 +80,52 @@ fn free(used: &mut Vec<u32>, quantity: Option<GridBlock>) -> u32 {
 impl TableSet {
     /// The tables of a file, with default numbers, names and quantities for missing ones, and with the products that
     /// its comments state.
-    pub(super) fn assemble(name: String, units: Units, drafts: Vec<Draft>, comments: &str) -> TableSet {
+    pub(super) fn assemble(
+        name: String,
+        units: Units,
+        drafts: Vec<Draft>,
+        comments: &str,
+    ) -> TableSet {
         let mut used: Vec<u32> = drafts.iter().filter_map(|draft| draft.id).collect();
         let mut tables = Vec::new();
         for (k, draft) in drafts.into_iter().enumerate() {
-            let title =
-                draft.name.unwrap_or_else(|| if k == 0 { name.clone() } else { format!("table {}", k + 1) });
-            let quantity =
-                draft.quantity.or_else(|| if draft.curves.z().is_empty() { None } else { quantity(&title) });
+            let title = draft.name.unwrap_or_else(|| {
+                if k == 0 {
+                    name.clone()
+                } else {
+                    format!("table {}", k + 1)
+                }
+            });
+            let quantity = draft.quantity.or_else(|| {
+                if draft.curves.z().is_empty() {
+                    None
+                } else {
+                    quantity(&title)
+                }
+            });
             let id = draft.id.unwrap_or_else(|| free(&mut used, quantity));
-            tables.push(Table { id, name: title, quantity, rails: draft.rails, curves: draft.curves });
+            tables.push(Table {
+                id,
+                name: title,
+                quantity,
+                rails: draft.rails,
+                curves: draft.curves,
+            });
         }
-        let known =
-            |id: u32| tables.iter().any(|table: &Table| table.id == id && table.curves.z().is_empty());
+        let known = |id: u32| {
+            tables
+                .iter()
+                .any(|table: &Table| table.id == id && table.curves.z().is_empty())
+        };
         let mut products = Product::read(comments);
         products.retain(|product| product.terms.iter().flatten().all(|&id| known(id)));
-        TableSet { name, units, tables, products, left_out: Vec::new() }
+        TableSet {
+            name,
+            units,
+            tables,
+            products,
+            left_out: Vec::new(),
+        }
     }
 }
 
@@ -92,7 +135,11 @@ fn quantity(name: &str) -> Option<GridBlock> {
         let before = name.strip_suffix(quantity.name());
         before.is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()))
     };
-    GridBlock::ALL.iter().filter(ends).max_by_key(|quantity| quantity.name().len()).copied()
+    GridBlock::ALL
+        .iter()
+        .filter(ends)
+        .max_by_key(|quantity| quantity.name().len())
+        .copied()
 }
 
 impl Product {
@@ -101,13 +148,20 @@ impl Product {
         let words: Vec<&str> = comments.split_whitespace().collect();
         let mut out = Vec::new();
         for (k, pair) in words.windows(2).enumerate() {
-            let Some(name) = pair[0].strip_suffix("(x,z)").filter(|name| !name.is_empty() && pair[1] == "=")
+            let Some(name) = pair[0]
+                .strip_suffix("(x,z)")
+                .filter(|name| !name.is_empty() && pair[1] == "=")
             else {
                 continue;
             };
             let sum = words.get(k + 2..).unwrap_or(&[]);
             let Some(terms) = sum_of(sum) else { continue };
-            out.push(Product { name: name.to_owned(), quantity: quantity(name), rails: None, terms });
+            out.push(Product {
+                name: name.to_owned(),
+                quantity: quantity(name),
+                rails: None,
+                terms,
+            });
         }
         out
     }
@@ -130,6 +184,8 @@ fn sum_of(words: &[&str]) -> Option<Vec<[u32; 2]>> {
 
 /// The term `CUBSPL(x,0,A)*CUBSPL(z,0,B)` as [A, B].
 fn term(word: &str) -> Option<[u32; 2]> {
-    let (x, z) = word.strip_prefix("CUBSPL(x,0,")?.split_once(")*CUBSPL(z,0,")?;
+    let (x, z) = word
+        .strip_prefix("CUBSPL(x,0,")?
+        .split_once(")*CUBSPL(z,0,")?;
     Some([x.parse().ok()?, z.strip_suffix(')')?.parse().ok()?])
 }

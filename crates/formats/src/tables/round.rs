@@ -45,7 +45,11 @@ impl Rounding {
             return format!("rounded to {} digits: no number changed", self.digits);
         };
         let z = z.map(|z| format!(", z = {z}")).unwrap_or_default();
-        let stations = if self.stations { "; stations changed too" } else { "" };
+        let stations = if self.stations {
+            "; stations changed too"
+        } else {
+            ""
+        };
         let (digits, largest) = (self.digits, self.largest);
         format!(
             "rounded to {digits} digits: by {largest:.2e} of a number at most, SPLINE/{id} at x = {x}{z}{stations}"
@@ -55,7 +59,9 @@ impl Rounding {
     /// The same as JSON.
     #[must_use]
     pub fn json(&self) -> Value {
-        let at = self.at.map(|(id, x, z)| json!({ "id": id, "x": x, "z": z }));
+        let at = self
+            .at
+            .map(|(id, x, z)| json!({ "id": id, "x": x, "z": z }));
         json!({ "digits": self.digits, "largest": self.largest, "at": at, "stations": self.stations })
     }
 }
@@ -66,10 +72,24 @@ impl Rounding {
 /// # Errors
 /// A value that overflows; stations that become equal.
 pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), RoundError> {
-    let mut rounding = Rounding { digits, largest: 0.0, at: None, stations: false };
-    let tables =
-        set.tables.iter().map(|table| table_rounded(table, &mut rounding)).collect::<Result<_, _>>()?;
-    Ok((TableSet { tables, ..set.clone() }, rounding))
+    let mut rounding = Rounding {
+        digits,
+        largest: 0.0,
+        at: None,
+        stations: false,
+    };
+    let tables = set
+        .tables
+        .iter()
+        .map(|table| table_rounded(table, &mut rounding))
+        .collect::<Result<_, _>>()?;
+    Ok((
+        TableSet {
+            tables,
+            ..set.clone()
+        },
+        rounding,
+    ))
 }
 
 /// Rounds a table and records each change in `rounding`.
@@ -92,14 +112,26 @@ fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, RoundE
         Ok(nearest)
     };
     let first = z.first().copied();
-    let new_x = x.iter().map(|&x| one(x, x, first, true)).collect::<Result<_, _>>()?;
-    let new_z = z.iter().map(|&z| one(z, x[0], Some(z), true)).collect::<Result<_, _>>()?;
+    let new_x = x
+        .iter()
+        .map(|&x| one(x, x, first, true))
+        .collect::<Result<_, _>>()?;
+    let new_z = z
+        .iter()
+        .map(|&z| one(z, x[0], Some(z), true))
+        .collect::<Result<_, _>>()?;
     let mut rows = Vec::new();
     for (i, row) in table.curves.y().iter().enumerate() {
         let z = z.get(i).copied();
-        let values = row.iter().zip(x).map(|(&value, &x)| one(value, x, z, false));
+        let values = row
+            .iter()
+            .zip(x)
+            .map(|(&value, &x)| one(value, x, z, false));
         rows.push(values.collect::<Result<_, _>>()?);
     }
     let curves = SplineValues::new(new_x, new_z, rows).map_err(|_| RoundError::Stations { id })?;
-    Ok(Table { curves, ..table.clone() })
+    Ok(Table {
+        curves,
+        ..table.clone()
+    })
 }

@@ -68,7 +68,8 @@ impl TableSet {
     pub fn left_out_message(&self) -> Option<String> {
         let named = |table: &ModifiedSpline| format!("{} (line {})", table.name, table.line);
         let list: Vec<String> = self.left_out.iter().map(named).collect();
-        let message = "left out, because a later command `data_element modify spline` changes their values";
+        let message =
+            "left out, because a later command `data_element modify spline` changes their values";
         (!list.is_empty()).then(|| format!("{message}: {}", list.join(", ")))
     }
 
@@ -91,11 +92,17 @@ impl TableSet {
                 for (index, quantity) in GridBlock::ALL.into_iter().enumerate() {
                     let direct = quantity.direct() == [quantity; 2];
                     // G_rc of a direct block is the transpose of G_cr
-                    let Some(block) = grid.block(quantity).filter(|_| !direct || r <= c) else { continue };
+                    let Some(block) = grid.block(quantity).filter(|_| !direct || r <= c) else {
+                        continue;
+                    };
                     let (n, m) = (row.stations.len(), column.stations.len());
                     let values = block.view((top, left), (n, m));
-                    let values = values.row_iter().map(|line| line.iter().copied().collect()).collect();
-                    let Ok(curves) = SplineValues::new(column.stations.clone(), row.stations.clone(), values)
+                    let values = values
+                        .row_iter()
+                        .map(|line| line.iter().copied().collect())
+                        .collect();
+                    let Ok(curves) =
+                        SplineValues::new(column.stations.clone(), row.stations.clone(), values)
                     else {
                         continue;
                     };
@@ -105,7 +112,8 @@ impl TableSet {
                         format!("{}_{}_from_{}_{quantity}", grid.name, row.name, column.name)
                     };
                     tables.push(Table {
-                        id: FIRST.saturating_add(u32::try_from(6 * pair + index).unwrap_or(u32::MAX)),
+                        id: FIRST
+                            .saturating_add(u32::try_from(6 * pair + index).unwrap_or(u32::MAX)),
                         name: adams_name(&name),
                         quantity: Some(quantity),
                         rails: Some([row.name.clone(), column.name.clone()]),
@@ -155,7 +163,11 @@ impl Product {
     pub fn expression(&self) -> String {
         let term = |[x, z]: &[u32; 2]| format!("CUBSPL(x,0,{x})*CUBSPL(z,0,{z})");
         let sum: Vec<String> = self.terms.iter().map(term).collect();
-        let sum = if sum.is_empty() { "0".to_owned() } else { sum.join(" + ") };
+        let sum = if sum.is_empty() {
+            "0".to_owned()
+        } else {
+            sum.join(" + ")
+        };
         format!("{}(x,z) = {sum}", adams_name(&self.name))
     }
 }
@@ -165,22 +177,41 @@ impl Product {
 #[must_use]
 pub fn select(set: &TableSet, directions: &[GridBlock]) -> TableSet {
     let wanted = |quantity: Option<GridBlock>| {
-        quantity.is_some_and(|quantity| quantity.direct().iter().all(|direct| directions.contains(direct)))
+        quantity.is_some_and(|quantity| {
+            quantity
+                .direct()
+                .iter()
+                .all(|direct| directions.contains(direct))
+        })
     };
     let mut out = set.clone();
     out.products.retain(|product| wanted(product.quantity));
-    let terms: Vec<u32> =
-        out.products.iter().flat_map(|product| product.terms.iter().flatten().copied()).collect();
+    let terms: Vec<u32> = out
+        .products
+        .iter()
+        .flat_map(|product| product.terms.iter().flatten().copied())
+        .collect();
     out.tables.retain(|table| {
         let is_curve = table.curves.z().is_empty() && !set.products.is_empty();
-        if is_curve { terms.contains(&table.id) } else { wanted(table.quantity) }
+        if is_curve {
+            terms.contains(&table.id)
+        } else {
+            wanted(table.quantity)
+        }
     });
     out
 }
 
 /// A name that is valid in data sets and in Adams View: ASCII letters, digits and underscores, at most 56 characters.
 pub(super) fn adams_name(name: &str) -> String {
-    let name: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).take(56).collect();
-    if name.is_empty() { "_".to_owned() } else { name }
+    let name: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .take(56)
+        .collect();
+    if name.is_empty() {
+        "_".to_owned()
+    } else {
+        name
+    }
 }

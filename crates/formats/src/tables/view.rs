@@ -32,8 +32,8 @@ fn view_name(name: &str) -> String {
 
 /// Reads the splines of a command file. Those that a later command modifies are left out and named in `left_out`.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
-    let (set, left_out) =
-        adams::view::read_with_modified(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
+    let (set, left_out) = adams::view::read_with_modified(&source.text)
+        .map_err(|error| vec![unreadable(source, &error)])?;
     Ok(Parsed {
         name: set.title.unwrap_or_else(|| stem(&source.name)),
         units: set.units.map(Units::of_adams),

@@ -46,7 +46,11 @@ pub(crate) struct Conversion<T> {
 /// Converts a tree.
 pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> Conversion<T> {
     let mut left_out = BTreeSet::new();
-    let mut found = Conversion { value: None, faults: Vec::new(), lost: Vec::new() };
+    let mut found = Conversion {
+        value: None,
+        faults: Vec::new(),
+        lost: Vec::new(),
+    };
     while found.faults.len() < MOST {
         match pass(root, &left_out) {
             Ok(value) => {
@@ -66,9 +70,16 @@ pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> Con
     found
 }
 
-fn pass<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>, left_out: &BTreeSet<usize>) -> Result<T, Stop> {
+fn pass<'de, T: Deserialize<'de>>(
+    root: &'de TreeNode<'de>,
+    left_out: &BTreeSet<usize>,
+) -> Result<T, Stop> {
     let place = Place::root();
-    let reader = Reader { node: root, place: &place, left_out };
+    let reader = Reader {
+        node: root,
+        place: &place,
+        left_out,
+    };
     T::deserialize(reader).map_err(|stop| stop.at(&reader))
 }
 
@@ -112,24 +123,51 @@ impl Stop {
         if is_duplicate(&message)
             && let Some(second) = node.second_of_a_key()
         {
-            let located = Located { fault: Fault::duplicate(path, &second.key), offset: second.start };
+            let located = Located {
+                fault: Fault::duplicate(path, &second.key),
+                offset: second.start,
+            };
             let (start, lost) = (second.value.start, reader.place.key(&second.key).path());
-            return Stop::At(Box::new(Unconverted { start, located: Some(located), lost: Some(lost) }));
+            return Stop::At(Box::new(Unconverted {
+                start,
+                located: Some(located),
+                lost: Some(lost),
+            }));
         }
-        let follows = reader.left_out.range(node.start..).next().is_some_and(|start| *start < node.end);
-        let located = Located { fault: type_fault(path.clone(), &message), offset: node.start };
+        let follows = reader
+            .left_out
+            .range(node.start..)
+            .next()
+            .is_some_and(|start| *start < node.end);
+        let located = Located {
+            fault: type_fault(path.clone(), &message),
+            offset: node.start,
+        };
         let located = (!follows).then_some(located);
-        Stop::At(Box::new(Unconverted { start: node.start, located, lost: Some(path) }))
+        Stop::At(Box::new(Unconverted {
+            start: node.start,
+            located,
+            lost: Some(path),
+        }))
     }
 
     /// Assigns the place of the key of a member. If another key was probably meant, its value is missing.
     #[cold]
     fn at_key(self, member: &TreeMember<'_>, place: &Place<'_>) -> Stop {
-        let Stop::Message(message) = self else { return self };
+        let Stop::Message(message) = self else {
+            return self;
+        };
         let fault = type_fault(place.key(&member.key).path(), &message);
         let lost = meant_key(&fault).map(|key| place.key(key).path());
-        let located = Some(Located { fault, offset: member.start });
-        Stop::At(Box::new(Unconverted { start: member.value.start, located, lost }))
+        let located = Some(Located {
+            fault,
+            offset: member.start,
+        });
+        Stop::At(Box::new(Unconverted {
+            start: member.value.start,
+            located,
+            lost,
+        }))
     }
 }
 
@@ -138,7 +176,9 @@ impl fmt::Display for Stop {
         match self {
             Stop::Message(message) => f.write_str(message),
             Stop::Excess { items, .. } => write!(f, "invalid length {items}"),
-            Stop::At(part) => f.write_str(part.located.as_ref().map_or("", |at| &at.fault.expected)),
+            Stop::At(part) => {
+                f.write_str(part.located.as_ref().map_or("", |at| &at.fault.expected))
+            }
             Stop::Broken => f.write_str("the text breaks off"),
         }
     }
@@ -172,7 +212,10 @@ impl de::Error for Stop {
 
     #[cold]
     fn invalid_value(seen: Unexpected<'_>, expected: &dyn de::Expected) -> Stop {
-        Stop::Message(format!("invalid value: {}, expected {expected}", Seen(seen)))
+        Stop::Message(format!(
+            "invalid value: {}, expected {expected}",
+            Seen(seen)
+        ))
     }
 }
 
@@ -192,14 +235,29 @@ impl<'de> Reader<'_, 'de> {
 
     /// Returns `value` if the text of the list or object is complete.
     fn closed<T>(&self, value: T) -> Result<T, Stop> {
-        if self.node.is_whole() { Ok(value) } else { Err(Stop::Broken) }
+        if self.node.is_whole() {
+            Ok(value)
+        } else {
+            Err(Stop::Broken)
+        }
     }
 
-    fn list<V: Visitor<'de>>(self, items: &'de [TreeNode<'de>], visitor: V) -> Result<V::Value, Stop> {
-        let mut rest = Items { reader: self, items, next: 0 };
+    fn list<V: Visitor<'de>>(
+        self,
+        items: &'de [TreeNode<'de>],
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        let mut rest = Items {
+            reader: self,
+            items,
+            next: 0,
+        };
         let value = visitor.visit_seq(&mut rest)?;
         match rest.current() {
-            Some(_) => Err(Stop::Excess { items: items.len(), most: rest.next }),
+            Some(_) => Err(Stop::Excess {
+                items: items.len(),
+                most: rest.next,
+            }),
             None => self.closed(value),
         }
     }
@@ -212,7 +270,11 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
         match &self.node.value {
             Value::List(items) => self.list(items, visitor),
             Value::Object(members) => visitor
-                .visit_map(Members { reader: self, members, next: 0 })
+                .visit_map(Members {
+                    reader: self,
+                    members,
+                    next: 0,
+                })
                 .and_then(|value| self.closed(value)),
             _ if !self.node.is_whole() => Err(Stop::Broken),
             Value::Null => visitor.visit_unit(),
@@ -299,12 +361,23 @@ impl<'de> Items<'_, 'de> {
 impl<'de> de::SeqAccess<'de> for &mut Items<'_, 'de> {
     type Error = Stop;
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Stop> {
-        let Some((index, node)) = self.current() else { return self.reader.closed(None) };
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Stop> {
+        let Some((index, node)) = self.current() else {
+            return self.reader.closed(None);
+        };
         let place = self.reader.place.index(index);
         self.next += 1;
-        let item = Reader { node, place: &place, ..self.reader };
-        seed.deserialize(item).map(Some).map_err(|stop| stop.at(&item))
+        let item = Reader {
+            node,
+            place: &place,
+            ..self.reader
+        };
+        seed.deserialize(item)
+            .map(Some)
+            .map_err(|stop| stop.at(&item))
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -322,20 +395,35 @@ struct Members<'a, 'de> {
 impl<'de> de::MapAccess<'de> for Members<'_, 'de> {
     type Error = Stop;
 
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Stop> {
-        while self.members.get(self.next).is_some_and(|member| self.reader.is_left_out(&member.value)) {
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Stop> {
+        while self
+            .members
+            .get(self.next)
+            .is_some_and(|member| self.reader.is_left_out(&member.value))
+        {
             self.next += 1;
         }
-        let Some(member) = self.members.get(self.next) else { return self.reader.closed(None) };
+        let Some(member) = self.members.get(self.next) else {
+            return self.reader.closed(None);
+        };
         let key: StrDeserializer<'_, Stop> = de::IntoDeserializer::into_deserializer(&*member.key);
-        seed.deserialize(key).map(Some).map_err(|stop| stop.at_key(member, self.reader.place))
+        seed.deserialize(key)
+            .map(Some)
+            .map_err(|stop| stop.at_key(member, self.reader.place))
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Stop> {
         let member = &self.members[self.next];
         self.next += 1;
         let place = self.reader.place.key(&member.key);
-        let value = Reader { node: &member.value, place: &place, ..self.reader };
+        let value = Reader {
+            node: &member.value,
+            place: &place,
+            ..self.reader
+        };
         seed.deserialize(value).map_err(|stop| stop.at(&value))
     }
 }
@@ -375,12 +463,20 @@ mod tests {
 
     #[test]
     fn a_right_text_has_no_faults() {
-        let text =
-            r#"{"span": 60, "count": 3, "up": [0, 1, 0], "points": [1, 2.5], "parts": {"a": null, "b": 1}}"#;
+        let text = r#"{"span": 60, "count": 3, "up": [0, 1, 0], "points": [1, 2.5], "parts": {"a": null, "b": 1}}"#;
         let (value, faults) = beam(text);
         let parts = Entries(vec![("a".to_owned(), None), ("b".to_owned(), Some(1.0))]);
         let up = Some([0.0, 1.0, 0.0]);
-        assert_eq!(value, Some(Beam { span: Some(60.0), count: Some(3), up, points: vec![1.0, 2.5], parts }));
+        assert_eq!(
+            value,
+            Some(Beam {
+                span: Some(60.0),
+                count: Some(3),
+                up,
+                points: vec![1.0, 2.5],
+                parts
+            })
+        );
         assert!(faults.is_empty());
     }
 
@@ -401,7 +497,13 @@ mod tests {
         assert_eq!(faults, expected);
         let parts = Entries(vec![("a".to_owned(), Some(1.0))]);
         let up = Some([0.0; 3]);
-        let beam = Beam { span: Some(61.0), up, points: vec![1.0, 1.0, 3.0], parts, ..Beam::default() };
+        let beam = Beam {
+            span: Some(61.0),
+            up,
+            points: vec![1.0, 1.0, 3.0],
+            parts,
+            ..Beam::default()
+        };
         assert_eq!(value, Some(beam));
     }
 
@@ -413,15 +515,29 @@ mod tests {
         let paths: Vec<String> = lost.iter().map(Path::to_string).collect();
         assert_eq!(paths, ["up[1]", "points[0]", "points[3]"]);
         let value = value.expect("the rest is right");
-        assert_eq!((value.up, value.points), (Some([0.0, 0.0, 2.0]), vec![2.0, 2.0, 3.0, 3.0]));
+        assert_eq!(
+            (value.up, value.points),
+            (Some([0.0, 0.0, 2.0]), vec![2.0, 2.0, 3.0, 3.0])
+        );
     }
 
     #[test]
     fn what_stands_before_a_break_is_checked_and_no_more() {
         let (value, faults) = beam(r#"{"span": "60", "points": [1, true, 2"#);
         assert_eq!(value, None);
-        assert_eq!(faults, ["span: must be a number @ \"60\"", "points[1]: must be a number @ true"]);
-        for text in ["{\"up\": [0, 1", "{\"span\"", "{\"span\": 6e", "{\"span\": 6"] {
+        assert_eq!(
+            faults,
+            [
+                "span: must be a number @ \"60\"",
+                "points[1]: must be a number @ true"
+            ]
+        );
+        for text in [
+            "{\"up\": [0, 1",
+            "{\"span\"",
+            "{\"span\": 6e",
+            "{\"span\": 6",
+        ] {
             assert_eq!(beam(text), (None, Vec::new()), "{text}");
         }
     }
@@ -429,7 +545,13 @@ mod tests {
     #[test]
     fn lists_have_the_length_that_is_wanted() {
         let (_, faults) = beam(r#"{"up": [0, 1], "span": [[]]}"#);
-        assert_eq!(faults, ["up: must be a list of 3 items @ [0, ", "span: must be a number @ [[]]"]);
+        assert_eq!(
+            faults,
+            [
+                "up: must be a list of 3 items @ [0, ",
+                "span: must be a number @ [[]]"
+            ]
+        );
         let root = json::read(r#"{"up": [0, 1, 0, 7]}"#).root;
         let faults = convert::<Beam>(&root).faults;
         assert_eq!(faults[0].fault.expected, "must be a list of 3 items");
@@ -441,7 +563,10 @@ mod tests {
         for text in ["7", "[60]", "\"span\""] {
             let (value, faults) = beam(text);
             assert_eq!(value, None);
-            assert!(faults[0].starts_with(": must be an object @ "), "{faults:?}");
+            assert!(
+                faults[0].starts_with(": must be an object @ "),
+                "{faults:?}"
+            );
         }
     }
 }

@@ -71,14 +71,20 @@ impl Excerpt {
         if after.next().is_some() {
             near.extend(['.'; 3]);
         }
-        Excerpt { text: near.into_iter().collect(), before }
+        Excerpt {
+            text: near.into_iter().collect(),
+            before,
+        }
     }
 }
 
 /// The byte at which the character at the byte `offset` begins, or the end of the text.
 pub(super) fn char_boundary(text: &str, offset: usize) -> usize {
     let is_boundary = |byte: &usize| text.is_char_boundary(*byte);
-    (0..=offset.min(text.len())).rev().find(is_boundary).unwrap_or_default()
+    (0..=offset.min(text.len()))
+        .rev()
+        .find(is_boundary)
+        .unwrap_or_default()
 }
 
 impl Diagnostic {
@@ -100,7 +106,10 @@ impl Diagnostic {
     /// Number of bytes of the position, `file:line:column:`, with which the message begins.
     #[must_use]
     pub fn position_length(&self) -> usize {
-        let place = self.line.zip(self.column).map_or(0, |(line, column)| format!(":{line}:{column}").len());
+        let place = self
+            .line
+            .zip(self.column)
+            .map_or(0, |(line, column)| format!(":{line}:{column}").len());
         self.file.len() + place + 1
     }
 

@@ -32,12 +32,22 @@ pub(crate) fn examine<T: DeserializeOwned, R>(
     root: &TreeNode<'_>,
     check: impl FnOnce(&T, &mut Faults) -> Option<R>,
 ) -> Examined<R> {
-    let Conversion { value, faults: types, lost } = convert::<T>(root);
+    let Conversion {
+        value,
+        faults: types,
+        lost,
+    } = convert::<T>(root);
     let mut faults = Faults(types.iter().map(|located| located.fault.clone()).collect());
-    let value = value.and_then(|value| check(&value, &mut faults)).filter(|_| types.is_empty());
+    let value = value
+        .and_then(|value| check(&value, &mut faults))
+        .filter(|_| types.is_empty());
     let mut faults = Faults(faults.0.split_off(types.len()));
     faults.0.retain(|fault| is_independent(fault, &lost));
-    Examined { value, types, faults }
+    Examined {
+        value,
+        types,
+        faults,
+    }
 }
 
 /// Whether a fault of the remainder does not follow from the loss of values.
@@ -57,7 +67,10 @@ fn is_independent(fault: &Fault, lost: &[Path]) -> bool {
 
 /// Whether a fault is a missing key other than `key`.
 fn misses_another_key(fault: &Fault, key: Option<&Step>) -> bool {
-    let named = fault.expected.strip_prefix("missing key `").and_then(|rest| rest.split_once('`'));
+    let named = fault
+        .expected
+        .strip_prefix("missing key `")
+        .and_then(|rest| rest.split_once('`'));
     named.is_some_and(|(named, _)| !matches!(key, Some(Step::Key(key)) if key == named))
 }
 

@@ -65,7 +65,14 @@ impl Fault {
     pub(super) fn duplicate(path: Path, key: &str) -> Self {
         let expected = format!("{DUPLICATE}`{key}`");
         let hint = Some("give each key once".to_owned());
-        Fault { path, at_key: false, expected, found: None, hint, basis: Basis::Value }
+        Fault {
+            path,
+            at_key: false,
+            expected,
+            found: None,
+            hint,
+            basis: Basis::Value,
+        }
     }
 
     /// Whether the fault is a duplicate key.
@@ -129,7 +136,12 @@ impl Faults {
     }
 
     /// Returns the value if it is present; otherwise adds a fault for the missing key.
-    pub fn require<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
+    pub fn require<'v, T>(
+        &mut self,
+        value: &'v Option<T>,
+        place: &Place<'_>,
+        key: &str,
+    ) -> Option<&'v T> {
         if value.is_none() {
             self.add(Fault::new(place, format!("missing key `{key}`")).of_value());
         }
@@ -138,13 +150,18 @@ impl Faults {
 
     /// Returns the value of a keyword. An unknown keyword is a fault that lists the known ones and suggests the
     /// nearest.
-    pub fn one_of<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
+    pub fn one_of<T: Copy>(
+        &mut self,
+        found: &str,
+        place: &Place<'_>,
+        words: &[(&str, T)],
+    ) -> Option<T> {
         if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
             return Some(*value);
         }
         let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-        let mut fault =
-            Fault::new(place, format!("must be {}", alternatives(&known))).got(format!("\"{found}\""));
+        let mut fault = Fault::new(place, format!("must be {}", alternatives(&known)))
+            .got(format!("\"{found}\""));
         fault = fault.of_value();
         if let Some(near) = nearest(found, &known).filter(|_| known.len() > 1) {
             fault = fault.hint(format!("did you mean \"{near}\"?"));
@@ -155,9 +172,13 @@ impl Faults {
 
     /// Adds a fault if `found` is not the format `expected`; for another format of the program with the command for it.
     pub fn check_format(&mut self, found: &str, place: &Place<'_>, expected: &str) {
-        match OTHER_FORMATS.iter().find(|(format, _)| found == *format && found != expected) {
+        match OTHER_FORMATS
+            .iter()
+            .find(|(format, _)| found == *format && found != expected)
+        {
             Some((_, hint)) => {
-                let fault = Fault::new(place, format!("must be \"{expected}\"")).got(format!("\"{found}\""));
+                let fault = Fault::new(place, format!("must be \"{expected}\""))
+                    .got(format!("\"{found}\""));
                 self.add(fault.of_value().hint(*hint));
             }
             None => {
@@ -178,7 +199,10 @@ impl Faults {
             self.add(
                 Fault::new(
                     &place.index(first + 1),
-                    format!("must be above the one before it, {}", number(numbers[first])),
+                    format!(
+                        "must be above the one before it, {}",
+                        number(numbers[first])
+                    ),
                 )
                 .got(numbers[first + 1])
                 .hint("list them in increasing order, each once"),
@@ -210,8 +234,9 @@ pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
         _ => 3,
     };
     let lower = word.to_lowercase();
-    let begun =
-        known.iter().find(|candidate| lower.len() > 2 && candidate.to_lowercase().starts_with(&lower));
+    let begun = known
+        .iter()
+        .find(|candidate| lower.len() > 2 && candidate.to_lowercase().starts_with(&lower));
     if let Some(candidate) = begun {
         return Some(candidate);
     }
@@ -231,7 +256,9 @@ fn distance(a: &str, b: &str) -> usize {
     for i in 0..a.len() {
         let mut next = vec![i + 1];
         for j in 0..b.len() {
-            let mut least = (row[j] + usize::from(a[i] != b[j])).min(row[j + 1] + 1).min(next[j] + 1);
+            let mut least = (row[j] + usize::from(a[i] != b[j]))
+                .min(row[j + 1] + 1)
+                .min(next[j] + 1);
             if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
                 least = least.min(before[j - 1] + 1);
             }
@@ -248,14 +275,32 @@ const OTHER_FORMATS: [(&str, &str); 9] = [
         "girderway-beam/1",
         "this is a beam spec, which `fea` and `crosscheck` read; scenes and designs name theirs",
     ),
-    ("girderway-scene/1", "this is a scene, which `run`, `sim`, `study` and `deck` read"),
-    ("girderway-design/1", "this is a design, which `design` reads"),
+    (
+        "girderway-scene/1",
+        "this is a scene, which `run`, `sim`, `study` and `deck` read",
+    ),
+    (
+        "girderway-design/1",
+        "this is a design, which `design` reads",
+    ),
     ("girderway-sweep/1", "this is a sweep, which `sweep` reads"),
-    ("girderway-sections/1", "these are sections, which `import` reads with --sections"),
-    ("girderway-shard/1", "this belongs to a shard, whose folder `sweep --merge` reads"),
+    (
+        "girderway-sections/1",
+        "these are sections, which `import` reads with --sections",
+    ),
+    (
+        "girderway-shard/1",
+        "this belongs to a shard, whose folder `sweep --merge` reads",
+    ),
     ("girderway-grid/1", "this is a grid, which `splines` reads"),
-    ("girderway-summary/1", "this is the summary of a run, which no command reads"),
-    ("girderway-design-summary/1", "this is the summary of a design, which no command reads"),
+    (
+        "girderway-summary/1",
+        "this is the summary of a run, which no command reads",
+    ),
+    (
+        "girderway-design-summary/1",
+        "this is the summary of a design, which no command reads",
+    ),
 ];
 
 #[cfg(test)]
@@ -290,10 +335,19 @@ mod tests {
     fn word_lists_what_is_known() {
         let mut faults = Faults::default();
         let root = Place::root();
-        assert_eq!(faults.one_of("rail", &root, &[("rail", 1), ("ground", 2)]), Some(1));
-        assert_eq!(faults.one_of("grund", &root, &[("rail", 1), ("ground", 2)]), None);
+        assert_eq!(
+            faults.one_of("rail", &root, &[("rail", 1), ("ground", 2)]),
+            Some(1)
+        );
+        assert_eq!(
+            faults.one_of("grund", &root, &[("rail", 1), ("ground", 2)]),
+            None
+        );
         assert_eq!(faults.0.len(), 1);
         assert_eq!(faults.0[0].expected, "must be \"rail\" or \"ground\"");
-        assert_eq!(faults.0[0].hint.as_deref(), Some("did you mean \"ground\"?"));
+        assert_eq!(
+            faults.0[0].hint.as_deref(),
+            Some("did you mean \"ground\"?")
+        );
     }
 }

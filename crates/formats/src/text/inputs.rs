@@ -32,7 +32,12 @@ pub struct Input {
 impl Input {
     fn read(name: String, path: &Path) -> Result<Input, String> {
         let bytes = read_limited(path, FILE_BYTES)?;
-        Ok(Input { name, display_name: path.display().to_string(), sha256: sha256(&bytes), bytes })
+        Ok(Input {
+            name,
+            display_name: path.display().to_string(),
+            sha256: sha256(&bytes),
+            bytes,
+        })
     }
 
     /// Its text.
@@ -68,10 +73,15 @@ impl Inputs {
     /// A file that cannot be read.
     pub fn open_bytes(path: &Path) -> Result<Inputs, Box<Diagnostic>> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = path
+            .file_name()
+            .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let first = Input::read(name, path)
             .map_err(|why| Box::new(Diagnostic::of_file(path.display().to_string(), why)))?;
-        Ok(Inputs { folder, read: vec![first] })
+        Ok(Inputs {
+            folder,
+            read: vec![first],
+        })
     }
 
     /// A first file that exists in memory alone, and whose references are relative to `folder`. Messages call it `name`.
@@ -85,15 +95,29 @@ impl Inputs {
     /// ```
     #[must_use]
     pub fn of_text(name: &str, text: String, folder: &Path) -> (Inputs, Source) {
-        let mut inputs = Inputs { folder: folder.to_path_buf(), read: Vec::new() };
+        let mut inputs = Inputs {
+            folder: folder.to_path_buf(),
+            read: Vec::new(),
+        };
         inputs.add(name, text.clone().into_bytes());
-        (inputs, Source { name: name.to_owned(), text })
+        (
+            inputs,
+            Source {
+                name: name.to_owned(),
+                text,
+            },
+        )
     }
 
     /// Adds a file that exists in memory alone, and to which others refer by `name`.
     pub fn add(&mut self, name: &str, bytes: Vec<u8>) {
         let sha256 = sha256(&bytes);
-        self.read.push(Input { name: name.to_owned(), display_name: name.to_owned(), sha256, bytes });
+        self.read.push(Input {
+            name: name.to_owned(),
+            display_name: name.to_owned(),
+            sha256,
+            bytes,
+        });
     }
 
     /// Adds files that were read for another job of the same folder, so that they are not read again.
@@ -113,7 +137,8 @@ impl Inputs {
         let index = match self.read.iter().position(|input| input.name == name) {
             Some(index) => index,
             None => {
-                self.read.push(Input::read(name.to_owned(), &self.folder.join(name))?);
+                self.read
+                    .push(Input::read(name.to_owned(), &self.folder.join(name))?);
                 self.read.len() - 1
             }
         };
@@ -139,7 +164,11 @@ impl Inputs {
     #[must_use]
     pub fn decimal_commas(&self) -> Vec<String> {
         let is_json = |input: &&Input| input.name.ends_with(".json");
-        let sources = self.read.iter().filter(is_json).filter_map(|input| input.source().ok());
+        let sources = self
+            .read
+            .iter()
+            .filter(is_json)
+            .filter_map(|input| input.source().ok());
         sources.flat_map(|source| source.decimal_commas()).collect()
     }
 
@@ -187,7 +216,10 @@ fn read_bytes(path: &Path, is_pipe: bool, most: u64, bytes: &mut Vec<u8>) -> std
         return pipe::read(path, most, PATIENCE, bytes);
     }
     debug_assert!(!is_pipe, "pipes have names on Unix alone");
-    File::open(path)?.take(most).read_to_end(bytes).map(|_| true)
+    File::open(path)?
+        .take(most)
+        .read_to_end(bytes)
+        .map(|_| true)
 }
 
 #[cfg(unix)]
@@ -214,7 +246,10 @@ pub fn read_error_message(error: &std::io::Error) -> String {
 /// SHA-256 in hexadecimal.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    Sha256::digest(bytes)
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 #[cfg(test)]
@@ -224,8 +259,13 @@ mod tests {
     #[test]
     fn a_file_is_read_up_to_its_limit_and_refused_beyond() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
-        let size = std::fs::metadata(&path).expect("the manifest of this crate").len();
-        assert_eq!(read_limited(&path, size).map(|bytes| bytes.len() as u64), Ok(size));
+        let size = std::fs::metadata(&path)
+            .expect("the manifest of this crate")
+            .len();
+        assert_eq!(
+            read_limited(&path, size).map(|bytes| bytes.len() as u64),
+            Ok(size)
+        );
         let why = read_limited(&path, size - 1).expect_err("one byte too long");
         assert!(why.starts_with("cannot be read: it has more than"), "{why}");
     }

@@ -50,9 +50,21 @@ pub(super) fn read(text: &str) -> Reading<'_> {
 
 /// Parses a text of at most about `most` values. They are counted by their commas before memory is taken for them.
 fn read_up_to(text: &str, most: usize) -> Reading<'_> {
-    if let Some((offset, _)) = text.bytes().enumerate().filter(|(_, byte)| *byte == b',').nth(most) {
-        let root = TreeNode { start: 0, end: 0, value: Value::Null };
-        return Reading { root, error: Some(SyntaxError::new(TOO_MANY_VALUES, offset)) };
+    if let Some((offset, _)) = text
+        .bytes()
+        .enumerate()
+        .filter(|(_, byte)| *byte == b',')
+        .nth(most)
+    {
+        let root = TreeNode {
+            start: 0,
+            end: 0,
+            value: Value::Null,
+        };
+        return Reading {
+            root,
+            error: Some(SyntaxError::new(TOO_MANY_VALUES, offset)),
+        };
     }
     let reader = Reader { text };
     let start = reader.skip_space(0);
@@ -72,7 +84,11 @@ fn read_up_to(text: &str, most: usize) -> Reading<'_> {
 
 impl SyntaxError {
     fn new(message: &str, offset: usize) -> SyntaxError {
-        SyntaxError { message: message.to_owned(), offset, path: Path::default() }
+        SyntaxError {
+            message: message.to_owned(),
+            offset,
+            path: Path::default(),
+        }
     }
 
     /// The error, after adding `step` at the beginning of its path.
@@ -95,7 +111,10 @@ impl<'t> Reader<'t> {
     /// The offset of the first byte from `at` on that is not white space.
     fn skip_space(self, at: usize) -> usize {
         let is_space = |byte: &u8| matches!(byte, b' ' | b'\n' | b'\t' | b'\r');
-        at + self.text.as_bytes()[at..].iter().take_while(|byte| is_space(byte)).count()
+        at + self.text.as_bytes()[at..]
+            .iter()
+            .take_while(|byte| is_space(byte))
+            .count()
     }
 
     /// The byte range of a slice of the text.
@@ -109,38 +128,72 @@ impl<'t> Reader<'t> {
     fn locate(self, start: usize, error: &serde_json::Error) -> SyntaxError {
         let words = error.to_string();
         let tail = format!(" at line {} column {}", error.line(), error.column());
-        let lines = self.text[start..].split_inclusive('\n').take(error.line() - 1);
+        let lines = self.text[start..]
+            .split_inclusive('\n')
+            .take(error.line() - 1);
         let offset = start + lines.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
-        SyntaxError::new(words.strip_suffix(&tail).unwrap_or(&words), offset.min(self.text.len()))
+        SyntaxError::new(
+            words.strip_suffix(&tail).unwrap_or(&words),
+            offset.min(self.text.len()),
+        )
     }
 
     /// Reads the value that begins at `start`. Its `end` is known if the value is complete.
     fn value(self, start: usize, end: Option<usize>, depth: usize) -> Part<'t> {
         let text = &self.text[start..end.unwrap_or(self.text.len())];
         if let Some(b'[' | b'{') = text.as_bytes().first() {
-            let level = end.and_then(|_| Level::of_scalars(text)).unwrap_or_else(|| Level::read(text));
+            let level = end
+                .and_then(|_| Level::of_scalars(text))
+                .unwrap_or_else(|| Level::read(text));
             let (value, error) = self.level(start, &level, depth);
             let end = end.filter(|_| error.is_none()).unwrap_or(0);
             return (TreeNode { start, end, value }, error);
         }
         let number = end.and_then(|_| number(text));
         match number.map_or_else(|| leaf(text), Ok) {
-            Ok(value) => (TreeNode { start, end: end.unwrap_or(0), value }, None),
-            Err(error) => (TreeNode { start, end: 0, value: Value::Null }, Some(self.locate(start, &error))),
+            Ok(value) => (
+                TreeNode {
+                    start,
+                    end: end.unwrap_or(0),
+                    value,
+                },
+                None,
+            ),
+            Err(error) => (
+                TreeNode {
+                    start,
+                    end: 0,
+                    value: Value::Null,
+                },
+                Some(self.locate(start, &error)),
+            ),
         }
     }
 
     /// Converts the list or object that begins at `start`.
-    fn level(self, start: usize, level: &Level<'t>, depth: usize) -> (Value<'t>, Option<SyntaxError>) {
+    fn level(
+        self,
+        start: usize,
+        level: &Level<'t>,
+        depth: usize,
+    ) -> (Value<'t>, Option<SyntaxError>) {
         let too_deep = depth + 1 == DEPTH;
         let fault = || level.fault.as_ref().map(|error| self.locate(start, error));
         let (value, error) = if self.text[start..].starts_with('[') {
             let mut items = Vec::with_capacity(level.values.len());
-            let read = if too_deep { Ok(()) } else { self.items(level, start, depth, &mut items) };
+            let read = if too_deep {
+                Ok(())
+            } else {
+                self.items(level, start, depth, &mut items)
+            };
             (Value::List(items), read.err())
         } else {
             let mut members = Vec::with_capacity(level.keys.len());
-            let read = if too_deep { Ok(()) } else { self.members(level, start, depth, &mut members) };
+            let read = if too_deep {
+                Ok(())
+            } else {
+                self.members(level, start, depth, &mut members)
+            };
             (Value::Object(members), read.err())
         };
         let deep = too_deep.then(|| SyntaxError::new("recursion limit exceeded", start));
@@ -159,7 +212,9 @@ impl<'t> Reader<'t> {
         let mut add = |start: usize, end: Option<usize>| {
             let (item, error) = self.value(start, end, depth + 1);
             items.push(item);
-            error.map_or(Ok(()), |error| Err(error.within(Step::Index(items.len() - 1))))
+            error.map_or(Ok(()), |error| {
+                Err(error.within(Step::Index(items.len() - 1)))
+            })
         };
         for value in &level.values {
             let (start, end) = self.range(value);
@@ -178,7 +233,9 @@ impl<'t> Reader<'t> {
     /// The offset of the text that follows a key that ends at `end`, and its colon.
     fn value_after(self, end: usize) -> Option<usize> {
         let at = self.skip_space(end);
-        let at = self.text[at..].starts_with(':').then(|| self.skip_space(at + 1));
+        let at = self.text[at..]
+            .starts_with(':')
+            .then(|| self.skip_space(at + 1));
         at.filter(|at| *at < self.text.len())
     }
 
@@ -214,9 +271,14 @@ impl<'t> Reader<'t> {
                 }
                 None => self.value_after(end).map(|start| (start, None)),
             };
-            let missing = TreeNode { start: end, end: 0, value: Value::Null };
-            let (value, error) =
-                place.map_or((missing, None), |(start, end)| self.value(start, end, depth + 1));
+            let missing = TreeNode {
+                start: end,
+                end: 0,
+                value: Value::Null,
+            };
+            let (value, error) = place.map_or((missing, None), |(start, end)| {
+                self.value(start, end, depth + 1)
+            });
             if let Some(error) = error {
                 let step = Step::Key(key.clone().into_owned());
                 members.push(TreeMember { start, key, value });
@@ -241,10 +303,12 @@ fn leaf(text: &str) -> Result<Value<'_>, serde_json::Error> {
     if text.starts_with('"') {
         return string(text).map(Value::Text);
     }
-    Ok(match serde_json::Value::deserialize(&mut Deserializer::from_str(text))? {
-        serde_json::Value::Bool(value) => Value::Bool(value),
-        _ => Value::Null,
-    })
+    Ok(
+        match serde_json::Value::deserialize(&mut Deserializer::from_str(text))? {
+            serde_json::Value::Bool(value) => Value::Bool(value),
+            _ => Value::Null,
+        },
+    )
 }
 
 /// Converts a complete number. There is none if the text is another value, or exceeds the range of double precision.
@@ -258,7 +322,11 @@ fn number(text: &str) -> Option<Value<'static>> {
     }
     match text.parse() {
         Ok(value) if value < 0 => Some(Value::Signed(value)),
-        _ => text.parse().ok().filter(|value: &f64| value.is_finite()).map(Value::Float),
+        _ => text
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .map(Value::Float),
     }
 }
 
@@ -284,7 +352,9 @@ impl<'t> Level<'t> {
     /// Reads the list or object at the beginning of a text.
     fn read(text: &'t str) -> Level<'t> {
         let mut level = Level::default();
-        level.fault = Deserializer::from_str(text).deserialize_any(&mut level).err();
+        level.fault = Deserializer::from_str(text)
+            .deserialize_any(&mut level)
+            .err();
         level
     }
 
@@ -292,11 +362,18 @@ impl<'t> Level<'t> {
     /// the list may contain anything but numbers, `true`, `false` and `null`.
     fn of_scalars(text: &'t str) -> Option<Level<'t>> {
         let inside = text.strip_prefix('[')?.strip_suffix(']')?;
-        if inside.trim_ascii().is_empty() || inside.bytes().any(|byte| matches!(byte, b'[' | b'{' | b'"')) {
+        if inside.trim_ascii().is_empty()
+            || inside
+                .bytes()
+                .any(|byte| matches!(byte, b'[' | b'{' | b'"'))
+        {
             return None;
         }
         let values = inside.split(',').map(str::trim_ascii).collect();
-        Some(Level { values, ..Level::default() })
+        Some(Level {
+            values,
+            ..Level::default()
+        })
     }
 }
 

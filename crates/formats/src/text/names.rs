@@ -5,7 +5,10 @@ use super::place::Place;
 
 /// The names of items with their indices, for [`resolve`].
 pub fn names<T>(all: &[T], name: impl Fn(&T) -> &str) -> Vec<(&str, usize)> {
-    all.iter().enumerate().map(|(index, item)| (name(item), index)).collect()
+    all.iter()
+        .enumerate()
+        .map(|(index, item)| (name(item), index))
+        .collect()
 }
 
 /// Index of the item with that name. An unknown name is a fault that lists the known names. `what` is the kind of
@@ -17,7 +20,10 @@ pub fn resolve(
     place: &Place<'_>,
     faults: &mut Faults,
 ) -> Option<usize> {
-    let found = known.iter().find(|(word, _)| *word == name).map(|(_, index)| *index);
+    let found = known
+        .iter()
+        .find(|(word, _)| *word == name)
+        .map(|(_, index)| *index);
     if found.is_none() {
         let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
         let mut hint = if words.is_empty() {
@@ -41,11 +47,16 @@ pub fn resolve(
 /// Checks that a name consists of letters, digits, spaces, `_` and `-`, because names become parts of column and file
 /// names.
 pub fn check_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
-    let fits = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
+    let fits = name
+        .chars()
+        .all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
     if name.trim() != name || name.is_empty() || !fits {
-        let fault = Fault::new(place, "must be a name of letters, digits, spaces, `_` and `-`")
-            .got(format!("{name:?}"))
-            .of_value();
+        let fault = Fault::new(
+            place,
+            "must be a name of letters, digits, spaces, `_` and `-`",
+        )
+        .got(format!("{name:?}"))
+        .of_value();
         faults.add(fault.hint("names become parts of column and file names"));
     }
 }

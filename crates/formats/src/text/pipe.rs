@@ -13,14 +13,20 @@ use rustix::fs::OFlags;
 pub(super) fn read(path: &Path, most: u64, patience: i64, bytes: &mut Vec<u8>) -> io::Result<bool> {
     // without the flag, opening would wait for a writer without end
     let no_wait = OFlags::NONBLOCK.bits().cast_signed();
-    let file = OpenOptions::new().read(true).custom_flags(no_wait).open(path)?;
+    let file = OpenOptions::new()
+        .read(true)
+        .custom_flags(no_wait)
+        .open(path)?;
     let mut pipe = (&file).take(most);
     let mut block = vec![0; 1 << 16];
     let mut has_writer = false;
     loop {
         let patience = match pipe.read(&mut block) {
             Ok(0) if has_writer => return Ok(true),
-            Ok(0) => Some(Timespec { tv_sec: patience, tv_nsec: 0 }),
+            Ok(0) => Some(Timespec {
+                tv_sec: patience,
+                tv_nsec: 0,
+            }),
             Ok(count) => {
                 has_writer = true;
                 bytes.extend_from_slice(&block[..count]);
@@ -53,15 +59,28 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("pipe");
         let made = Command::new("mkfifo").arg(&path).status();
-        assert!(made.is_ok_and(|status| status.success()), "mkfifo is part of every Unix");
+        assert!(
+            made.is_ok_and(|status| status.success()),
+            "mkfifo is part of every Unix"
+        );
         let mut bytes = Vec::new();
         assert!(matches!(read(&path, 100, 0, &mut bytes), Ok(false)));
-        for (script, wanted) in [("printf first; sleep 0.1; printf second", "firstsecond"), ("true", "")] {
+        for (script, wanted) in [
+            ("printf first; sleep 0.1; printf second", "firstsecond"),
+            ("true", ""),
+        ] {
             let line = format!("exec > pipe; {script}");
-            let writer = Command::new("sh").args(["-c", &line]).current_dir(folder.path()).spawn();
+            let writer = Command::new("sh")
+                .args(["-c", &line])
+                .current_dir(folder.path())
+                .spawn();
             bytes.clear();
             assert!(matches!(read(&path, 100, 30, &mut bytes), Ok(true)));
-            assert!(writer.and_then(|mut writer| writer.wait()).is_ok_and(|status| status.success()));
+            assert!(
+                writer
+                    .and_then(|mut writer| writer.wait())
+                    .is_ok_and(|status| status.success())
+            );
             assert_eq!(String::from_utf8_lossy(&bytes), wanted);
         }
     }

@@ -34,7 +34,10 @@ impl fmt::Display for Path {
 }
 
 fn is_plain(key: &str) -> bool {
-    !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
+    !key.is_empty()
+        && key
+            .chars()
+            .all(|c| c.is_alphanumeric() || c == '_' || c == '-')
 }
 
 /// A place in a document that is being read. It is a chain of steps on the stack and is converted to a [`Path`] only
@@ -65,19 +68,28 @@ impl<'a> Place<'a> {
     /// The document itself.
     #[must_use]
     pub const fn root() -> Place<'static> {
-        Place { above: None, step: Here::Root }
+        Place {
+            above: None,
+            step: Here::Root,
+        }
     }
 
     /// The member `key` of the object at this place.
     #[must_use]
     pub const fn key(&'a self, key: &'a str) -> Place<'a> {
-        Place { above: Some(self), step: Here::Key(key) }
+        Place {
+            above: Some(self),
+            step: Here::Key(key),
+        }
     }
 
     /// Item `index` of the list at this place.
     #[must_use]
     pub const fn index(&'a self, index: usize) -> Place<'a> {
-        Place { above: Some(self), step: Here::Index(index) }
+        Place {
+            above: Some(self),
+            step: Here::Index(index),
+        }
     }
 
     /// The owned path of this place.
@@ -108,9 +120,15 @@ mod tests {
         let bodies = root.key("bodies");
         let body = bodies.key("north bridge");
         let inertia = body.key("inertia");
-        assert_eq!(inertia.index(2).path().to_string(), "bodies[\"north bridge\"].inertia[2]");
+        assert_eq!(
+            inertia.index(2).path().to_string(),
+            "bodies[\"north bridge\"].inertia[2]"
+        );
         assert_eq!(root.path().to_string(), "");
         let spans = root.key("girder");
-        assert_eq!(spans.key("spans").index(1).path().to_string(), "girder.spans[1]");
+        assert_eq!(
+            spans.key("spans").index(1).path().to_string(),
+            "girder.spans[1]"
+        );
     }
 }

@@ -68,7 +68,11 @@ impl Source {
             // the path of a schema concerns editors alone
             members.retain(|member| member.key != "$schema");
         }
-        Tree { source: self, root, error }
+        Tree {
+            source: self,
+            root,
+            error,
+        }
     }
 
     /// Numbers in lists that were probably meant with a decimal comma, which JSON reads as two numbers: digits on both
@@ -134,7 +138,9 @@ impl Source {
         check: impl FnOnce(&T, &mut Faults, &mut Vec<Diagnostic>) -> Option<R>,
     ) -> Result<R, Vec<Diagnostic>> {
         let mut others = Vec::new();
-        match self.read(format, |raw: &T, faults| Some(check(raw, faults, &mut others))) {
+        match self.read(format, |raw: &T, faults| {
+            Some(check(raw, faults, &mut others))
+        }) {
             Ok(Some(value)) if others.is_empty() => Ok(value),
             Ok(_) => Err(others),
             Err(own) => Err(own.into_iter().chain(others).collect()),
@@ -181,11 +187,19 @@ impl<'s> Tree<'s> {
         format: &str,
         check: impl FnOnce(&T, &mut Faults) -> Option<R>,
     ) -> Result<R, Vec<Diagnostic>> {
-        let Examined { value, types, faults } = match self.error {
+        let Examined {
+            value,
+            types,
+            faults,
+        } = match self.error {
             None => examine(&self.root, check),
             Some(_) => {
                 let types = convert::<T>(&self.root).faults;
-                Examined { value: None, types, faults: Faults::default() }
+                Examined {
+                    value: None,
+                    types,
+                    faults: Faults::default(),
+                }
             }
         };
         if let Some(value) = value.filter(|_| faults.0.is_empty()) {
@@ -196,7 +210,8 @@ impl<'s> Tree<'s> {
         {
             return Err(vec![other]);
         }
-        let mut wrong: Vec<Diagnostic> = types.iter().map(|located| self.located(located)).collect();
+        let mut wrong: Vec<Diagnostic> =
+            types.iter().map(|located| self.located(located)).collect();
         wrong.extend(self.diagnose(&faults));
         wrong.extend(self.syntax_error());
         if wrong.is_empty() {
@@ -221,7 +236,11 @@ impl<'s> Tree<'s> {
         Diagnostic {
             line: Some(line),
             column: Some(column),
-            path: if is_deep { String::new() } else { path.to_string() },
+            path: if is_deep {
+                String::new()
+            } else {
+                path.to_string()
+            },
             hint,
             excerpt: Some(Excerpt::new(&self.source.text, offset)),
             ..Diagnostic::of_file(&self.source.name, expected)
@@ -235,7 +254,13 @@ impl<'s> Tree<'s> {
     /// Locates faults in the text and returns them in the order of the text.
     #[must_use]
     pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {
-        sorted(faults.0.iter().map(|fault| self.place(fault, &fault.path)).collect())
+        sorted(
+            faults
+                .0
+                .iter()
+                .map(|fault| self.place(fault, &fault.path))
+                .collect(),
+        )
     }
 
     /// Locates faults of the document that results from merging the object at `compare[index]` into this one. A fault
@@ -247,7 +272,14 @@ impl<'s> Tree<'s> {
             let inside = Path(entry.iter().chain(&fault.path.0).cloned().collect());
             let is_own = self.root.find(&inside).is_whole;
             let is_base = self.root.find(&fault.path).is_whole;
-            self.place(fault, if is_own || !is_base { &inside } else { &fault.path })
+            self.place(
+                fault,
+                if is_own || !is_base {
+                    &inside
+                } else {
+                    &fault.path
+                },
+            )
         };
         sorted(faults.0.iter().map(place).collect())
     }
@@ -285,11 +317,14 @@ impl<'s> Tree<'s> {
     fn place(&self, fault: &Fault, path: &Path) -> Diagnostic {
         // in a text that is not JSON, such as a table, no place can be determined
         let hit = self.error.is_none().then(|| self.root.find(path));
-        let offset = hit.map(|hit| match hit.node.second_of_a_key().filter(|_| fault.is_duplicate()) {
-            Some(second) => second.start,
-            None if fault.at_key => hit.key,
-            None => hit.node.start,
-        });
+        let offset =
+            hit.map(
+                |hit| match hit.node.second_of_a_key().filter(|_| fault.is_duplicate()) {
+                    Some(second) => second.start,
+                    None if fault.at_key => hit.key,
+                    None => hit.node.start,
+                },
+            );
         self.diagnostic(fault, path, offset)
     }
 
@@ -310,7 +345,11 @@ impl<'s> Tree<'s> {
     /// The syntax error, if the text is not JSON.
     #[must_use]
     pub fn syntax_error(&self) -> Option<Diagnostic> {
-        let SyntaxError { message, offset, path } = self.error.as_ref()?;
+        let SyntaxError {
+            message,
+            offset,
+            path,
+        } = self.error.as_ref()?;
         Some(self.not_json(message, *offset, path))
     }
 
@@ -327,7 +366,11 @@ impl<'s> Tree<'s> {
     pub fn duplicates_below(&self, key: &str) -> Faults {
         let mut faults = Faults::default();
         if let Some(member) = self.root.member(key) {
-            find_duplicates(&member.value, Path(vec![Step::Key(key.to_owned())]), &mut faults);
+            find_duplicates(
+                &member.value,
+                Path(vec![Step::Key(key.to_owned())]),
+                &mut faults,
+            );
         }
         faults
     }
@@ -347,7 +390,11 @@ fn find_duplicates(node: &TreeNode<'_>, path: Path, faults: &mut Faults) {
     match &node.value {
         Value::Object(members) => {
             for member in members {
-                find_duplicates(&member.value, below(Step::Key(member.key.clone().into_owned())), faults);
+                find_duplicates(
+                    &member.value,
+                    below(Step::Key(member.key.clone().into_owned())),
+                    faults,
+                );
             }
         }
         Value::List(items) => {
@@ -363,5 +410,8 @@ fn find_duplicates(node: &TreeNode<'_>, path: Path, faults: &mut Faults) {
 fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..char_boundary(text, offset)];
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
+    (
+        before.matches('\n').count() + 1,
+        before[start..].chars().count() + 1,
+    )
 }

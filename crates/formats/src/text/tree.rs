@@ -95,7 +95,9 @@ impl<'t> TreeNode<'t> {
     /// The first duplicate member, if the value is an object that contains one.
     #[must_use]
     pub fn second_of_a_key(&self) -> Option<&TreeMember<'t>> {
-        let Value::Object(members) = &self.value else { return None };
+        let Value::Object(members) = &self.value else {
+            return None;
+        };
         let mut seen = std::collections::BTreeSet::new();
         members.iter().find(|member| !seen.insert(&member.key))
     }
@@ -111,7 +113,11 @@ impl<'t> TreeNode<'t> {
     }
 
     /// Calls `each` with the path and the items of every list in the value; `path` is that of the value itself.
-    pub(super) fn for_each_list(&self, path: &mut Path, each: &mut impl FnMut(&Path, &[TreeNode<'t>])) {
+    pub(super) fn for_each_list(
+        &self,
+        path: &mut Path,
+        each: &mut impl FnMut(&Path, &[TreeNode<'t>]),
+    ) {
         match &self.value {
             Value::List(items) => {
                 each(path, items);
@@ -134,15 +140,33 @@ impl<'t> TreeNode<'t> {
 
     /// Follows a path as far as it exists in the tree.
     pub(super) fn find(&self, path: &Path) -> Hit<'_, 't> {
-        let mut hit = Hit { node: self, key: self.start, is_whole: true };
+        let mut hit = Hit {
+            node: self,
+            key: self.start,
+            is_whole: true,
+        };
         for step in &path.0 {
             let next = match step {
-                Step::Key(key) => hit.node.member(key).map(|member| (&member.value, member.start)),
+                Step::Key(key) => hit
+                    .node
+                    .member(key)
+                    .map(|member| (&member.value, member.start)),
                 Step::Index(index) => hit.node.items().get(*index).map(|item| (item, item.start)),
             };
             match next {
-                Some((node, key)) => hit = Hit { node, key, is_whole: true },
-                None => return Hit { is_whole: false, ..hit },
+                Some((node, key)) => {
+                    hit = Hit {
+                        node,
+                        key,
+                        is_whole: true,
+                    }
+                }
+                None => {
+                    return Hit {
+                        is_whole: false,
+                        ..hit
+                    };
+                }
             }
         }
         hit
@@ -159,7 +183,9 @@ impl<'t> TreeNode<'t> {
         if !matches!(self.value, Value::Object(_)) {
             self.value = Value::Object(Vec::new());
         }
-        let Value::Object(members) = &mut self.value else { return };
+        let Value::Object(members) = &mut self.value else {
+            return;
+        };
         for change in changed {
             let old = members.iter().position(|member| member.key == change.key);
             match (old, &change.value.value) {
@@ -169,7 +195,11 @@ impl<'t> TreeNode<'t> {
                 (None, _) => {
                     // the change is merged into an empty value, so that a `null` below it is dropped
                     let (start, end) = (change.value.start, change.value.end);
-                    let mut value = TreeNode { start, end, value: Value::Null };
+                    let mut value = TreeNode {
+                        start,
+                        end,
+                        value: Value::Null,
+                    };
                     value.merge(change.value);
                     members.push(TreeMember { value, ..change });
                 }
@@ -192,10 +222,17 @@ mod tests {
             Value::Signed(value) => value.to_string(),
             Value::Float(value) => format!("{value:?}"),
             Value::Text(text) => format!("{text:?}"),
-            Value::List(items) => format!("[{}]", items.iter().map(plain).collect::<Vec<_>>().join(",")),
+            Value::List(items) => format!(
+                "[{}]",
+                items.iter().map(plain).collect::<Vec<_>>().join(",")
+            ),
             Value::Object(members) => {
-                let member = |member: &TreeMember<'_>| format!("{:?}:{}", member.key, plain(&member.value));
-                format!("{{{}}}", members.iter().map(member).collect::<Vec<_>>().join(","))
+                let member =
+                    |member: &TreeMember<'_>| format!("{:?}:{}", member.key, plain(&member.value));
+                format!(
+                    "{{{}}}",
+                    members.iter().map(member).collect::<Vec<_>>().join(",")
+                )
             }
         }
     }
@@ -208,7 +245,11 @@ mod tests {
             (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
             (r#"{"a":"b"}"#, r#"{"a":null}"#, "{}"),
             (r#"{"a":["b"]}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
-            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (
+                r#"{"a":{"b":"c"}}"#,
+                r#"{"a":{"b":"d","c":null}}"#,
+                r#"{"a":{"b":"d"}}"#,
+            ),
             (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
             ("{}", r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
             ("[1,2]", r#"{"a":"b","c":null}"#, r#"{"a":"b"}"#),

@@ -26,7 +26,9 @@ pub(super) fn type_fault(path: Path, message: &str) -> Fault {
         fault.at_key = true;
         fault.expected = format!("unknown key `{key}`");
         let list = format!("known keys are {}", known.join(", "));
-        let habit = HABITS.iter().find(|(word, meant, _)| *word == key && known.contains(meant));
+        let habit = HABITS
+            .iter()
+            .find(|(word, meant, _)| *word == key && known.contains(meant));
         fault.hint = Some(match (habit, nearest(key, &known)) {
             (Some((_, meant, why)), _) => format!("did you mean `{meant}`? {why}"),
             (None, Some(near)) => format!("did you mean `{near}`? {list}"),
@@ -45,11 +47,13 @@ pub(super) fn type_fault(path: Path, message: &str) -> Fault {
                 plain_found(found)
             });
             if expected == "f64" {
-                fault.hint =
-                    found.strip_prefix("string ").and_then(|text| number_hint(text.trim_matches('"')));
+                fault.hint = found
+                    .strip_prefix("string ")
+                    .and_then(|text| number_hint(text.trim_matches('"')));
             }
-            let whole =
-                ["must be a list", "must be an object"].iter().any(|kind| fault.expected.starts_with(kind));
+            let whole = ["must be a list", "must be an object"]
+                .iter()
+                .any(|kind| fault.expected.starts_with(kind));
             if let Some(Step::Key(key)) = fault.path.0.last().filter(|_| whole) {
                 let example = EXAMPLES.iter().find(|(known, _)| known == key);
                 fault.hint = example.map(|(_, example)| (*example).to_owned());
@@ -74,13 +78,29 @@ const HABITS: [(&str, &str, &str); 31] = [
     ("Iyy", "I_vertical", BENDING),
     ("Izz", "I_lateral", BENDING),
     ("It", "J", "the torsion constant"),
-    ("Ix", "J", "the torsion constant is J, the local axes across the member are y and z"),
+    (
+        "Ix",
+        "J",
+        "the torsion constant is J, the local axes across the member are y and z",
+    ),
     ("Iyy", "Iy", "about the local axes of the member"),
     ("Izz", "Iz", "about the local axes of the member"),
-    ("Av", "kA_vertical", "the effective shear area for vertical forces"),
+    (
+        "Av",
+        "kA_vertical",
+        "the effective shear area for vertical forces",
+    ),
     ("area", "A", "the area of the cross section"),
-    ("profile", "section", "the name of a rolled section, such as \"HEB 400\""),
-    ("profile", "shape", "dimensions, or the name of a rolled section such as \"HEB 400\""),
+    (
+        "profile",
+        "section",
+        "the name of a rolled section, such as \"HEB 400\"",
+    ),
+    (
+        "profile",
+        "shape",
+        "dimensions, or the name of a rolled section such as \"HEB 400\"",
+    ),
     (
         "section",
         "girder",
@@ -91,18 +111,54 @@ const HABITS: [(&str, &str, &str); 31] = [
         "girder",
         "the short form keeps spans and section in it: {\"spans\": [6, 6], \"section\": \"HEB 400\"}",
     ),
-    ("length", "spans", "a list of the distances between supports: [6] for one span"),
-    ("rail", "crane_rail", "the name of a crane rail, such as \"A75\""),
-    ("mass", "mass_per_length", "mass, not weight, for each unit of length"),
-    ("weight", "mass_per_length", "mass, not weight, for each unit of length"),
+    (
+        "length",
+        "spans",
+        "a list of the distances between supports: [6] for one span",
+    ),
+    (
+        "rail",
+        "crane_rail",
+        "the name of a crane rail, such as \"A75\"",
+    ),
+    (
+        "mass",
+        "mass_per_length",
+        "mass, not weight, for each unit of length",
+    ),
+    (
+        "weight",
+        "mass_per_length",
+        "mass, not weight, for each unit of length",
+    ),
     ("rho", "density", "mass, not weight, per volume"),
-    ("fixed", "fix", "a list of degrees of freedom, such as [\"ux\", \"uy\", \"uz\"]"),
-    ("g", "gravity", "the acceleration, such as 9.81 m/s2 or 32.174 ft/s2"),
+    (
+        "fixed",
+        "fix",
+        "a list of degrees of freedom, such as [\"ux\", \"uy\", \"uz\"]",
+    ),
+    (
+        "g",
+        "gravity",
+        "the acceleration, such as 9.81 m/s2 or 32.174 ft/s2",
+    ),
     ("time", "end", "the end of the run: {\"time\": 30}"),
     ("duration", "end", "the end of the run: {\"time\": 30}"),
-    ("dt", "output", "the time between two rows of the history: {\"dt\": 0.01}"),
-    ("tolerance", "accuracy", "the accuracy of the run; `tolerance` is that of a structure's foundation"),
-    ("speed", "v0", "the speed at the start; a prescribed speed stands in `motions`"),
+    (
+        "dt",
+        "output",
+        "the time between two rows of the history: {\"dt\": 0.01}",
+    ),
+    (
+        "tolerance",
+        "accuracy",
+        "the accuracy of the run; `tolerance` is that of a structure's foundation",
+    ),
+    (
+        "speed",
+        "v0",
+        "the speed at the start; a prescribed speed stands in `motions`",
+    ),
     ("diameter", "radius", "half the diameter"),
     ("P", "vertical", "the force that presses on the rail"),
     ("Q", "vertical", "the force that presses on the rail"),
@@ -114,10 +170,22 @@ const BENDING: &str =
 
 /// Examples of values whose type is often wrong, by their key.
 const EXAMPLES: [(&str, &str); 16] = [
-    ("stations", "such as [0, 1.5, 3, 4.5, 6], where tables have their values"),
-    ("spans", "such as [6, 7.5, 6], the distances between supports"),
-    ("vertical", "an object with k, or in a design a force or its parts by name"),
-    ("units", "such as {\"length\": \"m\", \"force\": \"kN\", \"time\": \"s\"}"),
+    (
+        "stations",
+        "such as [0, 1.5, 3, 4.5, 6], where tables have their values",
+    ),
+    (
+        "spans",
+        "such as [6, 7.5, 6], the distances between supports",
+    ),
+    (
+        "vertical",
+        "an object with k, or in a design a force or its parts by name",
+    ),
+    (
+        "units",
+        "such as {\"length\": \"m\", \"force\": \"kN\", \"time\": \"s\"}",
+    ),
     (
         "shape",
         "such as {\"kind\": \"bar\", \"height\": 0.4, \"width\": 0.2}; a girder names a rolled section by `section`",
@@ -143,7 +211,9 @@ fn number_hint(text: &str) -> Option<String> {
         return Some(hint.to_owned());
     }
     if let Ok(number) = text.parse::<f64>() {
-        return number.is_finite().then(|| format!("without quotes: {text}"));
+        return number
+            .is_finite()
+            .then(|| format!("without quotes: {text}"));
     }
     let point = text.replacen(',', ".", 1);
     if point.parse::<f64>().is_ok() {
@@ -165,8 +235,10 @@ fn with_decimal_comma(text: &str, offset: usize) -> Option<String> {
     let end = after.find(|c| !is_of_number(c)).unwrap_or(after.len());
     let number = format!("{}.{}", &whole[start..], &after[..end]);
     let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    (is_digit(whole.chars().last()) && is_digit(after.chars().next()) && number.parse::<f64>().is_ok())
-        .then_some(number)
+    (is_digit(whole.chars().last())
+        && is_digit(after.chars().next())
+        && number.parse::<f64>().is_ok())
+    .then_some(number)
 }
 
 fn plain_type(expected: &str) -> String {
@@ -175,9 +247,10 @@ fn plain_type(expected: &str) -> String {
         "usize" | "u64" | "u32" => "a whole number, zero or more".to_owned(),
         "a sequence" => "a list".to_owned(),
         "a boolean" => "true or false".to_owned(),
-        other => other
-            .strip_prefix("an array of length ")
-            .map_or_else(|| other.to_owned(), |count| format!("a list of {count} items")),
+        other => other.strip_prefix("an array of length ").map_or_else(
+            || other.to_owned(),
+            |count| format!("a list of {count} items"),
+        ),
     }
 }
 
@@ -203,7 +276,10 @@ fn plain_found(found: &str) -> String {
 /// The message and the hint for a text that is not JSON from the byte at `offset` on.
 pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Option<String>) {
     if text.trim().is_empty() {
-        return ("the file is empty".to_owned(), Some("a JSON object is needed".to_owned()));
+        return (
+            "the file is empty".to_owned(),
+            Some("a JSON object is needed".to_owned()),
+        );
     }
     if text.starts_with('\u{feff}') {
         let hint = "the file begins with a byte order mark: save it as UTF-8 without one";
@@ -214,9 +290,11 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
         return ("the number is too large".to_owned(), Some(hint.to_owned()));
     }
     if message == TOO_MANY_VALUES {
-        let hint =
-            "an input may have 20 million numbers, words and items; a grid has n x n numbers for n stations";
-        return ("the file has too many values".to_owned(), Some(hint.to_owned()));
+        let hint = "an input may have 20 million numbers, words and items; a grid has n x n numbers for n stations";
+        return (
+            "the file has too many values".to_owned(),
+            Some(hint.to_owned()),
+        );
     }
     if message.starts_with("EOF while parsing") {
         return ("not valid JSON: the file ends too early".to_owned(), None);
@@ -225,7 +303,10 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
         && let Some(number) = with_decimal_comma(text, offset)
     {
         let hint = format!("a decimal comma? numbers have a decimal point: {number}");
-        return ("not valid JSON: key must be a string".to_owned(), Some(hint));
+        return (
+            "not valid JSON: key must be a string".to_owned(),
+            Some(hint),
+        );
     }
     let hint = match message {
         "key must be a string" => Some("JSON has no comments, and keys stand in double quotes"),
@@ -234,5 +315,8 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
         "recursion limit exceeded" => Some("lists and objects may be nested 128 deep"),
         _ => None,
     };
-    (format!("not valid JSON: {message}"), hint.map(str::to_owned))
+    (
+        format!("not valid JSON: {message}"),
+        hint.map(str::to_owned),
+    )
 }

@@ -54,12 +54,16 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             let name = parts.head.trim_end_matches('*').trim_end().to_owned();
             lost = !plain(&name);
             if lost {
-                let finding =
-                    ImportFinding::new(line.at, "", "must be the name of a card").with_found(&parts.head);
+                let finding = ImportFinding::new(line.at, "", "must be the name of a card")
+                    .with_found(&parts.head);
                 let hint = "a name is letters and digits; `=` and `/` are not supported";
                 findings.error(finding.hint(hint));
             } else {
-                cards.push(Card { name, at: line.at, fields: parts.fields });
+                cards.push(Card {
+                    name,
+                    at: line.at,
+                    fields: parts.fields,
+                });
             }
             tail = parts.tail;
             continue;
@@ -69,26 +73,37 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             _ => {
                 if cards.is_empty() {
                     let finding = ImportFinding::new(line.at, "", "does not continue a card");
-                    findings.error(
-                        finding.hint("a line that begins with blanks, `+` or `*` continues the one above"),
-                    );
+                    findings.error(finding.hint(
+                        "a line that begins with blanks, `+` or `*` continues the one above",
+                    ));
                 }
                 continue;
             }
         };
         if line.gap && parts.head.is_empty() {
-            let finding = ImportFinding::new(line.at, &card.name, "must not continue over a blank line");
+            let finding =
+                ImportFinding::new(line.at, &card.name, "must not continue over a blank line");
             findings.error(finding.hint("mark a blank continuation with + in its first column"));
         }
         let expected = tail.trim_start_matches(['+', '*']).trim();
         if !expected.is_empty() && !marker.is_empty() && expected != marker {
-            let finding =
-                ImportFinding::new(line.at, &card.name, format!("must continue with the marker {expected}"));
-            findings.error(finding.with_found(marker).hint("put each continuation right after its card"));
+            let finding = ImportFinding::new(
+                line.at,
+                &card.name,
+                format!("must continue with the marker {expected}"),
+            );
+            findings.error(
+                finding
+                    .with_found(marker)
+                    .hint("put each continuation right after its card"),
+            );
         }
         let whole = if parts.large { 4 } else { 8 };
         while card.fields.len() % whole != 0 {
-            card.fields.push(CardField { at: line.at, text: String::new() });
+            card.fields.push(CardField {
+                at: line.at,
+                text: String::new(),
+            });
         }
         card.fields.extend(parts.fields);
         tail = parts.tail;
@@ -97,13 +112,18 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
 }
 
 fn plain(name: &str) -> bool {
-    name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(|c| c.is_ascii_alphanumeric())
+    name.starts_with(|c: char| c.is_ascii_uppercase())
+        && name.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
 fn take_apart(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     // the commas of equations of an optimisation do not divide fields
     let is_equation = line.text.to_ascii_uppercase().starts_with("DEQATN");
-    if line.text.contains(',') && !is_equation { free(line, findings) } else { Some(fixed(line)) }
+    if line.text.contains(',') && !is_equation {
+        free(line, findings)
+    } else {
+        Some(fixed(line))
+    }
 }
 
 /// Divides a line in fixed format: a name of 8 columns, then eight fields of 8 columns (small) or four fields of 16
@@ -111,16 +131,32 @@ fn take_apart(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
 fn fixed(line: &BulkLine) -> Parts {
     let chars: Vec<char> = line.text.chars().take(80).collect();
     let cut = |from: usize, to: usize| {
-        let part: String =
-            chars.get(from.min(chars.len())..to.min(chars.len())).into_iter().flatten().collect();
+        let part: String = chars
+            .get(from.min(chars.len())..to.min(chars.len()))
+            .into_iter()
+            .flatten()
+            .collect();
         let blanks = part.chars().take_while(|c| *c == ' ').count();
-        CardField { at: FilePlace { column: from + blanks + 1, ..line.at }, text: part.trim().to_uppercase() }
+        CardField {
+            at: FilePlace {
+                column: from + blanks + 1,
+                ..line.at
+            },
+            text: part.trim().to_uppercase(),
+        }
     };
     let head = cut(0, 8).text;
     let large = head.ends_with('*') || head.starts_with('*');
     let width = if large { 16 } else { 8 };
-    let fields = (0..64 / width).map(|k| cut(8 + k * width, 8 + (k + 1) * width)).collect();
-    Parts { head, fields, tail: cut(72, 80).text, large }
+    let fields = (0..64 / width)
+        .map(|k| cut(8 + k * width, 8 + (k + 1) * width))
+        .collect();
+    Parts {
+        head,
+        fields,
+        tail: cut(72, 80).text,
+        large,
+    }
 }
 
 /// Divides a line in free format at its commas: a name, eight fields (four if the name has a `*`), then a
@@ -130,8 +166,14 @@ fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     let mut column = 1;
     for part in line.text.split(',') {
         let blanks = part.chars().take_while(|c| *c == ' ').count();
-        let at = FilePlace { column: column + blanks, ..line.at };
-        fields.push(CardField { at, text: part.trim().to_uppercase() });
+        let at = FilePlace {
+            column: column + blanks,
+            ..line.at
+        };
+        fields.push(CardField {
+            at,
+            text: part.trim().to_uppercase(),
+        });
         column += part.chars().count() + 1;
     }
     let head = fields.remove(0).text;
@@ -140,16 +182,35 @@ fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     while fields.last().is_some_and(|field| field.text.is_empty()) {
         fields.pop();
     }
-    let tail = if fields.len() > count { fields[count].text.clone() } else { String::new() };
+    let tail = if fields.len() > count {
+        fields[count].text.clone()
+    } else {
+        String::new()
+    };
     let marker = tail.is_empty() || tail.starts_with('+') || number(&tail).is_none();
     if fields.len() > count + 1 || !marker {
-        let what = if large { "four fields in a line of large fields" } else { "eight fields in a line" };
+        let what = if large {
+            "four fields in a line of large fields"
+        } else {
+            "eight fields in a line"
+        };
         let finding = ImportFinding::new(fields[count].at, &head, format!("has more than {what}"));
         findings.error(finding.hint("continue in the next line, which begins with a comma or +"));
         return None;
     }
-    fields.resize(count, CardField { at: line.at, text: String::new() });
-    Some(Parts { head, fields, tail, large })
+    fields.resize(
+        count,
+        CardField {
+            at: line.at,
+            text: String::new(),
+        },
+    );
+    Some(Parts {
+        head,
+        fields,
+        tail,
+        large,
+    })
 }
 
 #[cfg(test)]
@@ -162,7 +223,11 @@ mod tests {
             .lines()
             .enumerate()
             .map(|(index, text)| BulkLine {
-                at: FilePlace { file: 0, line: index + 1, column: 1 },
+                at: FilePlace {
+                    file: 0,
+                    line: index + 1,
+                    column: 1,
+                },
                 text: text.to_owned(),
                 gap: false,
             })
@@ -172,7 +237,11 @@ mod tests {
 
     /// Texts of the fields without trailing blank fields.
     fn texts(card: &Card) -> Vec<&str> {
-        let mut texts: Vec<&str> = card.fields.iter().map(|field| field.text.as_str()).collect();
+        let mut texts: Vec<&str> = card
+            .fields
+            .iter()
+            .map(|field| field.text.as_str())
+            .collect();
         while texts.last().is_some_and(|text| text.is_empty()) {
             texts.pop();
         }
@@ -181,7 +250,9 @@ mod tests {
 
     #[test]
     fn one_card_reads_the_same_in_every_format() {
-        let wanted = ["5", "1", "10", "20", "0.", "1.", "0.", "", "456", "", "", "", "", "1.5"];
+        let wanted = [
+            "5", "1", "10", "20", "0.", "1.", "0.", "", "456", "", "", "", "", "1.5",
+        ];
         for text in [
             "CBAR           5       1      10      20      0.      1.      0.        +A\n+A           456                                     1.5",
             "cbar    5       1       10      20      0.      1.      0.\n        456                                     1.5",
@@ -195,13 +266,18 @@ mod tests {
             let (cards, findings) = read(text);
             assert!(!findings.has_errors(), "{text}: {:?}", findings.errors());
             assert_eq!(cards.len(), 1, "{text}");
-            assert_eq!((cards[0].name.as_str(), texts(&cards[0])), ("CBAR", wanted.to_vec()), "{text}");
+            assert_eq!(
+                (cards[0].name.as_str(), texts(&cards[0])),
+                ("CBAR", wanted.to_vec()),
+                "{text}"
+            );
         }
     }
 
     #[test]
     fn a_large_card_of_one_line_may_be_continued_in_small_fields() {
-        let (cards, findings) = read("GRID*                  1                              2.\n+       7");
+        let (cards, findings) =
+            read("GRID*                  1                              2.\n+       7");
         assert!(!findings.has_errors());
         assert_eq!(texts(&cards[0]), ["1", "", "2.", "", "", "", "", "", "7"]);
     }
@@ -211,7 +287,14 @@ mod tests {
         let (cards, _) = read("GRID           1              2.\nGRID, 2,,3.");
         assert_eq!(cards[0].fields[0].at.column, 16);
         assert_eq!(cards[0].fields[2].at.column, 31);
-        assert_eq!(cards[1].fields[0].at, FilePlace { file: 0, line: 2, column: 7 });
+        assert_eq!(
+            cards[1].fields[0].at,
+            FilePlace {
+                file: 0,
+                line: 2,
+                column: 7
+            }
+        );
         assert_eq!(cards[1].fields[2].at.column, 10);
     }
 
@@ -229,13 +312,23 @@ mod tests {
                 "GRID    1                                                               +A\n+B      1",
                 "must continue with the marker A",
             ),
-            ("GRID,1,,0.,0.,0.,,,,7", "has more than eight fields in a line"),
-            ("GRID*,1,,0.,0.,,0.", "has more than four fields in a line of large fields"),
+            (
+                "GRID,1,,0.,0.,0.,,,,7",
+                "has more than eight fields in a line",
+            ),
+            (
+                "GRID*,1,,0.,0.,,0.",
+                "has more than four fields in a line of large fields",
+            ),
             ("=       1", "must be the name of a card"),
             ("GR.ID   1", "must be the name of a card"),
         ] {
             let errors = read(text).1.errors();
-            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(expected), "{text}");
+            assert_eq!(
+                errors.first().map(|error| error.expected.as_str()),
+                Some(expected),
+                "{text}"
+            );
         }
     }
 }

@@ -51,14 +51,21 @@ pub struct CoordinateFrame {
     axes: [[f64; 3]; 3],
 }
 
-const BASIC: CoordinateFrame =
-    CoordinateFrame { kind: SystemKind::Rectangular, origin: [0.0; 3], axes: BASIC_AXES };
+const BASIC: CoordinateFrame = CoordinateFrame {
+    kind: SystemKind::Rectangular,
+    origin: [0.0; 3],
+    axes: BASIC_AXES,
+};
 
 /// Cosine and sine of an angle in degrees, exact for multiples of 90 degrees.
 fn cosine_and_sine(degrees: f64) -> [f64; 2] {
     let turn = degrees.rem_euclid(360.0);
-    for (right, values) in [(0.0, [1.0, 0.0]), (90.0, [0.0, 1.0]), (180.0, [-1.0, 0.0]), (270.0, [0.0, -1.0])]
-    {
+    for (right, values) in [
+        (0.0, [1.0, 0.0]),
+        (90.0, [0.0, 1.0]),
+        (180.0, [-1.0, 0.0]),
+        (270.0, [0.0, -1.0]),
+    ] {
         if turn == right {
             return values;
         }
@@ -132,7 +139,12 @@ pub fn systems(card: &mut CardFields<'_, '_>) -> Vec<(u64, CoordinateCard)> {
         _ => SystemKind::Rectangular,
     };
     let at = card.card.at;
-    let made = |points: SystemPoints| CoordinateCard { card: at, name: name.clone(), kind, points };
+    let made = |points: SystemPoints| CoordinateCard {
+        card: at,
+        name: name.clone(),
+        kind,
+        points,
+    };
     let mut found = Vec::new();
     if name.starts_with("CORD2") {
         let id = card.id(1, "CID");
@@ -177,7 +189,12 @@ impl<'d> CoordinateSystems<'d> {
         grids: &'d BTreeMap<u64, GridCard>,
         defaults: GridDefaults,
     ) -> CoordinateSystems<'d> {
-        CoordinateSystems { cards, grids, defaults, known: BTreeMap::from([(0, Some(BASIC))]) }
+        CoordinateSystems {
+            cards,
+            grids,
+            defaults,
+            known: BTreeMap::from([(0, Some(BASIC))]),
+        }
     }
 
     /// The frame of a system; `None`, with an error at `at`, if the deck does not define it, and `None`, with errors at
@@ -205,13 +222,20 @@ impl<'d> CoordinateSystems<'d> {
                 continue;
             }
             let needs = self.needs(top);
-            let open: Vec<u64> = needs.into_iter().filter(|need| !self.known.contains_key(need)).collect();
+            let open: Vec<u64> = needs
+                .into_iter()
+                .filter(|need| !self.known.contains_key(need))
+                .collect();
             if open.is_empty() {
                 let frame = self.resolved(top, findings);
                 self.known.insert(top, frame);
                 stack.pop();
             } else if open.iter().any(|need| waiting.contains(need)) || !waiting.insert(top) {
-                self.refuse(top, "must be defined by systems or grids that do not depend on it", findings);
+                self.refuse(
+                    top,
+                    "must be defined by systems or grids that do not depend on it",
+                    findings,
+                );
                 self.known.insert(top, None);
                 stack.pop();
             } else {
@@ -242,7 +266,11 @@ impl<'d> CoordinateSystems<'d> {
 
     fn refuse(&self, id: u64, expected: &str, findings: &mut ImportFindings) {
         if let Some(card) = self.cards.get(&id) {
-            findings.error(ImportFinding::new(card.card, format!("{} {id}", card.name), expected));
+            findings.error(ImportFinding::new(
+                card.card,
+                format!("{} {id}", card.name),
+                expected,
+            ));
         }
     }
 
@@ -256,7 +284,9 @@ impl<'d> CoordinateSystems<'d> {
                 let Some(frame) = frame_of(*reference) else {
                     let about = format!("{} {id}: RID", card.name);
                     let expected = "must be 0 or the number of a coordinate system";
-                    findings.error(ImportFinding::new(card.card, about, expected).with_found(reference));
+                    findings.error(
+                        ImportFinding::new(card.card, about, expected).with_found(reference),
+                    );
                     return None;
                 };
                 // an error has already been added for a reference system that cannot be used
@@ -270,8 +300,11 @@ impl<'d> CoordinateSystems<'d> {
                         grid.and_then(|grid| Some((grid, frame_of(self.system_of(grid))?)))
                     else {
                         let about = format!("{} {id}", card.name);
-                        let expected = "refers to a grid that does not exist or has no coordinate system";
-                        findings.error(ImportFinding::new(card.card, about, expected).with_found(number));
+                        let expected =
+                            "refers to a grid that does not exist or has no coordinate system";
+                        findings.error(
+                            ImportFinding::new(card.card, about, expected).with_found(number),
+                        );
                         return None;
                     };
                     *point = frame?.basic(grid.at);
@@ -285,7 +318,11 @@ impl<'d> CoordinateSystems<'d> {
             self.refuse(id, "its three points must not lie on one line", findings);
             return None;
         };
-        Some(CoordinateFrame { kind: card.kind, origin: a, axes: [cross(y, z), y, z] })
+        Some(CoordinateFrame {
+            kind: card.kind,
+            origin: a,
+            axes: [cross(y, z), y, z],
+        })
     }
 }
 
@@ -294,20 +331,34 @@ mod tests {
     use super::*;
 
     fn near(found: [f64; 3], expected: [f64; 3]) -> bool {
-        found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-14)
+        found
+            .iter()
+            .zip(expected)
+            .all(|(found, expected)| (found - expected).abs() < 1e-14)
     }
 
     #[test]
     fn cylinders_and_spheres_have_their_angles_in_degrees() {
-        let cylinder = CoordinateFrame { kind: SystemKind::Cylindrical, origin: [1.0, 0.0, 0.0], ..BASIC };
+        let cylinder = CoordinateFrame {
+            kind: SystemKind::Cylindrical,
+            origin: [1.0, 0.0, 0.0],
+            ..BASIC
+        };
         assert_eq!(cylinder.basic([2.0, 90.0, 3.0]), [1.0, 2.0, 3.0]);
         assert_eq!(cylinder.basic([2.0, -90.0, 3.0]), [1.0, -2.0, 3.0]);
         assert_eq!(
             cylinder.directions([1.0, 2.0, 3.0]),
             [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
         );
-        assert_eq!(cylinder.directions([1.0, 0.0, 3.0]), BASIC_AXES, "on the axis");
-        let sphere = CoordinateFrame { kind: SystemKind::Spherical, ..BASIC };
+        assert_eq!(
+            cylinder.directions([1.0, 0.0, 3.0]),
+            BASIC_AXES,
+            "on the axis"
+        );
+        let sphere = CoordinateFrame {
+            kind: SystemKind::Spherical,
+            ..BASIC
+        };
         assert_eq!(sphere.basic([2.0, 0.0, 17.0]), [0.0, 0.0, 2.0]);
         let place = sphere.basic([2.0, 60.0, 30.0]);
         assert!(near(place, [1.5, 0.75f64.sqrt(), 1.0]), "{place:?}");

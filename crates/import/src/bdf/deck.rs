@@ -80,7 +80,10 @@ impl BulkDeck {
         let mut deck = BulkDeck::default();
         let bulk = deck.control(lines, omit, findings);
         let cards = cards(bulk, findings);
-        let cards: Vec<&Card> = cards.iter().filter(|card| !omit.skips(&card.name)).collect();
+        let cards: Vec<&Card> = cards
+            .iter()
+            .filter(|card| !omit.skips(&card.name))
+            .collect();
         let [bars, beams] = deck.defaults(&cards, findings);
         let mut left_out: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
         let mut unused: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
@@ -93,9 +96,12 @@ impl BulkDeck {
                 "BAROR" | "BEAMOR" | "GRDSET" => {}
                 "PARAM" if fields.text(1) == "WTMASS" => deck.weight(&mut fields),
                 "PARAM" if fields.text(1) == "COUPMASS" => {
-                    deck.coupled_mass = matches!(number(fields.text(2)), Some(Number::Integer(1..)));
+                    deck.coupled_mass =
+                        matches!(number(fields.text(2)), Some(Number::Integer(1..)));
                 }
-                "MPC" | "MPCADD" if deck.controlled && !deck.equations => count(&mut left_out, card),
+                "MPC" | "MPCADD" if deck.controlled && !deck.equations => {
+                    count(&mut left_out, card)
+                }
                 "MDLPRM" if fields.text(1) == "HDF5" => count(&mut left_out, card),
                 // MDLPRM may change how offsets are read
                 "MDLPRM" if fields.text(1) == "OFFDEF" => count(&mut unknown, card),
@@ -108,20 +114,30 @@ impl BulkDeck {
             }
         }
         for (name, (at, number)) in left_out {
-            findings.warn(ImportFinding::new(at, name, format!("is left out, {}", cards_of(number))));
+            findings.warn(ImportFinding::new(
+                at,
+                name,
+                format!("is left out, {}", cards_of(number)),
+            ));
         }
         for (name, (at, number)) in unused {
-            let message = format!("is left out, {}; it cannot change the stiffness", cards_of(number));
+            let message = format!(
+                "is left out, {}; it cannot change the stiffness",
+                cards_of(number)
+            );
             findings.warn(ImportFinding::new(at, name, message));
         }
         for (name, (at, number)) in unknown {
             let hint = if role(name) == Some(CardRole::NoStiffness) {
-                format!("it cannot change the stiffness: --skip-unused leaves it out, or --skip {name}")
+                format!(
+                    "it cannot change the stiffness: --skip-unused leaves it out, or --skip {name}"
+                )
             } else {
                 format!("{}; if it can be ignored, add --skip {name}", advice(name))
             };
             findings.error(
-                ImportFinding::new(at, name, format!("is not supported, {}", cards_of(number))).hint(hint),
+                ImportFinding::new(at, name, format!("is not supported, {}", cards_of(number)))
+                    .hint(hint),
             );
         }
         deck
@@ -129,8 +145,15 @@ impl BulkDeck {
 
     /// Reads GRDSET and returns the defaults of BAROR and BEAMOR. They are read first because they also apply to the
     /// cards before them.
-    fn defaults(&mut self, cards: &[&Card], findings: &mut ImportFindings) -> [element::BarDefaults; 2] {
-        let mut found = [element::BarDefaults::default(), element::BarDefaults::default()];
+    fn defaults(
+        &mut self,
+        cards: &[&Card],
+        findings: &mut ImportFindings,
+    ) -> [element::BarDefaults; 2] {
+        let mut found = [
+            element::BarDefaults::default(),
+            element::BarDefaults::default(),
+        ];
         let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
         for card in cards {
             let mut fields = CardFields { card, findings };
@@ -153,10 +176,15 @@ impl BulkDeck {
         findings: &mut ImportFindings,
     ) -> &'l [BulkLine] {
         let word = |line: &BulkLine, n: usize| {
-            let mut words = line.text.split([' ', '=', ',', '(']).filter(|word| !word.is_empty());
+            let mut words = line
+                .text
+                .split([' ', '=', ',', '('])
+                .filter(|word| !word.is_empty());
             words.nth(n).unwrap_or_default().to_ascii_uppercase()
         };
-        let begins: Vec<usize> = (0..lines.len()).filter(|&k| word(&lines[k], 0) == "BEGIN").collect();
+        let begins: Vec<usize> = (0..lines.len())
+            .filter(|&k| word(&lines[k], 0) == "BEGIN")
+            .collect();
         let Some(&begin) = begins.first() else {
             if let Some(line) = lines.iter().find(|line| word(line, 0) == "CEND") {
                 findings.error(
@@ -192,7 +220,8 @@ impl BulkDeck {
                     self.equations = true;
                     let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them \
                             out, add --skip MPC";
-                    findings.error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
+                    findings
+                        .error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
                 }
                 ("K2GG" | "K2PP", _) if !omit.skips(&key) => {
                     let hint = format!(
@@ -218,7 +247,15 @@ impl BulkDeck {
     fn element(&mut self, read: Option<(u64, ElementCard)>, findings: &mut ImportFindings) {
         let Some((id, element)) = read else { return };
         let (kind, card) = (element.kind.clone(), element.card);
-        put(&mut self.elements, id, element, |other| other.card, card, &kind, findings);
+        put(
+            &mut self.elements,
+            id,
+            element,
+            |other| other.card,
+            card,
+            &kind,
+            findings,
+        );
     }
 
     /// Reads a card that defines part of the structure; returns false for any other card.
@@ -227,17 +264,41 @@ impl BulkDeck {
         match name {
             "GRID" => {
                 if let Some((id, grid)) = grid::grid(fields) {
-                    put(&mut self.grids, id, grid, |other| other.card, at, name, fields.findings);
+                    put(
+                        &mut self.grids,
+                        id,
+                        grid,
+                        |other| other.card,
+                        at,
+                        name,
+                        fields.findings,
+                    );
                 }
             }
             "CORD1R" | "CORD1C" | "CORD1S" | "CORD2R" | "CORD2C" | "CORD2S" => {
                 for (id, system) in coordinates::systems(fields) {
-                    put(&mut self.systems, id, system, |other| other.card, at, name, fields.findings);
+                    put(
+                        &mut self.systems,
+                        id,
+                        system,
+                        |other| other.card,
+                        at,
+                        name,
+                        fields.findings,
+                    );
                 }
             }
             "MAT1" => {
                 if let Some((id, found)) = material(fields) {
-                    put(&mut self.materials, id, found, |other| other.card, at, name, fields.findings);
+                    put(
+                        &mut self.materials,
+                        id,
+                        found,
+                        |other| other.card,
+                        at,
+                        name,
+                        fields.findings,
+                    );
                 }
             }
             "PBAR" | "PBARL" | "PBEAM" | "PBEAML" | "PROD" | "PTUBE" => {
@@ -249,7 +310,15 @@ impl BulkDeck {
                     _ => property::shaped(fields),
                 };
                 if let Some((id, found)) = read {
-                    put(&mut self.properties, id, found, |other| other.card, at, name, fields.findings);
+                    put(
+                        &mut self.properties,
+                        id,
+                        found,
+                        |other| other.card,
+                        at,
+                        name,
+                        fields.findings,
+                    );
                 }
             }
             "CROD" | "CTUBE" => {
@@ -264,7 +333,15 @@ impl BulkDeck {
             "CELAS1" | "CELAS2" => self.springs.extend(lump::spring(fields)),
             "PELAS" => {
                 for (id, card, k) in property::springs(fields) {
-                    put(&mut self.stiffness, id, (card, k), |other| other.0, at, name, fields.findings);
+                    put(
+                        &mut self.stiffness,
+                        id,
+                        (card, k),
+                        |other| other.0,
+                        at,
+                        name,
+                        fields.findings,
+                    );
                 }
             }
             "SPC" => self.supports.extend(support::spc(fields, omit.unused)),
@@ -294,16 +371,26 @@ fn put<T>(
 ) {
     if let Some(other) = map.get(&id) {
         let other = card(other);
-        let file =
-            if other.file == at.file { String::new() } else { format!(" of {}", findings.files[other.file]) };
-        let expected = format!("must have a unique number: line {}{file} has the same", other.line);
+        let file = if other.file == at.file {
+            String::new()
+        } else {
+            format!(" of {}", findings.files[other.file])
+        };
+        let expected = format!(
+            "must have a unique number: line {}{file} has the same",
+            other.line
+        );
         findings.error(ImportFinding::new(at, format!("{name} {id}"), expected));
         return;
     }
     map.insert(id, entry);
 }
 
-fn once<'c>(seen: &mut BTreeMap<&'c str, FilePlace>, card: &'c Card, findings: &mut ImportFindings) {
+fn once<'c>(
+    seen: &mut BTreeMap<&'c str, FilePlace>,
+    card: &'c Card,
+    findings: &mut ImportFindings,
+) {
     if let Some(other) = seen.insert(&card.name, card.at) {
         let expected = format!("must occur only once; line {} already has one", other.line);
         findings.error(ImportFinding::new(card.at, &card.name, expected));
@@ -315,5 +402,9 @@ fn count<'c>(counts: &mut BTreeMap<&'c str, (FilePlace, usize)>, card: &'c Card)
 }
 
 fn cards_of(number: usize) -> String {
-    if number == 1 { "1 card".to_owned() } else { format!("{number} cards") }
+    if number == 1 {
+        "1 card".to_owned()
+    } else {
+        format!("{number} cards")
+    }
 }

@@ -72,15 +72,28 @@ pub struct BarDefaults {
 
 /// Reads BAROR or BEAMOR. A card that cannot be read causes errors of its own alone, not of the elements.
 pub fn defaults(card: &mut CardFields<'_, '_>) -> BarDefaults {
-    read_defaults(card).unwrap_or(BarDefaults { is_unreadable: true, ..BarDefaults::default() })
+    read_defaults(card).unwrap_or(BarDefaults {
+        is_unreadable: true,
+        ..BarDefaults::default()
+    })
 }
 
 fn read_defaults(card: &mut CardFields<'_, '_>) -> Option<BarDefaults> {
-    let property = if card.blank(2) { Some(None) } else { card.id(2, "PID").map(Some) };
+    let property = if card.blank(2) {
+        Some(None)
+    } else {
+        card.id(2, "PID").map(Some)
+    };
     let orientation = orientation(card)?;
     let systems = systems(card)?;
     card.end(9);
-    Some(BarDefaults { card: card.card.at, property: property?, orientation, systems, is_unreadable: false })
+    Some(BarDefaults {
+        card: card.card.at,
+        property: property?,
+        orientation,
+        systems,
+        is_unreadable: false,
+    })
 }
 
 /// Reads OFFT: the letters select the systems of the orientation and of the offsets at A and B. Older programs have
@@ -98,10 +111,18 @@ fn systems(card: &mut CardFields<'_, '_>) -> Option<Option<ElementSystems>> {
         && "GOE".contains(*a)
         && "GOE".contains(*b)
     {
-        return Some(Some(ElementSystems { basic: *vector == 'B', own: [*a != 'G', *b != 'G'] }));
+        return Some(Some(ElementSystems {
+            basic: *vector == 'B',
+            own: [*a != 'G', *b != 'G'],
+        }));
     }
     let hint = "G: displacement system, B: basic system, O or E: element system; or 1, 2 or blank";
-    card.refuse(8, "OFFT", "must be three letters such as GGG, BGG or GOO", hint);
+    card.refuse(
+        8,
+        "OFFT",
+        "must be three letters such as GGG, BGG or GOO",
+        hint,
+    );
     None
 }
 
@@ -114,7 +135,8 @@ fn orientation(card: &mut CardFields<'_, '_>) -> Option<Option<Orientation>> {
     if card.blank(6) && card.blank(7) && matches!(number(card.text(5)), Some(Number::Integer(_))) {
         return card.id(5, "G0").map(|grid| Some(Orientation::Grid(grid)));
     }
-    card.vector(5, ["X1", "X2", "X3"]).map(|vector| Some(Orientation::Vector(vector)))
+    card.vector(5, ["X1", "X2", "X3"])
+        .map(|vector| Some(Orientation::Vector(vector)))
 }
 
 /// Reads CBAR or CBEAM.
@@ -122,13 +144,25 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
     let id = card.id(1, "EID")?;
     let property = card.id_or(2, "PID", defaults.property.unwrap_or(id));
     let grids = ends(card, 3);
-    let default_card = (defaults.card, if card.card.name == "CBEAM" { "BEAMOR" } else { "BAROR" });
+    let default_card = (
+        defaults.card,
+        if card.card.name == "CBEAM" {
+            "BEAMOR"
+        } else {
+            "BAROR"
+        },
+    );
     let from_default = |is_default: bool| is_default.then_some(default_card);
     let property_default = from_default(card.blank(2) && defaults.property.is_some());
     let own = orientation(card);
     let given = own.map(|given| given.or(defaults.orientation));
     if given == Some(None) && !defaults.is_unreadable {
-        card.refuse(5, "X1", "is missing", "state the orientation as vector X1, X2, X3 or grid G0");
+        card.refuse(
+            5,
+            "X1",
+            "is missing",
+            "state the orientation as vector X1, X2, X3 or grid G0",
+        );
     }
     let systems = systems(card).map(|own| own.or(defaults.systems).unwrap_or_default());
     let pins = [(9, "PA"), (10, "PB")].map(|(index, name)| card.freedoms(index, name));
@@ -175,7 +209,9 @@ pub fn rods(card: &mut CardFields<'_, '_>) -> Vec<(u64, ElementCard)> {
         if first == 5 && (5..9).all(|index| card.blank(index)) {
             continue;
         }
-        let Some(id) = card.id(first, "EID") else { continue };
+        let Some(id) = card.id(first, "EID") else {
+            continue;
+        };
         let property = card.id_or(first + 1, "PID", id);
         let grids = ends(card, first + 2);
         if let (Some(property), Some(grids)) = (property, grids) {

@@ -16,14 +16,19 @@ pub enum Number {
 pub fn number(text: &str) -> Option<Number> {
     let body = text.strip_prefix(['+', '-']).unwrap_or(text);
     let sign = if text.starts_with('-') { "-" } else { "" };
-    let end = body.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(body.len());
+    let end = body
+        .find(|c: char| !c.is_ascii_digit() && c != '.')
+        .unwrap_or(body.len());
     let (mantissa, exponent) = body.split_at(end);
     let points = mantissa.matches('.').count();
     if points > 1 || mantissa.len() == points {
         return None;
     }
     if exponent.is_empty() && points == 0 {
-        return format!("{sign}{mantissa}").parse().ok().map(Number::Integer);
+        return format!("{sign}{mantissa}")
+            .parse()
+            .ok()
+            .map(Number::Integer);
     }
     let digits = match exponent.strip_prefix(['E', 'e', 'D', 'd']) {
         Some(digits) => digits,
@@ -37,7 +42,11 @@ pub fn number(text: &str) -> Option<Number> {
         return None;
     }
     let value: f64 = format!("{sign}{mantissa}e{digits}").parse().ok()?;
-    Some(if value.is_finite() { Number::Real(value) } else { Number::Huge })
+    Some(if value.is_finite() {
+        Number::Real(value)
+    } else {
+        Number::Huge
+    })
 }
 
 /// Reads a set of degrees of freedom from the digits 1 to 6, each of which may occur once. Blanks between the digits
@@ -90,8 +99,16 @@ mod tests {
     #[test]
     fn reals_are_the_nearest_doubles() {
         for text in ["0.1", "2.997924", "6.0221408", "1.7976931348623157"] {
-            let Some(Number::Real(value)) = number(&format!("{text}+5")) else { panic!("{text}") };
-            assert_eq!(value.to_bits(), format!("{text}e5").parse::<f64>().expect("a number").to_bits());
+            let Some(Number::Real(value)) = number(&format!("{text}+5")) else {
+                panic!("{text}")
+            };
+            assert_eq!(
+                value.to_bits(),
+                format!("{text}e5")
+                    .parse::<f64>()
+                    .expect("a number")
+                    .to_bits()
+            );
         }
     }
 
@@ -127,9 +144,15 @@ mod tests {
 
     #[test]
     fn freedoms_are_digits_one_to_six_once_each() {
-        assert_eq!(freedoms("2346"), Some([false, true, true, true, false, true]));
+        assert_eq!(
+            freedoms("2346"),
+            Some([false, true, true, true, false, true])
+        );
         assert_eq!(freedoms(""), Some([false; 6]));
-        assert_eq!(freedoms("12 4 6"), Some([true, true, false, true, false, true]));
+        assert_eq!(
+            freedoms("12 4 6"),
+            Some([true, true, false, true, false, true])
+        );
         for text in ["0", "7", "11", "12a", "1 1", "-1", "1."] {
             assert_eq!(freedoms(text), None, "{text}");
         }

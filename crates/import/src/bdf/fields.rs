@@ -15,11 +15,24 @@ pub struct CardFields<'c, 'f> {
     pub findings: &'f mut ImportFindings,
 }
 
-static BLANK: CardField = CardField { at: FilePlace { file: 0, line: 0, column: 0 }, text: String::new() };
+static BLANK: CardField = CardField {
+    at: FilePlace {
+        file: 0,
+        line: 0,
+        column: 0,
+    },
+    text: String::new(),
+};
 
 /// Returns the text with every character other than printable ASCII escaped as `\u{...}`.
 fn ascii(text: &str) -> String {
-    let escape = |c: char| if c.is_ascii_graphic() { c.to_string() } else { c.escape_unicode().to_string() };
+    let escape = |c: char| {
+        if c.is_ascii_graphic() {
+            c.to_string()
+        } else {
+            c.escape_unicode().to_string()
+        }
+    };
     text.chars().map(escape).collect()
 }
 
@@ -31,7 +44,10 @@ impl CardFields<'_, '_> {
     }
 
     fn field(&self, index: usize) -> &CardField {
-        index.checked_sub(1).and_then(|index| self.card.fields.get(index)).unwrap_or(&BLANK)
+        index
+            .checked_sub(1)
+            .and_then(|index| self.card.fields.get(index))
+            .unwrap_or(&BLANK)
     }
 
     /// Whether a field is blank.
@@ -44,28 +60,48 @@ impl CardFields<'_, '_> {
     #[must_use]
     pub fn at(&self, index: usize) -> FilePlace {
         let at = self.field(index).at;
-        if at.line == 0 || self.blank(index) { self.card.at } else { at }
+        if at.line == 0 || self.blank(index) {
+            self.card.at
+        } else {
+            at
+        }
     }
 
     /// Name and number of the card for messages, such as `CBAR 12`.
     #[must_use]
     pub fn label(&self) -> String {
         let id = self.text(1);
-        if id.is_empty() { self.card.name.clone() } else { format!("{} {id}", self.card.name) }
+        if id.is_empty() {
+            self.card.name.clone()
+        } else {
+            format!("{} {id}", self.card.name)
+        }
     }
 
     /// Creates a finding that concerns a field.
     #[must_use]
     pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> ImportFinding {
-        let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
+        let about = if name.is_empty() {
+            self.label()
+        } else {
+            format!("{}: {name}", self.label())
+        };
         let finding = ImportFinding::new(self.at(index), about, expected);
-        if self.blank(index) { finding } else { finding.with_found(ascii(self.text(index))) }
+        if self.blank(index) {
+            finding
+        } else {
+            finding.with_found(ascii(self.text(index)))
+        }
     }
 
     /// Adds an error that concerns a field.
     pub fn refuse(&mut self, index: usize, name: &str, expected: &str, hint: &str) {
         let fault = self.fault(index, name, expected);
-        self.findings.error(if hint.is_empty() { fault } else { fault.hint(hint) });
+        self.findings.error(if hint.is_empty() {
+            fault
+        } else {
+            fault.hint(hint)
+        });
     }
 
     /// Reads a required positive integer.
@@ -73,7 +109,12 @@ impl CardFields<'_, '_> {
         match number(self.text(index)) {
             Some(Number::Integer(id)) if id > 0 => u64::try_from(id).ok(),
             _ if self.blank(index) => {
-                self.refuse(index, name, "is missing", "it must be a whole number above 0");
+                self.refuse(
+                    index,
+                    name,
+                    "is missing",
+                    "it must be a whole number above 0",
+                );
                 None
             }
             _ => {
@@ -85,7 +126,11 @@ impl CardFields<'_, '_> {
 
     /// Reads a positive integer; returns `default` if the field is blank.
     pub fn id_or(&mut self, index: usize, name: &str, default: u64) -> Option<u64> {
-        if self.blank(index) { Some(default) } else { self.id(index, name) }
+        if self.blank(index) {
+            Some(default)
+        } else {
+            self.id(index, name)
+        }
     }
 
     /// Reads a non-negative integer; returns 0 if the field is blank.
@@ -103,7 +148,9 @@ impl CardFields<'_, '_> {
             return Some(None);
         }
         match number(self.text(index)) {
-            Some(Number::Real(value)) if value == 0.0 || is_within(value) => return Some(Some(value)),
+            Some(Number::Real(value)) if value == 0.0 || is_within(value) => {
+                return Some(Some(value));
+            }
             Some(Number::Real(_)) => {
                 let [least, most] = MAGNITUDES;
                 self.refuse(
@@ -115,10 +162,22 @@ impl CardFields<'_, '_> {
             }
             Some(Number::Integer(value)) => {
                 let hint = format!("write {value}. for {value}, and check the columns");
-                self.refuse(index, name, "must be a real number, with its decimal point", &hint);
+                self.refuse(
+                    index,
+                    name,
+                    "must be a real number, with its decimal point",
+                    &hint,
+                );
             }
-            Some(Number::Huge) => self.refuse(index, name, "must be a number within double precision", ""),
-            None => self.refuse(index, name, "must be a real number", "such as 12. or 1.2+3 or 1.2E3"),
+            Some(Number::Huge) => {
+                self.refuse(index, name, "must be a number within double precision", "")
+            }
+            None => self.refuse(
+                index,
+                name,
+                "must be a real number",
+                "such as 12. or 1.2+3 or 1.2E3",
+            ),
         }
         None
     }
@@ -156,10 +215,19 @@ impl CardFields<'_, '_> {
 
     /// Reads a set of degrees of freedom, which is empty if the field is blank or 0.
     pub fn freedoms(&mut self, index: usize, name: &str) -> Option<[bool; 6]> {
-        let text = if self.text(index) == "0" { "" } else { self.text(index) };
+        let text = if self.text(index) == "0" {
+            ""
+        } else {
+            self.text(index)
+        };
         let set = freedoms(text);
         if set.is_none() {
-            self.refuse(index, name, "must be digits from 1 to 6, each once", "such as 123456");
+            self.refuse(
+                index,
+                name,
+                "must be digits from 1 to 6, each once",
+                "such as 123456",
+            );
         }
         set
     }
@@ -172,7 +240,10 @@ impl CardFields<'_, '_> {
         };
         if value != 0.0 {
             let fault = self.fault(index, name, "can only be 0 or blank").hint(hint);
-            self.findings.error(ImportFinding { found: Some(written(value)), ..fault });
+            self.findings.error(ImportFinding {
+                found: Some(written(value)),
+                ..fault
+            });
             return None;
         }
         Some(())
@@ -194,7 +265,10 @@ impl CardFields<'_, '_> {
     /// Number of the last field that is not blank, 0 if there is none.
     #[must_use]
     pub fn last(&self) -> usize {
-        (1..=self.card.fields.len()).rev().find(|index| !self.blank(*index)).unwrap_or(0)
+        (1..=self.card.fields.len())
+            .rev()
+            .find(|index| !self.blank(*index))
+            .unwrap_or(0)
     }
 }
 

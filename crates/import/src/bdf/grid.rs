@@ -34,21 +34,44 @@ pub struct GridDefaults {
 /// Reads GRID.
 pub fn grid(card: &mut CardFields<'_, '_>) -> Option<(u64, GridCard)> {
     let id = card.id(1, "ID")?;
-    let cp = if card.blank(2) { Some(None) } else { card.whole(2, "CP").map(Some) };
+    let cp = if card.blank(2) {
+        Some(None)
+    } else {
+        card.whole(2, "CP").map(Some)
+    };
     let at = card.vector(3, ["X1", "X2", "X3"]);
     let cd = match card.text(6) {
         "" => Some(None),
         "-1" => {
-            card.refuse(6, "CD", "must not be -1", "points of a fluid are not supported");
+            card.refuse(
+                6,
+                "CD",
+                "must not be -1",
+                "points of a fluid are not supported",
+            );
             None
         }
         _ => card.whole(6, "CD").map(Some),
     };
-    let fix = if card.blank(7) { Some(None) } else { card.freedoms(7, "PS").map(Some) };
+    let fix = if card.blank(7) {
+        Some(None)
+    } else {
+        card.freedoms(7, "PS").map(Some)
+    };
     card.zero(8, "SEID", "superelements are not supported");
     card.end(9);
     let spots = [card.at(2), card.at(6)];
-    Some((id, GridCard { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
+    Some((
+        id,
+        GridCard {
+            card: card.card.at,
+            at: at?,
+            cp: cp?,
+            cd: cd?,
+            fix: fix?,
+            spots,
+        },
+    ))
 }
 
 /// Reads GRDSET.
@@ -58,5 +81,9 @@ pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<GridDefaults> {
     let fix = card.freedoms(7, "PS");
     card.zero(8, "SEID", "superelements are not supported");
     card.end(9);
-    Some(GridDefaults { cp: cp?, cd: cd?, fix: fix? })
+    Some(GridDefaults {
+        cp: cp?,
+        cd: cd?,
+        fix: fix?,
+    })
 }

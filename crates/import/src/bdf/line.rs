@@ -21,10 +21,18 @@ pub struct BulkLine {
 ///
 /// # Errors
 /// The deck itself cannot be read. Errors of included files are added to the findings.
-pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
+pub fn read(
+    path: &Path,
+    open: OpenFile<'_>,
+    findings: &mut ImportFindings,
+) -> io::Result<Vec<BulkLine>> {
     let bytes = open(path)?;
     let includes = Includes::new(path, open, "INCLUDE");
-    let mut reader = Reader { includes, lines: Vec::new(), ended: false };
+    let mut reader = Reader {
+        includes,
+        lines: Vec::new(),
+        ended: false,
+    };
     reader.file(path, &bytes, findings);
     Ok(reader.lines)
 }
@@ -42,7 +50,11 @@ impl Reader<'_> {
         let text = String::from_utf8_lossy(bytes);
         let mut gap = false;
         for (index, raw) in text.lines().enumerate() {
-            let at = FilePlace { file, line: index + 1, column: 1 };
+            let at = FilePlace {
+                file,
+                line: index + 1,
+                column: 1,
+            };
             let text = raw.split('$').next().unwrap_or_default().trim_end();
             if text.trim().is_empty() {
                 gap |= raw.trim().is_empty();
@@ -50,10 +62,18 @@ impl Reader<'_> {
             }
             if let Some(name) = included(text) {
                 self.include(name, at, findings);
-            } else if text.trim_start().to_ascii_uppercase().starts_with("ENDDATA") {
+            } else if text
+                .trim_start()
+                .to_ascii_uppercase()
+                .starts_with("ENDDATA")
+            {
                 self.ended = true;
             } else {
-                self.lines.push(BulkLine { at, text: expanded(text), gap });
+                self.lines.push(BulkLine {
+                    at,
+                    text: expanded(text),
+                    gap,
+                });
             }
             gap = false;
             if self.ended {
@@ -65,7 +85,8 @@ impl Reader<'_> {
 
     fn include(&mut self, name: Result<&str, ()>, at: FilePlace, findings: &mut ImportFindings) {
         let Ok(name) = name else {
-            let fault = ImportFinding::new(at, "INCLUDE", "must name a file between quotation marks");
+            let fault =
+                ImportFinding::new(at, "INCLUDE", "must name a file between quotation marks");
             findings.error(fault.hint("write INCLUDE 'file name' in one line"));
             return;
         };
@@ -82,13 +103,17 @@ fn included(text: &str) -> Option<Result<&str, ()>> {
     let text = text.trim_start();
     let word = text.get(..7)?;
     let rest = &text[7..];
-    if !word.eq_ignore_ascii_case("INCLUDE") || rest.starts_with(|c: char| c.is_ascii_alphanumeric()) {
+    if !word.eq_ignore_ascii_case("INCLUDE")
+        || rest.starts_with(|c: char| c.is_ascii_alphanumeric())
+    {
         return None;
     }
     let rest = rest.trim_start_matches([' ', '\t', '=', ',']).trim_end();
     for quote in ['\'', '"'] {
         if let Some(inside) = rest.strip_prefix(quote) {
-            let name = inside.strip_suffix(quote).filter(|name| !name.is_empty() && !name.contains(quote));
+            let name = inside
+                .strip_suffix(quote)
+                .filter(|name| !name.is_empty() && !name.contains(quote));
             return Some(name.ok_or(()));
         }
     }

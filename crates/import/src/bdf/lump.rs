@@ -52,10 +52,15 @@ pub fn mass(card: &mut CardFields<'_, '_>) -> Option<MassCard> {
     card.id(1, "EID")?;
     let grid = card.id(2, "G");
     let absolute = card.text(3) == "-1";
-    let system = if absolute { Some(0) } else { card.whole(3, "CID") };
+    let system = if absolute {
+        Some(0)
+    } else {
+        card.whole(3, "CID")
+    };
     let mass = card.not_negative(4, "M");
     let offset = card.vector(5, ["X1", "X2", "X3"]);
-    let moments = [(9, "I11"), (11, "I22"), (14, "I33")].map(|(index, name)| card.not_negative(index, name));
+    let moments =
+        [(9, "I11"), (11, "I22"), (14, "I33")].map(|(index, name)| card.not_negative(index, name));
     let products =
         [(10, "I21"), (12, "I31"), (13, "I32")].map(|(index, name)| card.real_or(index, name, 0.0));
     card.end(15);
@@ -104,5 +109,10 @@ pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
         card.refuse(3, "G1", "is missing", "a spring needs a grid");
         return None;
     }
-    Some(SpringCard { card: card.card.at, label: card.label(), stiffness: stiffness?, ends })
+    Some(SpringCard {
+        card: card.card.at,
+        label: card.label(),
+        stiffness: stiffness?,
+        ends,
+    })
 }

@@ -38,7 +38,11 @@ pub fn add(
     // ends of several members at one place have one mass; the key of the place has the bits of its coordinates
     let mut places: BTreeMap<(usize, [u64; 3]), ImportedMass> = BTreeMap::new();
     let mut skew: Option<(FilePlace, usize)> = None;
-    for (index, mass) in masses.iter().enumerate().filter(|(_, mass)| mass.per_length > 0.0) {
+    for (index, mass) in masses
+        .iter()
+        .enumerate()
+        .filter(|(_, mass)| mass.per_length > 0.0)
+    {
         let ends = structure.ends(index);
         let along = minus(ends[1], ends[0]);
         let half = 0.5 * length(along);
@@ -48,12 +52,14 @@ pub fn add(
             // adding zero removes the sign of a negative zero
             let offset = member.offsets[end].map(|part| part + 0.0);
             let point = member.points[end];
-            let entry = places.entry((point, offset.map(f64::to_bits))).or_insert(ImportedMass {
-                point,
-                mass: 0.0,
-                inertia: [0.0; 3],
-                offset,
-            });
+            let entry = places
+                .entry((point, offset.map(f64::to_bits)))
+                .or_insert(ImportedMass {
+                    point,
+                    mass: 0.0,
+                    inertia: [0.0; 3],
+                    offset,
+                });
             entry.mass += mass.per_length * half;
             if let Some(axis) = axis {
                 entry.inertia[axis] += mass.twist * half;
@@ -63,19 +69,31 @@ pub fn add(
             skew.get_or_insert((mass.card, 0)).1 += 1;
         }
     }
-    let finite =
-        |mass: &ImportedMass| mass.mass.is_finite() && mass.inertia.iter().all(|part| part.is_finite());
+    let finite = |mass: &ImportedMass| {
+        mass.mass.is_finite() && mass.inertia.iter().all(|part| part.is_finite())
+    };
     if !places.values().all(finite) {
-        let at = masses.first().map_or(FilePlace::default(), |mass| mass.card);
-        findings.error(ImportFinding::new(at, "mass of elements", "must be within double precision"));
+        let at = masses
+            .first()
+            .map_or(FilePlace::default(), |mass| mass.card);
+        findings.error(ImportFinding::new(
+            at,
+            "mass of elements",
+            "must be within double precision",
+        ));
         return;
     }
     let first = masses.iter().find(|mass| mass.per_length > 0.0);
     if let Some(first) = first {
         let of_rods = "of rods and tubes is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0; that of \
                        beams acts along them";
-        let of_all = "of elements is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
-        let message = if mass == MassDistribution::LumpedRods { of_rods } else { of_all };
+        let of_all =
+            "of elements is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
+        let message = if mass == MassDistribution::LumpedRods {
+            of_rods
+        } else {
+            of_all
+        };
         let finding = ImportFinding::new(first.card, "mass", message);
         findings.warn(finding.hint("--mass distributed spreads it along them"));
     }

@@ -54,5 +54,13 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
     if !finite {
         card.refuse(2, "E", "must lead to moduli within double precision", "");
     }
-    finite.then_some((id, MaterialCard { card: card.card.at, e, g, density }))
+    finite.then_some((
+        id,
+        MaterialCard {
+            card: card.card.at,
+            e,
+            g,
+            density,
+        },
+    ))
 }

@@ -16,8 +16,17 @@ impl<'d> Resolver<'d, '_> {
     pub(super) fn members(&mut self) {
         let deck = self.deck;
         if deck.elements.is_empty() {
-            let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
-            self.findings.error(finding.hint("supported members are CBAR, CBEAM, CROD, CTUBE and CONROD"));
+            let finding = ImportFinding::new(
+                FilePlace {
+                    line: 1,
+                    column: 1,
+                    file: 0,
+                },
+                "",
+                "has no member",
+            );
+            self.findings
+                .error(finding.hint("supported members are CBAR, CBEAM, CROD, CTUBE and CONROD"));
         }
         for (&id, element) in &deck.elements {
             self.member(id, element);
@@ -26,14 +35,20 @@ impl<'d> Resolver<'d, '_> {
 
     /// Returns the property of an element and the number in the name of its section, or `None`, with an error, if the
     /// property does not exist or has the wrong type for the element.
-    fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
+    fn property(
+        &mut self,
+        id: u64,
+        element: &'d ElementCard,
+        about: &str,
+    ) -> Option<(u64, &'d Property)> {
         let deck = self.deck;
         let (number, property) = match &element.section {
             Given::Own(property) => (id, property.as_ref()),
             Given::Number(number) => {
                 let Some(property) = deck.properties.get(number) else {
                     let (at, about) = element.property_default.unwrap_or((element.card, about));
-                    let finding = ImportFinding::new(at, about, "refers to a property that does not exist");
+                    let finding =
+                        ImportFinding::new(at, about, "refers to a property that does not exist");
                     self.findings.error(finding.with_found(number));
                     return None;
                 };
@@ -49,9 +64,9 @@ impl<'d> Resolver<'d, '_> {
         if !fits {
             let (at, about) = element.property_default.unwrap_or((element.card, about));
             let expected = format!("cannot have the property {} {number}", property.kind);
-            let hint =
-                "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD, CTUBE needs PTUBE";
-            self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
+            let hint = "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD, CTUBE needs PTUBE";
+            self.findings
+                .error(ImportFinding::new(at, about, expected).hint(hint));
             return None;
         }
         Some((number, property))
@@ -74,7 +89,8 @@ impl<'d> Resolver<'d, '_> {
             Some(Orientation::Grid(grid)) => {
                 let Some(there) = self.grids.get(&grid) else {
                     if !self.deck.grids.contains_key(&grid) {
-                        let (at, about) = element.orientation_default.unwrap_or((element.card, about));
+                        let (at, about) =
+                            element.orientation_default.unwrap_or((element.card, about));
                         let finding = ImportFinding::new(
                             at,
                             format!("{about}: G0"),
@@ -94,7 +110,9 @@ impl<'d> Resolver<'d, '_> {
     /// possible.
     fn member(&mut self, id: u64, element: &'d ElementCard) -> Option<()> {
         let about = format!("{} {id}", element.kind);
-        let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
+        let [a, b] = element
+            .grids
+            .map(|grid| self.point(grid, element.card, &about));
         let (number, property) = self.property(id, element, &about)?;
         let section = self.section(number, property, "", &about)?;
         let section_b = match &property.end {
@@ -108,9 +126,13 @@ impl<'d> Resolver<'d, '_> {
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + offsets[end][axis]);
         let along = minus(tip(1), tip(0));
         if along == [0.0; 3] {
-            let finding =
-                ImportFinding::new(element.card, about, "must have a positive length between its ends");
-            self.findings.error(finding.hint("its ends coincide after the offsets are added"));
+            let finding = ImportFinding::new(
+                element.card,
+                about,
+                "must have a positive length between its ends",
+            );
+            self.findings
+                .error(finding.hint("its ends coincide after the offsets are added"));
             return None;
         }
         let bends = property.bending[0] > 0.0;
@@ -118,12 +140,15 @@ impl<'d> Resolver<'d, '_> {
             let hint = "X1, X2, X3 or G0 define the side of the local y axis";
             let finding = match element.orientation_default {
                 Some((at, name)) => {
-                    let expected = "must not be zero or along an element that states no orientation itself";
+                    let expected =
+                        "must not be zero or along an element that states no orientation itself";
                     ImportFinding::new(at, format!("{name}: X1"), expected)
                 }
-                None => {
-                    ImportFinding::new(element.card, about, "its orientation must not be zero or along it")
-                }
+                None => ImportFinding::new(
+                    element.card,
+                    about,
+                    "its orientation must not be zero or along it",
+                ),
             };
             self.findings.error(finding.hint(hint));
             return None;
@@ -142,13 +167,24 @@ impl<'d> Resolver<'d, '_> {
         let bar = self.adapt(property, element.card, &about, along, &mut member)?;
         self.structure.members.push(member);
         let is_lumped = is_lumped(self.asked.mass, property);
-        let [per_length, twist] = if is_lumped { mass_per_length(self.deck, property) } else { [0.0; 2] };
+        let [per_length, twist] = if is_lumped {
+            mass_per_length(self.deck, property)
+        } else {
+            [0.0; 2]
+        };
         let twists = element.kind == "CBEAM" && property.j > 0.0;
-        let mass = MemberMass { card: element.card, per_length, twist: if twists { twist } else { 0.0 } };
+        let mass = MemberMass {
+            card: element.card,
+            per_length,
+            twist: if twists { twist } else { 0.0 },
+        };
         self.member_masses.push(mass);
         if let Some(bar) = bar {
             self.structure.members.push(bar);
-            self.member_masses.push(MemberMass { card: element.card, ..MemberMass::default() });
+            self.member_masses.push(MemberMass {
+                card: element.card,
+                ..MemberMass::default()
+            });
         }
         Some(())
     }
@@ -163,11 +199,14 @@ impl<'d> Resolver<'d, '_> {
     ) -> Option<[[f64; 3]; 2]> {
         let mut offsets = element.offsets;
         let own = if element.systems.own.contains(&true) && offsets != [[0.0; 3]; 2] {
-            let axes = orientation.and_then(|vector| LocalAxes::new(minus(ends[1], ends[0]), vector));
+            let axes =
+                orientation.and_then(|vector| LocalAxes::new(minus(ends[1], ends[0]), vector));
             if axes.is_none() {
                 let expected = "must have element axes, in which its offsets are stated";
                 let finding = ImportFinding::new(element.card, about, expected);
-                self.findings.error(finding.hint("the orientation must not be along the line from GA to GB"));
+                self.findings.error(
+                    finding.hint("the orientation must not be along the line from GA to GB"),
+                );
             }
             Some(axes?)
         } else {
@@ -201,13 +240,17 @@ impl<'d> Resolver<'d, '_> {
         if (property.turn == 0.0 && is_neutral) || member.kind != MemberKind::Beam {
             return Some(None);
         }
-        let axes = member.orientation.and_then(|vector| LocalAxes::new(along, vector))?;
+        let axes = member
+            .orientation
+            .and_then(|vector| LocalAxes::new(along, vector))?;
         let is_uneven = |pins: &[bool; 6]| pins[1] != pins[2] || pins[4] != pins[5];
         if property.turn != 0.0 {
             if member.releases.iter().any(is_uneven) {
-                let expected = "must be pinned in both planes or none, because its principal axes are turned";
+                let expected =
+                    "must be pinned in both planes or none, because its principal axes are turned";
                 let hint = "state the principal second moments, and pins in their planes";
-                self.findings.error(ImportFinding::new(card, about, expected).hint(hint));
+                self.findings
+                    .error(ImportFinding::new(card, about, expected).hint(hint));
                 return None;
             }
             member.orientation = Some(axes.vector([0.0, property.turn.cos(), property.turn.sin()]));
@@ -216,8 +259,10 @@ impl<'d> Resolver<'d, '_> {
             return Some(None);
         }
         if member.releases != [[false; 6]; 2] {
-            let expected = "must not be pinned, because its neutral axis is off the axis of shear centres";
-            self.findings.error(ImportFinding::new(card, about, expected));
+            let expected =
+                "must not be pinned, because its neutral axis is off the axis of shear centres";
+            self.findings
+                .error(ImportFinding::new(card, about, expected));
             return None;
         }
         let [y, z] = property.neutral;
@@ -230,15 +275,30 @@ impl<'d> Resolver<'d, '_> {
             section: self.sections.massless(&mut self.structure, member.section),
             section_b: None,
             orientation: None,
-            offsets: member.offsets.map(|offset| [0, 1, 2].map(|axis| offset[axis] + apart[axis])),
+            offsets: member
+                .offsets
+                .map(|offset| [0, 1, 2].map(|axis| offset[axis] + apart[axis])),
             releases: [[false; 6]; 2],
             ..member.clone()
         }))
     }
 
     /// Index of the section of a property (see [`SectionTable::index_of`]).
-    fn section(&mut self, number: u64, property: &Property, end: &str, about: &str) -> Option<usize> {
-        self.sections.index_of(self.deck, &mut self.structure, self.findings, (number, property), end, about)
+    fn section(
+        &mut self,
+        number: u64,
+        property: &Property,
+        end: &str,
+        about: &str,
+    ) -> Option<usize> {
+        self.sections.index_of(
+            self.deck,
+            &mut self.structure,
+            self.findings,
+            (number, property),
+            end,
+            about,
+        )
     }
 }
 

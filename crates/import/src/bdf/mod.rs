@@ -58,8 +58,15 @@ pub fn read(
     if findings.has_errors() {
         return Ok(empty);
     }
-    let of_deck =
-        if deck.coupled_mass { MassDistribution::Distributed } else { MassDistribution::LumpedRods };
-    let asked = resolve::Asked { spc, mass: mass.unwrap_or(of_deck), unused: omit.unused };
+    let of_deck = if deck.coupled_mass {
+        MassDistribution::Distributed
+    } else {
+        MassDistribution::LumpedRods
+    };
+    let asked = resolve::Asked {
+        spc,
+        mass: mass.unwrap_or(of_deck),
+        unused: omit.unused,
+    };
     Ok(resolve::resolve(&deck, empty, asked, findings))
 }

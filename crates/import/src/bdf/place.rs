@@ -69,14 +69,26 @@ pub fn resolve(
 ) -> BTreeMap<u64, Resolved> {
     let mut resolved = BTreeMap::new();
     for (&id, grid) in grids {
-        let [cp, cd] = [grid.cp.unwrap_or(defaults.cp), grid.cd.unwrap_or(defaults.cd)];
+        let [cp, cd] = [
+            grid.cp.unwrap_or(defaults.cp),
+            grid.cd.unwrap_or(defaults.cd),
+        ];
         let place = systems.frame(cp, grid.spots[0], &format!("GRID {id}: CP"), findings);
         let turned = systems.frame(cd, grid.spots[1], &format!("GRID {id}: CD"), findings);
-        let (Some(place), Some(turned)) = (place, turned) else { continue };
+        let (Some(place), Some(turned)) = (place, turned) else {
+            continue;
+        };
         let at = place.basic(grid.at);
         if at.iter().all(|part| part.is_finite()) {
             let fix = grid.fix.unwrap_or(defaults.fix);
-            resolved.insert(id, Resolved { at, axes: turned.directions(at), fix });
+            resolved.insert(
+                id,
+                Resolved {
+                    at,
+                    axes: turned.directions(at),
+                    fix,
+                },
+            );
         } else {
             findings.error(ImportFinding::new(
                 grid.card,

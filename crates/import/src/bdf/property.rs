@@ -38,8 +38,10 @@ pub struct Property {
     pub end: Option<Box<Property>>,
 }
 
-const NO_PRODUCT: &str = "state the principal second moments, and rotate the orientation of the elements";
-const SHEAR: &str = "sections with a product of inertia need equal shear factors K1 and K2, or none";
+const NO_PRODUCT: &str =
+    "state the principal second moments, and rotate the orientation of the elements";
+const SHEAR: &str =
+    "sections with a product of inertia need equal shear factors K1 and K2, or none";
 
 /// Principal second moments of a section with I1, I2 and the product I12, and the angle from the y axis to the axis of
 /// the first of them: tan 2a = 2 I12 / (I1 - I2). `None` if they are not positive.
@@ -87,13 +89,26 @@ pub fn tube(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let outer = positive(card, 3, "OD")?;
     let wall = card.not_negative(4, "T")?;
     let nsm = card.not_negative(5, "NSM");
-    if card.optional(6, "OD2")?.is_some_and(|other| other != outer && other != 0.0) {
-        card.refuse(6, "OD2", "must be blank or equal to OD", "tubes of varying diameter are not supported");
+    if card
+        .optional(6, "OD2")?
+        .is_some_and(|other| other != outer && other != 0.0)
+    {
+        card.refuse(
+            6,
+            "OD2",
+            "must be blank or equal to OD",
+            "tubes of varying diameter are not supported",
+        );
         return None;
     }
     card.end(7);
     if wall > 0.5 * outer {
-        card.refuse(4, "T", "must be at most half of OD", "a blank T is a solid rod");
+        card.refuse(
+            4,
+            "T",
+            "must be at most half of OD",
+            "a blank T is a solid rod",
+        );
         return None;
     }
     let inner = if wall == 0.0 { 0.0 } else { outer - 2.0 * wall };
@@ -158,9 +173,19 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 
 /// Replaces second moments with a product of inertia by the principal ones. Returns false, with an error, if this is
 /// not possible.
-fn turned(card: &mut CardFields<'_, '_>, index: usize, product: f64, property: &mut Property) -> bool {
+fn turned(
+    card: &mut CardFields<'_, '_>,
+    index: usize,
+    product: f64,
+    property: &mut Property,
+) -> bool {
     let Some((bending, turn)) = principal(property.bending, product) else {
-        card.refuse(index, "I12", "must be below the root of I1 I2 in magnitude", "");
+        card.refuse(
+            index,
+            "I12",
+            "must be below the root of I1 I2 in magnitude",
+            "",
+        );
         return false;
     };
     if property.shear[0] != property.shear[1] {
@@ -177,7 +202,12 @@ fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let hint = "state both second moments, or neither for a bar without bending stiffness";
     if i1 != i2 {
         let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
-        card.refuse(index, name, "must be positive if the other second moment is", hint);
+        card.refuse(
+            index,
+            name,
+            "must be positive if the other second moment is",
+            hint,
+        );
     } else if !i1 && property.j > 0.0 {
         card.refuse(4, "I1", "must be positive if J is", hint);
         return false;
@@ -185,7 +215,8 @@ fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     i1 == i2
 }
 
-const STATIONS: &str = "beams vary linearly from end A to end B: divide other beams at their stations";
+const STATIONS: &str =
+    "beams vary linearly from end A to end B: divide other beams at their stations";
 
 /// Reads PBEAM, whose properties must vary linearly between the ends.
 pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -195,14 +226,34 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let nsm = card.not_negative(8, "NSM");
     let (own, nsm) = (own?, nsm?);
     let (other, first) = end_b(card, own, nsm)?;
-    let shear = [(first + 1, "K1"), (first + 2, "K2")]
-        .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
+    let shear = [(first + 1, "K1"), (first + 2, "K2")].map(|(index, name)| {
+        if card.blank(index) {
+            Some(1.0)
+        } else {
+            card.not_negative(index, name)
+        }
+    });
     let relief = "shear relief of tapered beams is not supported";
-    let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
+    let relief =
+        [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
     let neutral = neutral_axis(card, first + 13);
-    let lost = [first + 5, first + 6, first + 9, first + 10, first + 11, first + 12];
-    if let Some(index) = lost.into_iter().find(|index| !card.blank(*index) && card.text(*index) != "0.") {
-        let fault = card.fault(index, "", "inertia and offset of the non-structural mass are left out");
+    let lost = [
+        first + 5,
+        first + 6,
+        first + 9,
+        first + 10,
+        first + 11,
+        first + 12,
+    ];
+    if let Some(index) = lost
+        .into_iter()
+        .find(|index| !card.blank(*index) && card.text(*index) != "0.")
+    {
+        let fault = card.fault(
+            index,
+            "",
+            "inertia and offset of the non-structural mass are left out",
+        );
         card.findings.warn(fault);
     }
     card.end(first + 17);
@@ -234,12 +285,23 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         }
     }
     if result.end.is_some() && neutral != [0.0; 2] {
-        card.refuse(first + 13, "N1", "must be 0 if the beam is tapered", STATIONS);
+        card.refuse(
+            first + 13,
+            "N1",
+            "must be 0 if the beam is tapered",
+            STATIONS,
+        );
         return None;
     }
-    let is_positive = result.end.is_none() || own[..4].iter().chain(&other[..4]).all(|value| *value > 0.0);
+    let is_positive =
+        result.end.is_none() || own[..4].iter().chain(&other[..4]).all(|value| *value > 0.0);
     if !is_positive {
-        card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
+        card.refuse(
+            3,
+            "A",
+            "must be positive like I1, I2 and J at both ends of a tapered beam",
+            "",
+        );
     }
     (is_positive && spread(card, &result, 8) && whole(card, &result)).then_some((id, result))
 }
@@ -247,11 +309,22 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 /// Reads N1 and N2 of both ends of a PBEAM, the offset of the neutral axis, which must be the same at both ends. Blank
 /// fields of end B have the values of end A.
 fn neutral_axis(card: &mut CardFields<'_, '_>, first: usize) -> Option<[f64; 2]> {
-    let a = [card.real_or(first, "N1(A)", 0.0)?, card.real_or(first + 1, "N2(A)", 0.0)?];
-    let b = [card.real_or(first + 2, "N1(B)", a[0])?, card.real_or(first + 3, "N2(B)", a[1])?];
+    let a = [
+        card.real_or(first, "N1(A)", 0.0)?,
+        card.real_or(first + 1, "N2(A)", 0.0)?,
+    ];
+    let b = [
+        card.real_or(first + 2, "N1(B)", a[0])?,
+        card.real_or(first + 3, "N2(B)", a[1])?,
+    ];
     if a != b {
         let hint = "neutral axes at an angle to the axis of shear centres are not supported";
-        card.refuse(first + 2, "N1(B)", "must be equal to the value at end A, like N2(B)", hint);
+        card.refuse(
+            first + 2,
+            "N1(B)",
+            "must be equal to the value at end A, like N2(B)",
+            hint,
+        );
     }
     (a == b).then_some(a)
 }
@@ -260,9 +333,11 @@ fn neutral_axis(card: &mut CardFields<'_, '_>, first: usize) -> Option<[f64; 2]>
 /// that follows the stations. `own` and `nsm` are the values at end A.
 fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 5], nsm: f64) -> Option<([f64; 5], usize)> {
     let rows = card.card.fields.len().div_ceil(8);
-    let station =
-        |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
-    let blank = |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
+    let station = |card: &CardFields<'_, '_>, row: usize| {
+        matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO")
+    };
+    let blank =
+        |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
     // the second row contains stress recovery points, unless it is already a station
     let mut row = if station(card, 1) { 1 } else { 2 };
     let mut other = own;
@@ -270,7 +345,10 @@ fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 5], nsm: f64) -> Option<([f64
         let first = 8 * row;
         let x = card.real(first + 2, "X/XB")?;
         let values = stiffness(card, first + 3, Some(own))?;
-        if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
+        if card
+            .optional(first + 8, "NSM")?
+            .is_some_and(|value| value != nsm)
+        {
             let hint = "the non-structural mass cannot vary";
             card.refuse(first + 8, "NSM", "must be equal to that of end A", hint);
             return None;
@@ -278,17 +356,30 @@ fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 5], nsm: f64) -> Option<([f64
         if x == 1.0 {
             other = values;
         } else if values != own {
-            card.refuse(first + 2, "X/XB", "must be 1. if the beam is tapered", STATIONS);
+            card.refuse(
+                first + 2,
+                "X/XB",
+                "must be 1. if the beam is tapered",
+                STATIONS,
+            );
             return None;
         }
-        row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
+        row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) {
+            2
+        } else {
+            1
+        };
     }
     Some((other, 8 * row))
 }
 
 /// Reads the consecutive fields A, I1, I2, I12 and J, and returns A, I1, I2, J and I12. Blank fields have the values of
 /// `own`.
-fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 5]>) -> Option<[f64; 5]> {
+fn stiffness(
+    card: &mut CardFields<'_, '_>,
+    first: usize,
+    own: Option<[f64; 5]>,
+) -> Option<[f64; 5]> {
     let mut number = |index: usize, name: &str, k: usize| match own {
         Some(own) if card.blank(index) => Some(own[k]),
         _ if k == 0 => positive(card, index, name),
@@ -340,27 +431,44 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     if let Some(other) = other {
         let end = section(card, &shape, &other, material, nsm)?;
         if property.turn != 0.0 || end.turn != 0.0 {
-            card.refuse(4, "TYPE", "must have its principal axes along y and z if it is tapered", NO_PRODUCT);
+            card.refuse(
+                4,
+                "TYPE",
+                "must have its principal axes along y and z if it is tapered",
+                NO_PRODUCT,
+            );
             return None;
         }
         property.end = Some(Box::new(end));
     }
     if card.card.name == "PBEAML"
-        && !["ROD", "TUBE", "TUBE2", "BAR", "BOX", "H", "I1", "CROSS", "Z"].contains(&shape.as_str())
+        && ![
+            "ROD", "TUBE", "TUBE2", "BAR", "BOX", "H", "I1", "CROSS", "Z",
+        ]
+        .contains(&shape.as_str())
     {
         let message = "is taken with its shear centre at its centroid, like PBARL";
         let fault = card.fault(4, "TYPE", message);
-        card.findings.warn(fault.hint("state PBEAM with N1, N2 where the distance of the two matters"));
+        card.findings
+            .warn(fault.hint("state PBEAM with N1, N2 where the distance of the two matters"));
     }
     spread(card, &property, 9 + count).then_some((id, property))
 }
 
 /// Checks that non-structural mass can be converted to a density, for which the area must be constant.
 fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
-    let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
+    let varies = property
+        .end
+        .as_ref()
+        .is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
         let hint = "state the non-structural mass as CONM2";
-        card.refuse(index, "NSM", "must be 0 if the area of the beam varies", hint);
+        card.refuse(
+            index,
+            "NSM",
+            "must be 0 if the area of the beam varies",
+            hint,
+        );
     }
     !varies || property.nsm == 0.0
 }
@@ -377,7 +485,12 @@ fn section(
         Ok(section) => section,
         Err(ShapeError::Dimensions | ShapeError::Unknown) => {
             let hint = "the dimensions leave no space between the plates";
-            card.refuse(9, "DIM1", "must be the first of valid dimensions of a section", hint);
+            card.refuse(
+                9,
+                "DIM1",
+                "must be the first of valid dimensions of a section",
+                hint,
+            );
             return None;
         }
     };
@@ -398,7 +511,11 @@ fn section(
 
 /// Reads the stations of a PBEAML and returns the dimensions at end B, or `Some(None)` if they are those at end A.
 /// Intermediate stations must have the dimensions of end A.
-fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
+fn stations(
+    card: &mut CardFields<'_, '_>,
+    dimensions: &[f64],
+    nsm: f64,
+) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();
     let mut first = 10 + count;
@@ -413,7 +530,10 @@ fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Opti
         for (k, own) in dimensions.iter().enumerate() {
             here.push(card.real_or(first + 2 + k, &format!("DIM{}", k + 1), *own)?);
         }
-        if card.optional(first + 2 + count, "NSM")?.is_some_and(|value| value != nsm) {
+        if card
+            .optional(first + 2 + count, "NSM")?
+            .is_some_and(|value| value != nsm)
+        {
             card.refuse(
                 first + 2 + count,
                 "NSM",
@@ -424,7 +544,12 @@ fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Opti
         }
         if here != dimensions {
             if x != 1.0 {
-                card.refuse(first + 1, "X/XB", "must be 1. if the beam is tapered", STATIONS);
+                card.refuse(
+                    first + 1,
+                    "X/XB",
+                    "must be 1. if the beam is tapered",
+                    STATIONS,
+                );
                 return None;
             }
             other = Some(here);

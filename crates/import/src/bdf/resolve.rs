@@ -26,7 +26,9 @@ use super::support;
 use crate::axes::{combined, turned_inertia};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::links::{self, PartialLink};
-use crate::structure::{ImportedMass, ImportedPoint, ImportedSpring, ImportedStructure, MassDistribution};
+use crate::structure::{
+    ImportedMass, ImportedPoint, ImportedSpring, ImportedStructure, MassDistribution,
+};
 use formats::vector::minus;
 
 /// What the user asks of the conversion.
@@ -86,7 +88,12 @@ pub fn resolve(
     resolver.springs();
     resolver.partial_links();
     if asked.mass != MassDistribution::Distributed {
-        lumped::add(&mut resolver.structure, &resolver.member_masses, asked.mass, resolver.findings);
+        lumped::add(
+            &mut resolver.structure,
+            &resolver.member_masses,
+            asked.mass,
+            resolver.findings,
+        );
     }
     resolver.sets();
     resolver.structure
@@ -97,18 +104,25 @@ impl<'d> Resolver<'d, '_> {
     fn points(&mut self) {
         let deck = self.deck;
         let members = deck.elements.values().flat_map(|element| element.grids);
-        let links =
-            deck.rigid.iter().flat_map(|rigid| rigid.to.iter().chain([&rigid.from]).map(|(grid, _)| *grid));
+        let links = deck
+            .rigid
+            .iter()
+            .flat_map(|rigid| rigid.to.iter().chain([&rigid.from]).map(|(grid, _)| *grid));
         let masses = deck.masses.iter().map(|mass| mass.grid);
-        let springs =
-            deck.springs.iter().flat_map(|spring| spring.ends.iter().flatten().map(|(grid, _)| *grid));
+        let springs = deck
+            .springs
+            .iter()
+            .flat_map(|spring| spring.ends.iter().flatten().map(|(grid, _)| *grid));
         let mut used: Vec<u64> = members.chain(links).chain(masses).chain(springs).collect();
         used.sort_unstable();
         used.dedup();
         for id in used {
             if let Some(grid) = self.grids.get(&id) {
                 self.index.insert(id, self.structure.points.len());
-                self.structure.points.push(ImportedPoint { name: format!("GRID {id}"), at: grid.at });
+                self.structure.points.push(ImportedPoint {
+                    name: format!("GRID {id}"),
+                    at: grid.at,
+                });
             }
         }
     }
@@ -118,8 +132,10 @@ impl<'d> Resolver<'d, '_> {
         let index = self.index.get(&id).copied();
         // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
-            self.findings
-                .error(ImportFinding::new(at, about, "refers to a grid that does not exist").with_found(id));
+            self.findings.error(
+                ImportFinding::new(at, about, "refers to a grid that does not exist")
+                    .with_found(id),
+            );
         }
         index
     }
@@ -128,9 +144,13 @@ impl<'d> Resolver<'d, '_> {
     fn links(&mut self) {
         let deck = self.deck;
         for rigid in &deck.rigid {
-            let Some(from) = self.point(rigid.from.0, rigid.from.1, &rigid.label) else { continue };
+            let Some(from) = self.point(rigid.from.0, rigid.from.1, &rigid.label) else {
+                continue;
+            };
             for (grid, at) in &rigid.to {
-                let Some(to) = self.point(*grid, *at, &rigid.label) else { continue };
+                let Some(to) = self.point(*grid, *at, &rigid.label) else {
+                    continue;
+                };
                 if from == to {
                     self.findings.error(ImportFinding::new(
                         *at,
@@ -140,11 +160,16 @@ impl<'d> Resolver<'d, '_> {
                 } else if rigid.set == [true; 6] {
                     self.structure.links.push([from, to]);
                 } else {
-                    let set = self.grids.get(grid).and_then(|grid| grid.global(&rigid.set));
+                    let set = self
+                        .grids
+                        .get(grid)
+                        .and_then(|grid| grid.global(&rigid.set));
                     match set {
-                        Some(set) => {
-                            self.partial.push((PartialLink { from, to, set }, *at, rigid.label.clone()))
-                        }
+                        Some(set) => self.partial.push((
+                            PartialLink { from, to, set },
+                            *at,
+                            rigid.label.clone(),
+                        )),
                         None => self.refuse_skew(*at, &rigid.label),
                     }
                 }
@@ -154,9 +179,11 @@ impl<'d> Resolver<'d, '_> {
 
     /// Adds the error of components that are along directions other than the global axes.
     fn refuse_skew(&mut self, at: FilePlace, about: &str) {
-        let expected = "must be along the global axes at a grid whose displacement system is turned";
+        let expected =
+            "must be along the global axes at a grid whose displacement system is turned";
         let hint = "supports, springs and links of a beam spec are along the global axes";
-        self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
+        self.findings
+            .error(ImportFinding::new(at, about, expected).hint(hint));
     }
 
     /// Adds the links of some degrees of freedom.
@@ -164,10 +191,11 @@ impl<'d> Resolver<'d, '_> {
         let all: Vec<PartialLink> = self.partial.iter().map(|(link, ..)| *link).collect();
         for (link, at, label) in std::mem::take(&mut self.partial) {
             if !links::add(&mut self.structure, link, &all) {
-                let expected = "must join all degrees of freedom, or be replaceable by a hinge or a support";
-                let hint =
-                    "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
-                self.findings.error(ImportFinding::new(at, label, expected).hint(hint));
+                let expected =
+                    "must join all degrees of freedom, or be replaceable by a hinge or a support";
+                let hint = "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
+                self.findings
+                    .error(ImportFinding::new(at, label, expected).hint(hint));
             }
         }
     }
@@ -177,8 +205,12 @@ impl<'d> Resolver<'d, '_> {
         let deck = self.deck;
         let wtmass = deck.wtmass.unwrap_or(1.0);
         for mass in &deck.masses {
-            let Some(point) = self.point(mass.grid, mass.at, &mass.label) else { continue };
-            let Some((offset, inertia)) = self.mass_axes(mass, point) else { continue };
+            let Some(point) = self.point(mass.grid, mass.at, &mass.label) else {
+                continue;
+            };
+            let Some((offset, inertia)) = self.mass_axes(mass, point) else {
+                continue;
+            };
             let entry = ImportedMass {
                 point,
                 mass: mass.mass * wtmass,
@@ -203,14 +235,21 @@ impl<'d> Resolver<'d, '_> {
     fn mass_axes(&mut self, mass: &MassCard, point: usize) -> Option<([f64; 3], [f64; 3])> {
         if mass.absolute {
             let offset = minus(mass.offset, self.structure.points[point].at);
-            return self.principal(mass, mass.inertia).map(|inertia| (offset, inertia));
+            return self
+                .principal(mass, mass.inertia)
+                .map(|inertia| (offset, inertia));
         }
-        let frame =
-            self.systems.frame(mass.system, mass.at, &format!("{}: CID", mass.label), self.findings)?;
+        let frame = self.systems.frame(
+            mass.system,
+            mass.at,
+            &format!("{}: CID", mass.label),
+            self.findings,
+        )?;
         let has_direction = mass.offset != [0.0; 3] || mass.inertia != [[0.0; 3]; 3];
         if !frame.is_rectangular() && has_direction {
             let expected = "must be stated in a rectangular system";
-            self.findings.error(ImportFinding::new(mass.at, &mass.label, expected));
+            self.findings
+                .error(ImportFinding::new(mass.at, &mass.label, expected));
             return None;
         }
         let inertia = self.principal(mass, turned_inertia(&frame.axes(), &mass.inertia))?;
@@ -220,17 +259,26 @@ impl<'d> Resolver<'d, '_> {
     /// The moments of inertia about the global axes. Products of inertia are an error, or are left out with a warning if
     /// the user asked for this.
     fn principal(&mut self, mass: &MassCard, matrix: [[f64; 3]; 3]) -> Option<[f64; 3]> {
-        let largest = matrix.iter().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
+        let largest = matrix
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, part| most.max(part.abs()));
         let products = [matrix[0][1], matrix[0][2], matrix[1][2]];
-        if products.iter().any(|product| product.abs() > 1e-12 * largest) {
+        if products
+            .iter()
+            .any(|product| product.abs() > 1e-12 * largest)
+        {
             let about = format!("{}: I21", mass.label);
             if self.asked.unused {
-                let message = "is left out with I31 and I32; products of inertia cannot change the stiffness";
-                self.findings.warn(ImportFinding::new(mass.at, about, message));
+                let message =
+                    "is left out with I31 and I32; products of inertia cannot change the stiffness";
+                self.findings
+                    .warn(ImportFinding::new(mass.at, about, message));
             } else {
                 let expected = "must be 0 about the global axes, like I31 and I32";
                 let hint = "a beam spec has principal inertias about the global axes; --skip-unused leaves the products out";
-                self.findings.error(ImportFinding::new(mass.at, about, expected).hint(hint));
+                self.findings
+                    .error(ImportFinding::new(mass.at, about, expected).hint(hint));
                 return None;
             }
         }
@@ -254,11 +302,20 @@ impl<'d> Resolver<'d, '_> {
             }
         }
         for id in skew {
-            let at = deck.grids.get(&id).map_or(FilePlace::default(), |grid| grid.card);
+            let at = deck
+                .grids
+                .get(&id)
+                .map_or(FilePlace::default(), |grid| grid.card);
             self.refuse_skew(at, &format!("GRID {id}: PS"));
         }
-        let sets =
-            support::chosen(&deck.supports, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
+        let sets = support::chosen(
+            &deck.supports,
+            &deck.adds,
+            asked,
+            deck.controlled,
+            &deck.control,
+            self.findings,
+        );
         let mut unused: BTreeMap<u64, FilePlace> = BTreeMap::new();
         for support in &deck.supports {
             if !sets.contains(&support.set) {
@@ -281,7 +338,11 @@ impl<'d> Resolver<'d, '_> {
                 restrained.extend(self.index.get(grid).map(|point| (*grid, *point, *at)));
             }
             for (grid, point, at) in restrained {
-                let Some(set) = self.grids.get(&grid).and_then(|grid| grid.global(&support.fix)) else {
+                let Some(set) = self
+                    .grids
+                    .get(&grid)
+                    .and_then(|grid| grid.global(&support.fix))
+                else {
                     self.refuse_skew(at, &about);
                     continue;
                 };
@@ -305,15 +366,24 @@ impl<'d> Resolver<'d, '_> {
     fn springs(&mut self) {
         let deck = self.deck;
         for spring in &deck.springs {
-            let Some(k) = self.stiffness(spring) else { continue };
+            let Some(k) = self.stiffness(spring) else {
+                continue;
+            };
             let mut free = Vec::new();
             let mut known = true;
             for (grid, component) in spring.ends.iter().flatten() {
                 let point = self.point(*grid, spring.card, &spring.label);
-                let global = self.grids.get(grid).map(|grid| grid.global_component(*component));
+                let global = self
+                    .grids
+                    .get(grid)
+                    .map(|grid| grid.global_component(*component));
                 match (point, global) {
                     (Some(point), Some(Some((dof, _)))) => {
-                        let is_restrained = self.structure.supports.get(&point).is_some_and(|fix| fix[dof]);
+                        let is_restrained = self
+                            .structure
+                            .supports
+                            .get(&point)
+                            .is_some_and(|fix| fix[dof]);
                         if !is_restrained {
                             free.push((point, dof));
                         }
@@ -328,7 +398,11 @@ impl<'d> Resolver<'d, '_> {
             match free.as_slice() {
                 _ if !known => {}
                 [(point, dof)] => {
-                    self.structure.springs.push(ImportedSpring { point: *point, dof: *dof, k });
+                    self.structure.springs.push(ImportedSpring {
+                        point: *point,
+                        dof: *dof,
+                        k,
+                    });
                 }
                 [] => {
                     let finding = ImportFinding::new(
@@ -344,7 +418,8 @@ impl<'d> Resolver<'d, '_> {
                         &spring.label,
                         "must have one end at ground or restrained",
                     );
-                    self.findings.error(finding.hint("springs between two moving grids are not supported"));
+                    self.findings
+                        .error(finding.hint("springs between two moving grids are not supported"));
                 }
             }
         }
@@ -366,7 +441,8 @@ impl<'d> Resolver<'d, '_> {
             }
         };
         if k <= 0.0 {
-            self.findings.error(finding("must have a positive stiffness").with_found(k));
+            self.findings
+                .error(finding("must have a positive stiffness").with_found(k));
             return None;
         }
         Some(k)
@@ -381,8 +457,11 @@ impl<'d> Resolver<'d, '_> {
             .enumerate()
             .map(|(index, point)| (point.name.clone(), vec![index]))
             .collect();
-        let mut sets: Vec<(String, Vec<usize>)> =
-            structure.sections.iter().map(|section| (section.name.clone(), Vec::new())).collect();
+        let mut sets: Vec<(String, Vec<usize>)> = structure
+            .sections
+            .iter()
+            .map(|section| (section.name.clone(), Vec::new()))
+            .collect();
         for (index, member) in structure.members.iter().enumerate() {
             sets[member.section].1.push(index);
         }

@@ -44,7 +44,12 @@ pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
         card.refuse(4, "GM1", "is missing", "state the dependent grids");
         return None;
     }
-    Some(Rigid { label: card.label(), from: (from?, card.at(2)), to, set: fix })
+    Some(Rigid {
+        label: card.label(),
+        from: (from?, card.at(2)),
+        to,
+        set: fix,
+    })
 }
 
 /// Reads RBAR.
@@ -55,19 +60,32 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     let leads = [(4, "CNA"), (5, "CNB")].map(|(index, name)| card.freedoms(index, name));
     let follows = [(6, "CMA"), (7, "CMB")].map(|(index, name)| card.freedoms(index, name));
     card.end(9);
-    let [Some(leads_a), Some(leads_b)] = leads else { return None };
-    let [Some(follows_a), Some(follows_b)] = follows else { return None };
+    let [Some(leads_a), Some(leads_b)] = leads else {
+        return None;
+    };
+    let [Some(follows_a), Some(follows_b)] = follows else {
+        return None;
+    };
     let none = [false; 6];
     // all degrees of freedom of one end must be independent; blank dependent fields mean all of the other end
     let [leading, following] = match (leads_a == WHOLE, leads_b == WHOLE) {
         (true, false) if leads_b == none && follows_a == none => [a, b],
         (false, true) if leads_a == none && follows_b == none => [b, a],
         _ => {
-            card.refuse(4, "CNA", "must be 123456, with CNB blank, or the other way round", PARTIAL);
+            card.refuse(
+                4,
+                "CNA",
+                "must be 123456, with CNB blank, or the other way round",
+                PARTIAL,
+            );
             return None;
         }
     };
-    let follows = if leads_a == WHOLE { follows_b } else { follows_a };
+    let follows = if leads_a == WHOLE {
+        follows_b
+    } else {
+        follows_a
+    };
     let set = if follows == none { WHOLE } else { follows };
     let (leading, following) = (leading?, following?);
     if leading == following {
@@ -75,5 +93,10 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
         return None;
     }
     let at = card.at(2);
-    Some(Rigid { label: card.label(), from: (leading, at), to: vec![(following, at)], set })
+    Some(Rigid {
+        label: card.label(),
+        from: (leading, at),
+        to: vec![(following, at)],
+        set,
+    })
 }

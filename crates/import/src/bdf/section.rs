@@ -28,7 +28,11 @@ impl SectionTable {
     /// A table without sections.
     #[must_use]
     pub fn new(mass: MassDistribution) -> SectionTable {
-        SectionTable { mass, indices: BTreeMap::new(), materials: Vec::new() }
+        SectionTable {
+            mass,
+            indices: BTreeMap::new(),
+            materials: Vec::new(),
+        }
     }
 
     /// Adds a section with the area of the section `index` alone and without mass, for the bar along the neutral axis of
@@ -36,18 +40,33 @@ impl SectionTable {
     pub fn massless(&mut self, structure: &mut ImportedStructure, index: usize) -> usize {
         let of = &structure.sections[index];
         let name = format!("{} at its neutral axis", of.name);
-        if let Some(known) = structure.sections.iter().position(|section| section.name == name) {
+        if let Some(known) = structure
+            .sections
+            .iter()
+            .position(|section| section.name == name)
+        {
             return known;
         }
         let (area, material) = (of.area, format!("{} without mass", of.material));
         if !self.materials.contains(&material) {
-            let own = structure.materials.iter().find(|known| known.name == of.material);
-            let copy =
-                own.map(|own| ImportedMaterial { name: material.clone(), density: None, ..own.clone() });
+            let own = structure
+                .materials
+                .iter()
+                .find(|known| known.name == of.material);
+            let copy = own.map(|own| ImportedMaterial {
+                name: material.clone(),
+                density: None,
+                ..own.clone()
+            });
             structure.materials.extend(copy);
             self.materials.push(material.clone());
         }
-        structure.sections.push(ImportedSection { name, material, area, ..ImportedSection::default() });
+        structure.sections.push(ImportedSection {
+            name,
+            material,
+            area,
+            ..ImportedSection::default()
+        });
         structure.sections.len() - 1
     }
 
@@ -65,7 +84,11 @@ impl SectionTable {
         about: &str,
     ) -> Option<usize> {
         // the number of a CONROD is an element number, which may coincide with a property number
-        let key = if property.kind == "CONROD" { None } else { Some((number, !end.is_empty())) };
+        let key = if property.kind == "CONROD" {
+            None
+        } else {
+            Some((number, !end.is_empty()))
+        };
         if let Some(index) = key.and_then(|key| self.indices.get(&key)) {
             return Some(*index);
         }
@@ -93,11 +116,19 @@ impl SectionTable {
             self.materials.push(material.clone());
             let density = (density > 0.0).then_some(density);
             let (e, g) = (known.e, known.g);
-            structure.materials.push(ImportedMaterial { name: material.clone(), e, g, density });
+            structure.materials.push(ImportedMaterial {
+                name: material.clone(),
+                e,
+                g,
+                density,
+            });
         }
         let section = section_of(property, format!("{name}{end}"), material);
         let numbers = [section.iy, section.iz, section.shear_y, section.shear_z];
-        let positive = numbers.iter().flatten().all(|value| value.is_finite() && *value > 0.0);
+        let positive = numbers
+            .iter()
+            .flatten()
+            .all(|value| value.is_finite() && *value > 0.0);
         if !positive || section.j.is_some_and(|j| !j.is_finite()) {
             let expected = "must have properties within double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
@@ -117,7 +148,9 @@ impl SectionTable {
 pub fn is_lumped(mass: MassDistribution, property: &Property) -> bool {
     match mass {
         MassDistribution::Lumped => true,
-        MassDistribution::LumpedRods => matches!(property.kind.as_str(), "PROD" | "CONROD" | "PTUBE"),
+        MassDistribution::LumpedRods => {
+            matches!(property.kind.as_str(), "PROD" | "CONROD" | "PTUBE")
+        }
         MassDistribution::Distributed => false,
     }
 }
@@ -127,11 +160,17 @@ pub fn is_lumped(mass: MassDistribution, property: &Property) -> bool {
 #[must_use]
 pub fn mass_per_length(deck: &BulkDeck, property: &Property) -> [f64; 2] {
     let wtmass = deck.wtmass.unwrap_or(1.0);
-    let density = deck.materials.get(&property.material).map_or(0.0, |material| material.density);
+    let density = deck
+        .materials
+        .get(&property.material)
+        .map_or(0.0, |material| material.density);
     let end = property.end.as_deref().unwrap_or(property);
     let area = 0.5 * (property.area + end.area);
     let polar = 0.5 * (property.bending.iter().sum::<f64>() + end.bending.iter().sum::<f64>());
-    [(density * area + property.nsm) * wtmass, density * polar * wtmass]
+    [
+        (density * area + property.nsm) * wtmass,
+        density * polar * wtmass,
+    ]
 }
 
 /// Returns the material of a property, or `None`, with an error, if the material does not exist or has no G although
@@ -144,15 +183,22 @@ fn material_of<'d>(
     findings: &mut ImportFindings,
 ) -> Option<&'d MaterialCard> {
     let Some(material) = deck.materials.get(&property.material) else {
-        let finding =
-            ImportFinding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
+        let finding = ImportFinding::new(
+            property.card,
+            format!("{name}: MID"),
+            "must be the number of a MAT1",
+        );
         findings.error(finding.with_found(property.material));
         return None;
     };
     let is_shear_flexible = property.bending[0] > 0.0 && property.shear.iter().any(|k| *k > 0.0);
     if material.g.is_none() && (property.j > 0.0 || is_shear_flexible) {
         let expected = format!("is missing, and {name} of {about} needs it");
-        let finding = ImportFinding::new(material.card, format!("MAT1 {}: G", property.material), expected);
+        let finding = ImportFinding::new(
+            material.card,
+            format!("MAT1 {}: G", property.material),
+            expected,
+        );
         findings.error(finding.hint("state G or NU"));
         return None;
     }
@@ -164,7 +210,9 @@ fn warn_of_conversions(property: &Property, name: &str, findings: &mut ImportFin
     if property.bending[0] > 0.0 && property.j == 0.0 {
         let expected = "has no J: its members have no torsional stiffness";
         let finding = ImportFinding::new(property.card, name, expected);
-        findings.warn(finding.hint("state J if loads beside the axis of these members are to be carried"));
+        findings.warn(
+            finding.hint("state J if loads beside the axis of these members are to be carried"),
+        );
     }
     if property.end.is_some() {
         let expected = format!("is tapered, and each member is solved in {PARTS} uniform parts");

@@ -24,7 +24,9 @@ pub struct SupportCard {
 /// `without_loads` is set.
 pub fn spc(card: &mut CardFields<'_, '_>, without_loads: bool) -> Vec<SupportCard> {
     let mut supports = Vec::new();
-    let Some(set) = card.id(1, "SID") else { return supports };
+    let Some(set) = card.id(1, "SID") else {
+        return supports;
+    };
     for first in [2, 5] {
         if first == 5 && (5..8).all(|index| card.blank(index)) {
             continue;
@@ -34,7 +36,8 @@ pub fn spc(card: &mut CardFields<'_, '_>, without_loads: bool) -> Vec<SupportCar
         let moved = if without_loads {
             card.real_or(first + 2, "D", 0.0).map(|value| {
                 if value != 0.0 {
-                    let left = card.fault(first + 2, "D", "is left out: the support is kept at rest");
+                    let left =
+                        card.fault(first + 2, "D", "is left out: the support is kept at rest");
                     card.findings.warn(left);
                 }
             })
@@ -44,7 +47,13 @@ pub fn spc(card: &mut CardFields<'_, '_>, without_loads: bool) -> Vec<SupportCar
         };
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
             let grids = vec![(grid, card.at(first))];
-            supports.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });
+            supports.push(SupportCard {
+                set,
+                card: card.card.at,
+                grids,
+                ranges: Vec::new(),
+                fix,
+            });
         }
     }
     card.end(8);
@@ -56,7 +65,13 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     let set = card.id(1, "SID")?;
     let fix = card.freedoms(2, "C")?;
     let last = card.last();
-    let mut support = SupportCard { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
+    let mut support = SupportCard {
+        set,
+        card: card.card.at,
+        grids: Vec::new(),
+        ranges: Vec::new(),
+        fix,
+    };
     let mut index = 3;
     while index <= last {
         if card.blank(index) {
@@ -79,7 +94,12 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
         }
     }
     if support.grids.is_empty() && support.ranges.is_empty() {
-        card.refuse(3, "G1", "is missing", "state the grids that the set restrains");
+        card.refuse(
+            3,
+            "G1",
+            "is missing",
+            "state the grids that the set restrains",
+        );
     }
     Some(support)
 }
@@ -110,7 +130,11 @@ pub fn chosen(
     findings: &mut ImportFindings,
 ) -> BTreeSet<u64> {
     let plain: BTreeSet<u64> = supports.iter().map(|support| support.set).collect();
-    let known: Vec<String> = plain.iter().chain(adds.keys()).map(u64::to_string).collect();
+    let known: Vec<String> = plain
+        .iter()
+        .chain(adds.keys())
+        .map(u64::to_string)
+        .collect();
     let list = if known.is_empty() {
         "there are no sets".to_owned()
     } else {
@@ -142,8 +166,12 @@ pub fn chosen(
         return parts.iter().copied().collect();
     }
     if !plain.contains(&set) {
-        let finding = ImportFinding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD")
-            .with_found(set);
+        let finding = ImportFinding::new(
+            at,
+            "SPC",
+            "must be the number of a set of SPC, SPC1 or SPCADD",
+        )
+        .with_found(set);
         findings.error(finding.hint(list));
     }
     BTreeSet::from([set])
@@ -163,19 +191,23 @@ fn only_set(
     } else {
         adds.keys().copied().collect()
     };
-    let at = supports.first().map_or(FilePlace::default(), |support| support.card);
+    let at = supports
+        .first()
+        .map_or(FilePlace::default(), |support| support.card);
     let mut sets = tops.into_iter();
     match (sets.next(), sets.next()) {
         (Some(only), None) => {
             if controlled {
-                let message =
-                    format!("set {only} is used, because it is the only one and case control selects none");
+                let message = format!(
+                    "set {only} is used, because it is the only one and case control selects none"
+                );
                 findings.warn(ImportFinding::new(at, "SPC", message));
             }
             Some(only)
         }
         (Some(_), Some(_)) => {
-            let message = "must be selected, because there are several sets and case control selects none";
+            let message =
+                "must be selected, because there are several sets and case control selects none";
             let finding = ImportFinding::new(at, "SPC", message);
             findings.error(finding.hint(format!("add --spc N; {list}")));
             None

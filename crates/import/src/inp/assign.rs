@@ -12,10 +12,17 @@ impl Resolver<'_, '_> {
     pub(super) fn assign_sections(&mut self) {
         let model = self.model;
         for (place, section) in model.sections.iter().enumerate() {
-            let Some(material) = self.material(section) else { continue };
+            let Some(material) = self.material(section) else {
+                continue;
+            };
             let about = format!("{}: ELSET", section.label);
-            let elements =
-                InpModel::targets(&model.element_sets, &model.elements, &section.set, &about, self.findings);
+            let elements = InpModel::targets(
+                &model.element_sets,
+                &model.elements,
+                &section.set,
+                &about,
+                self.findings,
+            );
             let is_cubic = |number: &u64| {
                 let kind = model.elements.get(number).map(|element| element.kind);
                 kind == Some(InpKind::Beam { sheared: false })
@@ -43,10 +50,22 @@ impl Resolver<'_, '_> {
                 (Some(stiffness), Some(g)) => stiffness.map(|value| Some(value / g)),
                 _ => [beam(numbers.k * numbers.area); 2],
             };
-            let positive = [Some(numbers.area), beam(iy), beam(iz), beam(numbers.j), shear_y, shear_z];
-            if positive.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
+            let positive = [
+                Some(numbers.area),
+                beam(iy),
+                beam(iz),
+                beam(numbers.j),
+                shear_y,
+                shear_z,
+            ];
+            if positive
+                .iter()
+                .flatten()
+                .any(|value| !value.is_finite() || *value <= 0.0)
+            {
                 let expected = "must have properties within double precision";
-                self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
+                self.findings
+                    .error(ImportFinding::new(section.set.at, &section.label, expected));
                 continue;
             }
             let name = format!("{} {}", section.set.text, index + 1);
@@ -62,9 +81,13 @@ impl Resolver<'_, '_> {
             });
             for number in elements {
                 if self.section_of.insert(number, [index, place]).is_some() {
-                    let finding =
-                        ImportFinding::new(section.set.at, &about, "must not assign a second section");
-                    self.findings.error(finding.with_found(format!("element {number}")));
+                    let finding = ImportFinding::new(
+                        section.set.at,
+                        &about,
+                        "must not assign a second section",
+                    );
+                    self.findings
+                        .error(finding.with_found(format!("element {number}")));
                 }
             }
         }
@@ -74,33 +97,58 @@ impl Resolver<'_, '_> {
     fn material(&mut self, section: &InpSection) -> Option<String> {
         let (name, e, g, density) = match &section.material {
             MaterialOf::Own([e, g, density]) => {
-                let name = format!("material of {} {}", section.set.text, self.structure.sections.len() + 1);
+                let name = format!(
+                    "material of {} {}",
+                    section.set.text,
+                    self.structure.sections.len() + 1
+                );
                 (name, *e, *g, (*density > 0.0).then_some(*density))
             }
             MaterialOf::Named(wanted) => {
-                let known =
-                    self.model.materials.iter().find(|known| key_of(&known.name) == key_of(&wanted.text));
+                let known = self
+                    .model
+                    .materials
+                    .iter()
+                    .find(|known| key_of(&known.name) == key_of(&wanted.text));
                 let about = format!("{}: MATERIAL", section.label);
                 let Some(material) = known else {
-                    let finding = ImportFinding::new(wanted.at, about, "must be the name of a *MATERIAL");
+                    let finding =
+                        ImportFinding::new(wanted.at, about, "must be the name of a *MATERIAL");
                     self.findings.error(finding.with_found(&wanted.text));
                     return None;
                 };
                 let Some([e, nu]) = material.elastic else {
                     let expected = "needs *ELASTIC";
-                    self.findings.error(ImportFinding::new(material.at, "*MATERIAL", expected));
+                    self.findings
+                        .error(ImportFinding::new(material.at, "*MATERIAL", expected));
                     return None;
                 };
-                (material.name.clone(), e, e / (2.0 * (1.0 + nu)), material.density)
+                (
+                    material.name.clone(),
+                    e,
+                    e / (2.0 * (1.0 + nu)),
+                    material.density,
+                )
             }
         };
         if !(g.is_finite() && g > 0.0) {
             let expected = "must lead to moduli within double precision";
-            self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
+            self.findings
+                .error(ImportFinding::new(section.set.at, &section.label, expected));
             return None;
         }
-        if self.structure.materials.iter().all(|known| known.name != name) {
-            self.structure.materials.push(ImportedMaterial { name: name.clone(), e, g: Some(g), density });
+        if self
+            .structure
+            .materials
+            .iter()
+            .all(|known| known.name != name)
+        {
+            self.structure.materials.push(ImportedMaterial {
+                name: name.clone(),
+                e,
+                g: Some(g),
+                density,
+            });
         }
         Some(name)
     }
@@ -112,10 +160,20 @@ impl Resolver<'_, '_> {
             return section;
         }
         let name = format!("{}, rigid in shear", of.name);
-        if let Some(known) = self.structure.sections.iter().position(|known| known.name == name) {
+        if let Some(known) = self
+            .structure
+            .sections
+            .iter()
+            .position(|known| known.name == name)
+        {
             return known;
         }
-        let copy = ImportedSection { name, shear_y: None, shear_z: None, ..of.clone() };
+        let copy = ImportedSection {
+            name,
+            shear_y: None,
+            shear_z: None,
+            ..of.clone()
+        };
         self.structure.sections.push(copy);
         self.structure.sections.len() - 1
     }

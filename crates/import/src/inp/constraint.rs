@@ -14,28 +14,36 @@ impl InpModel {
         findings: &mut ImportFindings,
     ) {
         if self.steps > 1 {
-            let message = "of a later step is left out: supports are those of the model and the first step";
+            let message =
+                "of a later step is left out: supports are those of the model and the first step";
             if omit.unused {
                 findings.warn(ImportFinding::new(block.at, block.label(), message));
             } else {
-                let hint =
-                    "supports are those of the model and the first step; --skip-unused leaves out the others";
-                let finding =
-                    ImportFinding::new(block.at, block.label(), "must be in the model or the first step");
+                let hint = "supports are those of the model and the first step; --skip-unused leaves out the others";
+                let finding = ImportFinding::new(
+                    block.at,
+                    block.label(),
+                    "must be in the model or the first step",
+                );
                 findings.error(finding.hint(hint));
             }
             return;
         }
-        if let Some(kind) =
-            block.parameter("TYPE").filter(|kind| !kind.text.eq_ignore_ascii_case("DISPLACEMENT"))
+        if let Some(kind) = block
+            .parameter("TYPE")
+            .filter(|kind| !kind.text.eq_ignore_ascii_case("DISPLACEMENT"))
         {
             let finding = ImportFinding::new(kind.at, "*BOUNDARY: TYPE", "must be DISPLACEMENT");
             findings.error(finding.with_found(&kind.text));
             return;
         }
         for line in &block.data {
-            let Some(target) = field(block, line, 0, "node or set", findings) else { continue };
-            let Some(word) = field(block, line, 1, "degree of freedom", findings) else { continue };
+            let Some(target) = field(block, line, 0, "node or set", findings) else {
+                continue;
+            };
+            let Some(word) = field(block, line, 1, "degree of freedom", findings) else {
+                continue;
+            };
             let fix = match word.text.to_uppercase().as_str() {
                 "ENCASTRE" => Some([true; 6]),
                 "PINNED" => Some([true, true, true, false, false, false]),
@@ -48,18 +56,27 @@ impl InpModel {
                 _ => restrained(block, line, omit, findings),
             };
             if let Some(fix) = fix {
-                self.boundaries.push(InpBoundary { target: target.clone(), fix });
+                self.boundaries.push(InpBoundary {
+                    target: target.clone(),
+                    fix,
+                });
             }
         }
     }
 
     pub(super) fn read_rigid_body(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
-        let Some(leader) = block.required("REFNODE", findings).cloned() else { return };
+        let Some(leader) = block.required("REFNODE", findings).cloned() else {
+            return;
+        };
         let sets = [("TIENSET", Joint::Rigid), ("PINNSET", Joint::Pinned)];
         let found: Vec<JointRequest> = sets
             .into_iter()
             .filter_map(|(name, joint)| Some((block.parameter(name)?, joint)))
-            .map(|(set, joint)| JointRequest { joint, followers: set.clone(), leader: leader.clone() })
+            .map(|(set, joint)| JointRequest {
+                joint,
+                followers: set.clone(),
+                leader: leader.clone(),
+            })
             .collect();
         if found.is_empty() || block.parameter("ELSET").is_some() {
             let expected = "must name its nodes by TIE NSET or PIN NSET alone";
@@ -70,13 +87,16 @@ impl InpModel {
 
     pub(super) fn read_mpc(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
         for line in &block.data {
-            let Some(word) = field(block, line, 0, "type", findings) else { continue };
+            let Some(word) = field(block, line, 0, "type", findings) else {
+                continue;
+            };
             let joint = match word.text.to_uppercase().as_str() {
                 "BEAM" => Joint::Rigid,
                 "PIN" => Joint::Pinned,
                 "TIE" => Joint::Tied,
                 other => {
-                    let finding = ImportFinding::new(word.at, "*MPC: type", "must be BEAM, TIE or PIN");
+                    let finding =
+                        ImportFinding::new(word.at, "*MPC: type", "must be BEAM, TIE or PIN");
                     findings.error(finding.with_found(other));
                     continue;
                 }
@@ -84,18 +104,30 @@ impl InpModel {
             let followers = field(block, line, 1, "first node", findings).cloned();
             let leader = field(block, line, 2, "second node", findings).cloned();
             if line.len() > 3 {
-                findings.error(ImportFinding::new(line[3].at, "*MPC", "must have two nodes or sets"));
+                findings.error(ImportFinding::new(
+                    line[3].at,
+                    "*MPC",
+                    "must have two nodes or sets",
+                ));
             }
             if let (Some(followers), Some(leader)) = (followers, leader) {
-                self.joints.push(JointRequest { joint, followers, leader });
+                self.joints.push(JointRequest {
+                    joint,
+                    followers,
+                    leader,
+                });
             }
         }
     }
 
     pub(super) fn read_release(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
         for line in &block.data {
-            let Some(target) = field(block, line, 0, "element or set", findings) else { continue };
-            let Some(end) = field(block, line, 1, "end", findings) else { continue };
+            let Some(target) = field(block, line, 0, "element or set", findings) else {
+                continue;
+            };
+            let Some(end) = field(block, line, 1, "end", findings) else {
+                continue;
+            };
             let end = match end.text.to_uppercase().as_str() {
                 "S1" => 0,
                 "S2" => 1,
@@ -105,7 +137,9 @@ impl InpModel {
                     continue;
                 }
             };
-            let Some(words) = field(block, line, 2, "rotations", findings) else { continue };
+            let Some(words) = field(block, line, 2, "rotations", findings) else {
+                continue;
+            };
             let mut release = [false; 6];
             for word in words.text.to_uppercase().split('-') {
                 match word {
@@ -120,7 +154,11 @@ impl InpModel {
                     }
                 }
             }
-            self.releases.push(ReleaseRequest { target: target.clone(), end, release });
+            self.releases.push(ReleaseRequest {
+                target: target.clone(),
+                end,
+                release,
+            });
         }
     }
 }
@@ -135,7 +173,11 @@ fn restrained(
 ) -> Option<[bool; 6]> {
     let first = whole(block, line, 1, "degree of freedom", findings)?;
     let is_given = line.get(2).is_some_and(|field| !field.text.is_empty());
-    let last = if is_given { whole(block, line, 2, "last degree of freedom", findings)? } else { first };
+    let last = if is_given {
+        whole(block, line, 2, "last degree of freedom", findings)?
+    } else {
+        first
+    };
     let displacement = real(block, line, 3, ("displacement", Some(0.0)), findings)?;
     if displacement != 0.0 {
         let finding = ImportFinding::new(line[0].at, "*BOUNDARY: displacement", "can only be 0");
@@ -146,7 +188,8 @@ fn restrained(
         }
         let message = "is left out: the support is kept at rest";
         findings.warn(
-            ImportFinding::new(line[0].at, "*BOUNDARY: displacement", message).with_found(displacement),
+            ImportFinding::new(line[0].at, "*BOUNDARY: displacement", message)
+                .with_found(displacement),
         );
     }
     if first > last || last > 6 {

@@ -46,7 +46,10 @@ impl KeywordBlock {
     /// The value of a parameter; `None` if the keyword does not have it.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&InpField> {
-        self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
+        self.parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+            .map(|parameter| &parameter.value)
     }
 
     /// The keyword as messages name it, such as `*BEAM SECTION`.
@@ -59,7 +62,8 @@ impl KeywordBlock {
     pub fn required(&self, name: &str, findings: &mut ImportFindings) -> Option<&InpField> {
         let found = self.parameter(name).filter(|value| !value.text.is_empty());
         if found.is_none() {
-            let finding = ImportFinding::new(self.at, self.label(), format!("needs the parameter {name}"));
+            let finding =
+                ImportFinding::new(self.at, self.label(), format!("needs the parameter {name}"));
             findings.error(finding);
         }
         found
@@ -70,10 +74,18 @@ impl KeywordBlock {
 ///
 /// # Errors
 /// The file itself cannot be read. Errors of included files are added to the findings.
-pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<KeywordBlock>> {
+pub fn read(
+    path: &Path,
+    open: OpenFile<'_>,
+    findings: &mut ImportFindings,
+) -> io::Result<Vec<KeywordBlock>> {
     let bytes = open(path)?;
     let includes = Includes::new(path, open, "*INCLUDE");
-    let mut reader = Reader { includes, blocks: Vec::new(), pending: None };
+    let mut reader = Reader {
+        includes,
+        blocks: Vec::new(),
+        pending: None,
+    };
     reader.file(path, &bytes, findings);
     Ok(reader.blocks)
 }
@@ -91,7 +103,11 @@ impl Reader<'_> {
         // comments may have any encoding; a replaced byte in a value causes an error when the value is read
         let text = String::from_utf8_lossy(bytes);
         for (index, line) in text.lines().enumerate() {
-            let at = FilePlace { file, line: index + 1, column: 1 };
+            let at = FilePlace {
+                file,
+                line: index + 1,
+                column: 1,
+            };
             let trimmed = line.trim();
             if trimmed.is_empty() || trimmed.starts_with("**") {
                 continue;
@@ -107,7 +123,8 @@ impl Reader<'_> {
             } else if let Some(block) = self.blocks.last_mut() {
                 block.data.push(fields);
             } else {
-                let finding = ImportFinding::new(at, "", "must follow a keyword, which begins with *");
+                let finding =
+                    ImportFinding::new(at, "", "must follow a keyword, which begins with *");
                 findings.error(finding.hint("is this an Abaqus input file?"));
                 break;
             }
@@ -141,8 +158,14 @@ impl Reader<'_> {
         for field in fields.filter(|field| !field.text.is_empty()) {
             let (name, value) = field.text.split_once('=').unwrap_or((&field.text, ""));
             let name: String = name.split_whitespace().collect();
-            let value = InpField { at: field.at, text: value.trim().trim_matches('"').to_owned() };
-            block.parameters.push(Parameter { name: name.to_uppercase(), value });
+            let value = InpField {
+                at: field.at,
+                text: value.trim().trim_matches('"').to_owned(),
+            };
+            block.parameters.push(Parameter {
+                name: name.to_uppercase(),
+                value,
+            });
         }
         if block.name == "INCLUDE" {
             self.include(&block, findings);
@@ -152,7 +175,9 @@ impl Reader<'_> {
     }
 
     fn include(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
-        let Some(name) = block.required("INPUT", findings) else { return };
+        let Some(name) = block.required("INPUT", findings) else {
+            return;
+        };
         if let Some((path, bytes)) = self.includes.open(&name.text, name.at, findings) {
             self.file(&path, &bytes, findings);
         }
@@ -171,7 +196,13 @@ fn divided(line: &str, at: FilePlace) -> Vec<InpField> {
     for part in parts {
         let blanks = part.chars().take_while(|c| c.is_whitespace()).count();
         let text = part.trim().to_owned();
-        fields.push(InpField { at: FilePlace { column: column + blanks, ..at }, text });
+        fields.push(InpField {
+            at: FilePlace {
+                column: column + blanks,
+                ..at
+            },
+            text,
+        });
         column += part.chars().count() + 1;
     }
     while fields.len() > 1 && fields.last().is_some_and(|field| field.text.is_empty()) {
@@ -191,13 +222,31 @@ mod tests {
         let open = |_: &Path| Ok(text.as_bytes().to_vec());
         let blocks = read(Path::new("a.inp"), &open, &mut findings).expect("a file");
         assert!(!findings.has_errors());
-        let [block] = blocks.as_slice() else { panic!("{blocks:?}") };
+        let [block] = blocks.as_slice() else {
+            panic!("{blocks:?}")
+        };
         assert_eq!(block.label(), "*BEAM SECTION");
-        assert_eq!(block.parameter("ELSET").map(|value| value.text.as_str()), Some("a, b"));
-        assert_eq!(block.parameter("SECTION").map(|value| value.at.line), Some(3));
-        let data: Vec<Vec<&str>> =
-            block.data.iter().map(|line| line.iter().map(|field| field.text.as_str()).collect()).collect();
+        assert_eq!(
+            block.parameter("ELSET").map(|value| value.text.as_str()),
+            Some("a, b")
+        );
+        assert_eq!(
+            block.parameter("SECTION").map(|value| value.at.line),
+            Some(3)
+        );
+        let data: Vec<Vec<&str>> = block
+            .data
+            .iter()
+            .map(|line| line.iter().map(|field| field.text.as_str()).collect())
+            .collect();
         assert_eq!(data, [vec!["0.1", "0.2"], vec!["0", "0", "-1"]]);
-        assert_eq!(block.data[0][1].at, FilePlace { file: 0, line: 4, column: 6 });
+        assert_eq!(
+            block.data[0][1].at,
+            FilePlace {
+                file: 0,
+                line: 4,
+                column: 6
+            }
+        );
     }
 }

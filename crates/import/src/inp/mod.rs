@@ -79,18 +79,25 @@ pub fn read_mesh(
 ) -> io::Result<ImportedStructure> {
     let model = model(path, open, omit, findings)?;
     if let Some(section) = model.sections.first() {
-        let finding =
-            ImportFinding::new(section.set.at, &section.label, "must not be in a file with --sections");
+        let finding = ImportFinding::new(
+            section.set.at,
+            &section.label,
+            "must not be in a file with --sections",
+        );
         findings.error(finding.hint("leave out --sections: the file has sections of its own"));
     }
     if findings.has_errors() {
         return Ok(empty);
     }
-    let mut mesh =
-        Mesh { group_words: ["element", "set of elements"], nodes: model.nodes.clone(), ..Mesh::default() };
+    let mut mesh = Mesh {
+        group_words: ["element", "set of elements"],
+        nodes: model.nodes.clone(),
+        ..Mesh::default()
+    };
     // each element is an entity of its own, and each set a group
     for (&number, element) in &model.elements {
-        if let (InpKind::Beam { .. } | InpKind::Truss, [a, b, ..]) = (element.kind, element.nodes.as_slice())
+        if let (InpKind::Beam { .. } | InpKind::Truss, [a, b, ..]) =
+            (element.kind, element.nodes.as_slice())
         {
             mesh.lines.insert(number, (number, [*a, *b], element.at));
         }

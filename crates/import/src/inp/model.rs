@@ -139,7 +139,11 @@ type Counts = BTreeMap<String, (FilePlace, usize)>;
 
 impl InpModel {
     /// Sorts the keywords of a file by type; `omit` names keywords and types of elements that are left out.
-    pub fn new(blocks: &[KeywordBlock], omit: Omissions<'_>, findings: &mut ImportFindings) -> InpModel {
+    pub fn new(
+        blocks: &[KeywordBlock],
+        omit: Omissions<'_>,
+        findings: &mut ImportFindings,
+    ) -> InpModel {
         let mut model = InpModel::default();
         let [mut left_out, mut unused, mut unknown] = [Counts::new(), Counts::new(), Counts::new()];
         let count = |counts: &mut Counts, name: &str, at: FilePlace| {
@@ -160,27 +164,45 @@ impl InpModel {
             }
         }
         for (name, (at, number)) in left_out {
-            findings.warn(ImportFinding::new(at, name, format!("is left out, {}", times(number))));
+            findings.warn(ImportFinding::new(
+                at,
+                name,
+                format!("is left out, {}", times(number)),
+            ));
         }
         for (name, (at, number)) in unused {
-            let message = format!("is left out, {}; it cannot change the stiffness", times(number));
+            let message = format!(
+                "is left out, {}; it cannot change the stiffness",
+                times(number)
+            );
             findings.warn(ImportFinding::new(at, name, message));
         }
         for (name, (at, number)) in unknown {
             let word = name.trim_start_matches('*');
             let hint = if role(word) == Some(KeywordRole::NoStiffness) {
-                format!("it cannot change the stiffness: --skip-unused leaves it out, or --skip \"{word}\"")
+                format!(
+                    "it cannot change the stiffness: --skip-unused leaves it out, or --skip \"{word}\""
+                )
             } else {
-                format!("{}; if it can be ignored, add --skip \"{word}\"", advice(word))
+                format!(
+                    "{}; if it can be ignored, add --skip \"{word}\"",
+                    advice(word)
+                )
             };
-            let finding = ImportFinding::new(at, name, format!("is not supported, {}", times(number)));
+            let finding =
+                ImportFinding::new(at, name, format!("is not supported, {}", times(number)));
             findings.error(finding.hint(hint));
         }
         model
     }
 
     /// Reads a keyword that defines part of the structure; returns false for any other.
-    fn take(&mut self, block: &KeywordBlock, omit: Omissions<'_>, findings: &mut ImportFindings) -> bool {
+    fn take(
+        &mut self,
+        block: &KeywordBlock,
+        omit: Omissions<'_>,
+        findings: &mut ImportFindings,
+    ) -> bool {
         match block.name.as_str() {
             "NODE" => self.read_nodes(block, findings),
             "NSET" => self.node_sets.read(block, "NSET", findings),
@@ -188,7 +210,12 @@ impl InpModel {
             "MATERIAL" => {
                 if let Some(name) = block.required("NAME", findings) {
                     let (name, at) = (name.text.clone(), block.at);
-                    self.materials.push(InpMaterial { name, at, elastic: None, density: None });
+                    self.materials.push(InpMaterial {
+                        name,
+                        at,
+                        elastic: None,
+                        density: None,
+                    });
                 }
             }
             "ELASTIC" | "DENSITY" => self.read_material(block, findings),
@@ -201,16 +228,23 @@ impl InpModel {
             "MPC" => self.read_mpc(block, findings),
             "RELEASE" => self.read_release(block, findings),
             "SPRING" => {
-                let dof =
-                    block.data.first().and_then(|line| whole(block, line, 0, "degree of freedom", findings));
-                let k = block.data.get(1).and_then(|line| positive(block, line, 0, "stiffness", findings));
+                let dof = block
+                    .data
+                    .first()
+                    .and_then(|line| whole(block, line, 0, "degree of freedom", findings));
+                let k = block
+                    .data
+                    .get(1)
+                    .and_then(|line| positive(block, line, 0, "stiffness", findings));
                 match (block.required("ELSET", findings), dof, k) {
                     (Some(set), Some(dof @ 1..=6), Some(k)) => {
-                        self.springs.push(SetValues { set: set.clone(), values: vec![dof as f64, k] });
+                        self.springs.push(SetValues {
+                            set: set.clone(),
+                            values: vec![dof as f64, k],
+                        });
                     }
                     _ => {
-                        let expected =
-                            "must have a degree of freedom from 1 to 6 and, in the next line, a stiffness";
+                        let expected = "must have a degree of freedom from 1 to 6 and, in the next line, a stiffness";
                         findings.error(ImportFinding::new(block.at, block.label(), expected));
                     }
                 }
@@ -222,7 +256,8 @@ impl InpModel {
                 if self.instances > 1 || !block.data.is_empty() {
                     let expected = "must be the only one, and must not be moved";
                     let hint = "write the model as a flat input file (without parts)";
-                    findings.error(ImportFinding::new(block.at, block.label(), expected).hint(hint));
+                    findings
+                        .error(ImportFinding::new(block.at, block.label(), expected).hint(hint));
                 }
             }
             _ => return false,
@@ -231,21 +266,31 @@ impl InpModel {
     }
 
     fn read_nodes(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
-        if let Some(system) =
-            block.parameter("SYSTEM").filter(|system| !system.text.eq_ignore_ascii_case("R"))
+        if let Some(system) = block
+            .parameter("SYSTEM")
+            .filter(|system| !system.text.eq_ignore_ascii_case("R"))
         {
-            let finding =
-                ImportFinding::new(system.at, "*NODE: SYSTEM", "must be R, rectangular coordinates");
+            let finding = ImportFinding::new(
+                system.at,
+                "*NODE: SYSTEM",
+                "must be R, rectangular coordinates",
+            );
             findings.error(finding.with_found(&system.text));
         }
         let set = block.parameter("NSET").map(|name| name.text.clone());
         for line in &block.data {
             let number = whole(block, line, 0, "node", findings);
             let at = vector(block, line, 1, ["x", "y", "z"], findings);
-            let (Some(number), Some(at)) = (number, at) else { continue };
+            let (Some(number), Some(at)) = (number, at) else {
+                continue;
+            };
             if self.nodes.insert(number, at).is_some() {
                 let finding = ImportFinding::new(line[0].at, "*NODE: node", "occurs twice");
-                findings.error(finding.with_found(number).hint("numbers of nodes must differ in all parts"));
+                findings.error(
+                    finding
+                        .with_found(number)
+                        .hint("numbers of nodes must differ in all parts"),
+                );
             }
             if let Some(set) = &set {
                 self.node_sets.add(set, number);
@@ -260,7 +305,9 @@ impl InpModel {
         unknown: &mut Counts,
         findings: &mut ImportFindings,
     ) {
-        let Some(word) = block.required("TYPE", findings) else { return };
+        let Some(word) = block.required("TYPE", findings) else {
+            return;
+        };
         let word = word.text.to_uppercase();
         let (kind, least, most) = match word.as_str() {
             "B31" | "B31H" => (InpKind::Beam { sheared: true }, 2, 3),
@@ -278,23 +325,36 @@ impl InpModel {
         };
         let set = block.parameter("ELSET").map(|name| name.text.clone());
         for line in &block.data {
-            let Some(number) = whole(block, line, 0, "element", findings) else { continue };
+            let Some(number) = whole(block, line, 0, "element", findings) else {
+                continue;
+            };
             let mut nodes = Vec::new();
             for index in 1..line.len().max(least + 1) {
                 nodes.extend(whole(block, line, index, "node", findings));
             }
             if nodes.len() > most {
                 let expected = format!("must have at most {most} nodes");
-                findings.error(ImportFinding::new(line[0].at, format!("element {number}"), expected));
+                findings.error(ImportFinding::new(
+                    line[0].at,
+                    format!("element {number}"),
+                    expected,
+                ));
             }
-            let element = InpElement { at: line[0].at, kind, nodes };
+            let element = InpElement {
+                at: line[0].at,
+                kind,
+                nodes,
+            };
             if element.nodes.len() < least {
                 continue;
             }
             if self.elements.insert(number, element).is_some() {
                 let finding = ImportFinding::new(line[0].at, "*ELEMENT: element", "occurs twice");
-                findings
-                    .error(finding.with_found(number).hint("numbers of elements must differ in all parts"));
+                findings.error(
+                    finding
+                        .with_found(number)
+                        .hint("numbers of elements must differ in all parts"),
+                );
             }
             if let Some(set) = &set {
                 self.element_sets.add(set, number);
@@ -309,19 +369,22 @@ impl InpModel {
             return;
         };
         let [line] = block.data.as_slice() else {
-            findings
-                .error(refuse("must have one data line").hint("properties must not depend on temperature"));
+            findings.error(
+                refuse("must have one data line").hint("properties must not depend on temperature"),
+            );
             return;
         };
         if block.name == "DENSITY" {
             material.density = positive(block, line, 0, "density", findings);
             return;
         }
-        if let Some(kind) =
-            block.parameter("TYPE").filter(|kind| !kind.text.to_uppercase().starts_with("ISO"))
+        if let Some(kind) = block
+            .parameter("TYPE")
+            .filter(|kind| !kind.text.to_uppercase().starts_with("ISO"))
         {
             findings.error(
-                ImportFinding::new(kind.at, "*ELASTIC: TYPE", "must be ISOTROPIC").with_found(&kind.text),
+                ImportFinding::new(kind.at, "*ELASTIC: TYPE", "must be ISOTROPIC")
+                    .with_found(&kind.text),
             );
             return;
         }
@@ -329,7 +392,8 @@ impl InpModel {
         let nu = real(block, line, 1, ("Poisson's ratio", Some(0.0)), findings);
         let (Some(e), Some(nu)) = (e, nu) else { return };
         if !(nu > -1.0 && nu <= 0.5) {
-            findings.error(refuse("must have a Poisson's ratio above -1 and up to 0.5").with_found(nu));
+            findings
+                .error(refuse("must have a Poisson's ratio above -1 and up to 0.5").with_found(nu));
             return;
         }
         material.elastic = Some([e, nu]);
@@ -340,7 +404,11 @@ impl InpModel {
         // K23 resists shear along the 2-axis, K13 along the 1-axis
         let along_2 = positive(block, line, 0, "K23", findings);
         let along_1 = positive(block, line, 1, "K13", findings);
-        match (self.sections.last_mut().filter(|section| section.is_beam), along_1, along_2) {
+        match (
+            self.sections.last_mut().filter(|section| section.is_beam),
+            along_1,
+            along_2,
+        ) {
             (Some(section), Some(along_1), Some(along_2)) => {
                 section.shear_stiffness = Some([along_1, along_2])
             }
@@ -356,21 +424,33 @@ impl InpModel {
     }
 
     fn read_mass(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
-        let Some(set) = block.required("ELSET", findings).cloned() else { return };
+        let Some(set) = block.required("ELSET", findings).cloned() else {
+            return;
+        };
         let line = block.data.first().map(Vec::as_slice).unwrap_or_default();
         if block.name == "MASS" {
             let mass = positive(block, line, 0, "mass", findings);
-            self.masses.extend(mass.map(|mass| SetValues { set, values: vec![mass] }));
+            self.masses.extend(mass.map(|mass| SetValues {
+                set,
+                values: vec![mass],
+            }));
             return;
         }
         let mut values = Vec::new();
-        for (index, name) in ["I11", "I22", "I33", "I12", "I13", "I23"].into_iter().enumerate() {
-            let Some(value) = real(block, line, index, (name, Some(0.0)), findings) else { return };
+        for (index, name) in ["I11", "I22", "I33", "I12", "I13", "I23"]
+            .into_iter()
+            .enumerate()
+        {
+            let Some(value) = real(block, line, index, (name, Some(0.0)), findings) else {
+                return;
+            };
             values.push(value);
         }
-        if values[..3].iter().any(|moment| *moment < 0.0) || values[3..].iter().any(|product| *product != 0.0)
+        if values[..3].iter().any(|moment| *moment < 0.0)
+            || values[3..].iter().any(|product| *product != 0.0)
         {
-            let expected = "must have moments of inertia that are not negative, and no products of inertia";
+            let expected =
+                "must have moments of inertia that are not negative, and no products of inertia";
             findings.error(ImportFinding::new(block.at, block.label(), expected));
             return;
         }
@@ -396,11 +476,16 @@ impl InpModel {
             return vec![number];
         }
         let expected = "refers to a set or number that does not exist";
-        findings.error(ImportFinding::new(target.at, about, expected).with_found(key_of(&target.text)));
+        findings
+            .error(ImportFinding::new(target.at, about, expected).with_found(key_of(&target.text)));
         Vec::new()
     }
 }
 
 fn times(number: usize) -> String {
-    if number == 1 { "once".to_owned() } else { format!("{number} times") }
+    if number == 1 {
+        "once".to_owned()
+    } else {
+        format!("{number} times")
+    }
 }

@@ -11,7 +11,9 @@ use super::model::{InpElement, InpKind, InpModel, Joint};
 use crate::axes::LocalAxes;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::links::{self, PartialLink};
-use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
+use crate::structure::{
+    ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure,
+};
 use fea::MemberKind;
 use formats::vector::{minus, parallel};
 
@@ -31,8 +33,13 @@ pub fn resolve(
     empty: ImportedStructure,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
-    let mut resolver =
-        Resolver { model, index: BTreeMap::new(), section_of: BTreeMap::new(), structure: empty, findings };
+    let mut resolver = Resolver {
+        model,
+        index: BTreeMap::new(),
+        section_of: BTreeMap::new(),
+        structure: empty,
+        findings,
+    };
     resolver.points();
     resolver.assign_sections();
     resolver.members();
@@ -49,7 +56,11 @@ impl Resolver<'_, '_> {
         let model = self.model;
         let mut used: BTreeSet<u64> = BTreeSet::new();
         for element in model.elements.values() {
-            let count = if matches!(element.kind, InpKind::Beam { .. } | InpKind::Truss) { 2 } else { 1 };
+            let count = if matches!(element.kind, InpKind::Beam { .. } | InpKind::Truss) {
+                2
+            } else {
+                1
+            };
             used.extend(element.nodes.iter().take(count));
         }
         for joint in &model.joints {
@@ -66,7 +77,10 @@ impl Resolver<'_, '_> {
         for number in used {
             if let Some(at) = model.nodes.get(&number) {
                 self.index.insert(number, self.structure.points.len());
-                self.structure.points.push(ImportedPoint { name: format!("node {number}"), at: *at });
+                self.structure.points.push(ImportedPoint {
+                    name: format!("node {number}"),
+                    at: *at,
+                });
             }
         }
     }
@@ -90,20 +104,34 @@ impl Resolver<'_, '_> {
             }
         }
         if count == 0 {
-            let at = FilePlace { file: 0, line: 1, column: 1 };
+            let at = FilePlace {
+                file: 0,
+                line: 1,
+                column: 1,
+            };
             let finding = ImportFinding::new(at, "", "has no member");
-            self.findings.error(finding.hint("supported members are B31, B33 and T3D2"));
+            self.findings
+                .error(finding.hint("supported members are B31, B33 and T3D2"));
         }
     }
 
     fn member(&mut self, number: u64, element: &InpElement) -> Option<()> {
         let about = format!("element {number}");
-        let &[a, b, ..] = element.nodes.as_slice() else { return None };
-        let (a, b) = (self.point(a, element.at, &about), self.point(b, element.at, &about));
+        let &[a, b, ..] = element.nodes.as_slice() else {
+            return None;
+        };
+        let (a, b) = (
+            self.point(a, element.at, &about),
+            self.point(b, element.at, &about),
+        );
         let (a, b) = (a?, b?);
         let along = minus(self.structure.points[b].at, self.structure.points[a].at);
         if along == [0.0; 3] {
-            self.findings.error(ImportFinding::new(element.at, about, "must have a positive length"));
+            self.findings.error(ImportFinding::new(
+                element.at,
+                about,
+                "must have a positive length",
+            ));
             return None;
         }
         let Some(&[section, place]) = self.section_of.get(&number) else {
@@ -116,11 +144,16 @@ impl Resolver<'_, '_> {
         let is_beam = matches!(element.kind, InpKind::Beam { .. });
         if given.is_beam != is_beam {
             let expected = "must have *BEAM SECTION for beams and *SOLID SECTION for trusses";
-            self.findings.error(ImportFinding::new(element.at, about, expected));
+            self.findings
+                .error(ImportFinding::new(element.at, about, expected));
             return None;
         }
         let (n1, product) = (given.n1, given.numbers);
-        let orientation = if is_beam { Some(self.orientation(element, n1, along, &about)?) } else { None };
+        let orientation = if is_beam {
+            Some(self.orientation(element, n1, along, &about)?)
+        } else {
+            None
+        };
         let orientation = orientation.map(|n1| {
             let turn = 0.5 * (2.0 * product.product).atan2(product.iz - product.iy);
             match LocalAxes::new(along, n1) {
@@ -136,7 +169,11 @@ impl Resolver<'_, '_> {
         self.structure.members.push(ImportedMember {
             id: number,
             points: [a, b],
-            kind: if is_beam { MemberKind::Beam } else { MemberKind::Truss },
+            kind: if is_beam {
+                MemberKind::Beam
+            } else {
+                MemberKind::Truss
+            },
             section,
             section_b: None,
             orientation,
@@ -158,8 +195,11 @@ impl Resolver<'_, '_> {
             [first, _, third] => match (self.model.nodes.get(first), self.model.nodes.get(third)) {
                 (Some(first), Some(third)) => minus(*third, *first),
                 _ => {
-                    let finding =
-                        ImportFinding::new(element.at, about, "refers to a node that does not exist");
+                    let finding = ImportFinding::new(
+                        element.at,
+                        about,
+                        "refers to a node that does not exist",
+                    );
                     self.findings.error(finding.with_found(third));
                     return None;
                 }
@@ -167,8 +207,11 @@ impl Resolver<'_, '_> {
             _ => n1,
         };
         if parallel(direction, along) {
-            let finding =
-                ImportFinding::new(element.at, about, "its n1 direction must not be zero or along it");
+            let finding = ImportFinding::new(
+                element.at,
+                about,
+                "its n1 direction must not be zero or along it",
+            );
             let hint = "state n1 in the second data line of its section; the default is 0, 0, -1";
             self.findings.error(finding.hint(hint));
             return None;
@@ -187,7 +230,11 @@ impl Resolver<'_, '_> {
                 self.findings,
             );
             let numbers: BTreeSet<u64> = numbers.into_iter().collect();
-            let beams = self.structure.members.iter_mut().filter(|member| member.kind == MemberKind::Beam);
+            let beams = self
+                .structure
+                .members
+                .iter_mut()
+                .filter(|member| member.kind == MemberKind::Beam);
             for member in beams.filter(|member| numbers.contains(&member.id)) {
                 for (dof, released) in release.release.iter().enumerate() {
                     member.releases[release.end][dof] |= released;
@@ -201,15 +248,27 @@ impl Resolver<'_, '_> {
             .iter()
             .filter(|member| {
                 let place = self.section_of.get(&member.id).map(|[_, place]| *place);
-                let is_turned = place.is_some_and(|place| model.sections[place].numbers.product != 0.0);
-                is_turned && member.releases.iter().any(|release| release[4] != release[5])
+                let is_turned =
+                    place.is_some_and(|place| model.sections[place].numbers.product != 0.0);
+                is_turned
+                    && member
+                        .releases
+                        .iter()
+                        .any(|release| release[4] != release[5])
             })
             .map(|member| member.id)
             .collect();
         for number in turned {
-            let at = model.elements.get(&number).map_or(FilePlace::default(), |element| element.at);
+            let at = model
+                .elements
+                .get(&number)
+                .map_or(FilePlace::default(), |element| element.at);
             let expected = "must be released in both planes or none, because its section has I12";
-            self.findings.error(ImportFinding::new(at, format!("element {number}"), expected));
+            self.findings.error(ImportFinding::new(
+                at,
+                format!("element {number}"),
+                expected,
+            ));
         }
     }
 
@@ -235,22 +294,44 @@ impl Resolver<'_, '_> {
     /// Points of the elements of one kind in a set.
     fn points_of(&mut self, set: &InpField, kind: InpKind, about: &str) -> Vec<usize> {
         let model = self.model;
-        let numbers = InpModel::targets(&model.element_sets, &model.elements, set, about, self.findings);
-        let elements = numbers.iter().filter_map(|number| model.elements.get(number));
+        let numbers = InpModel::targets(
+            &model.element_sets,
+            &model.elements,
+            set,
+            about,
+            self.findings,
+        );
+        let elements = numbers
+            .iter()
+            .filter_map(|number| model.elements.get(number));
         let of_kind: Vec<&InpElement> = elements.filter(|element| element.kind == kind).collect();
-        of_kind.iter().filter_map(|element| self.point(*element.nodes.first()?, element.at, about)).collect()
+        of_kind
+            .iter()
+            .filter_map(|element| self.point(*element.nodes.first()?, element.at, about))
+            .collect()
     }
 
     fn springs_and_masses(&mut self) {
         let model = self.model;
         for spring in &model.springs {
-            let &[dof, k] = spring.values.as_slice() else { continue };
+            let &[dof, k] = spring.values.as_slice() else {
+                continue;
+            };
             for point in self.points_of(&spring.set, InpKind::Spring, "*SPRING") {
-                self.structure.springs.push(ImportedSpring { point, dof: dof as usize - 1, k });
+                self.structure.springs.push(ImportedSpring {
+                    point,
+                    dof: dof as usize - 1,
+                    k,
+                });
             }
         }
         let mut masses: BTreeMap<usize, ImportedMass> = BTreeMap::new();
-        let empty = |point| ImportedMass { point, mass: 0.0, inertia: [0.0; 3], offset: [0.0; 3] };
+        let empty = |point| ImportedMass {
+            point,
+            mass: 0.0,
+            inertia: [0.0; 3],
+            offset: [0.0; 3],
+        };
         for mass in &model.masses {
             let own = mass.values.first().copied().unwrap_or_default();
             for point in self.points_of(&mass.set, InpKind::Mass, "*MASS") {
@@ -260,15 +341,27 @@ impl Resolver<'_, '_> {
         for inertia in &model.inertias {
             for point in self.points_of(&inertia.set, InpKind::Rotary, "*ROTARY INERTIA") {
                 let entry = masses.entry(point).or_insert(empty(point));
-                entry.inertia.iter_mut().zip(&inertia.values).for_each(|(sum, own)| *sum += own);
+                entry
+                    .inertia
+                    .iter_mut()
+                    .zip(&inertia.values)
+                    .for_each(|(sum, own)| *sum += own);
             }
         }
         if masses
             .values()
             .any(|mass| !mass.mass.is_finite() || mass.inertia.iter().any(|part| !part.is_finite()))
         {
-            let at = FilePlace { file: 0, line: 1, column: 1 };
-            self.findings.error(ImportFinding::new(at, "*MASS", "must have sums within double precision"));
+            let at = FilePlace {
+                file: 0,
+                line: 1,
+                column: 1,
+            };
+            self.findings.error(ImportFinding::new(
+                at,
+                "*MASS",
+                "must have sums within double precision",
+            ));
         }
         self.structure.masses.extend(masses.into_values());
     }
@@ -278,26 +371,40 @@ impl Resolver<'_, '_> {
         let model = self.model;
         let mut pinned = Vec::new();
         for request in &model.joints {
-            let leaders =
-                InpModel::targets(&model.node_sets, &model.nodes, &request.leader, "joint", self.findings);
+            let leaders = InpModel::targets(
+                &model.node_sets,
+                &model.nodes,
+                &request.leader,
+                "joint",
+                self.findings,
+            );
             let &[leader] = leaders.as_slice() else {
                 let expected = "must be joined to one node";
-                self.findings.error(ImportFinding::new(request.leader.at, "joint", expected));
+                self.findings
+                    .error(ImportFinding::new(request.leader.at, "joint", expected));
                 continue;
             };
-            let followers =
-                InpModel::targets(&model.node_sets, &model.nodes, &request.followers, "joint", self.findings);
+            let followers = InpModel::targets(
+                &model.node_sets,
+                &model.nodes,
+                &request.followers,
+                "joint",
+                self.findings,
+            );
             for follower in followers.into_iter().filter(|follower| *follower != leader) {
                 let about = format!("joint of node {follower}");
                 let from = self.point(leader, request.leader.at, &about);
                 let to = self.point(follower, request.followers.at, &about);
-                let (Some(from), Some(to)) = (from, to) else { continue };
+                let (Some(from), Some(to)) = (from, to) else {
+                    continue;
+                };
                 let at = request.followers.at;
                 let coincide = self.structure.points[from].at == self.structure.points[to].at;
                 match request.joint {
                     Joint::Tied if !coincide => {
                         let finding = ImportFinding::new(at, about, "must join nodes at one place");
-                        self.findings.error(finding.hint("*MPC BEAM joins nodes at a distance"));
+                        self.findings
+                            .error(finding.hint("*MPC BEAM joins nodes at a distance"));
                     }
                     Joint::Rigid | Joint::Tied => self.structure.links.push([from, to]),
                     Joint::Pinned => {
@@ -311,9 +418,9 @@ impl Resolver<'_, '_> {
         for (link, at, about) in pinned {
             if !links::add(&mut self.structure, link, &all) {
                 let expected = "must be rigid, or be replaceable by a hinge or a support";
-                let hint =
-                    "a hinge has one beam at the node that follows; a support has a fixed node that leads";
-                self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
+                let hint = "a hinge has one beam at the node that follows; a support has a fixed node that leads";
+                self.findings
+                    .error(ImportFinding::new(at, about, expected).hint(hint));
             }
         }
     }
@@ -325,16 +432,28 @@ impl Resolver<'_, '_> {
         for (index, point) in structure.points.iter().enumerate() {
             structure.point_sets.push((point.name.clone(), vec![index]));
         }
-        let members: BTreeMap<u64, usize> =
-            structure.members.iter().enumerate().map(|(index, member)| (member.id, index)).collect();
+        let members: BTreeMap<u64, usize> = structure
+            .members
+            .iter()
+            .enumerate()
+            .map(|(index, member)| (member.id, index))
+            .collect();
         let indices = |numbers: Vec<u64>, of: &BTreeMap<u64, usize>| {
-            numbers.iter().filter_map(|number| of.get(number).copied()).collect::<Vec<usize>>()
+            numbers
+                .iter()
+                .filter_map(|number| of.get(number).copied())
+                .collect::<Vec<usize>>()
         };
         for set in model.node_sets.iter() {
-            structure.point_sets.push((set.name.clone(), indices(set.numbers(&self.index), &self.index)));
+            structure.point_sets.push((
+                set.name.clone(),
+                indices(set.numbers(&self.index), &self.index),
+            ));
         }
         for set in model.element_sets.iter() {
-            structure.cell_sets.push((set.name.clone(), indices(set.numbers(&members), &members)));
+            structure
+                .cell_sets
+                .push((set.name.clone(), indices(set.numbers(&members), &members)));
         }
         structure.point_sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets.retain(|(_, set)| !set.is_empty());

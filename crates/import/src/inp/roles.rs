@@ -91,7 +91,9 @@ pub fn role(name: &str) -> Option<KeywordRole> {
     } else if REQUESTS.contains(&name) {
         Some(KeywordRole::Request)
     } else {
-        NO_STIFFNESS.contains(&name).then_some(KeywordRole::NoStiffness)
+        NO_STIFFNESS
+            .contains(&name)
+            .then_some(KeywordRole::NoStiffness)
     }
 }
 
@@ -105,7 +107,9 @@ pub fn advice(name: &str) -> &'static str {
         "NORMAL" | "ORIENTATION" | "SYSTEM" | "TRANSFORM" => {
             "coordinates and directions are those of the global axes"
         }
-        "SHELL SECTION" | "SHELL GENERAL SECTION" | "MEMBRANE SECTION" => "members have *BEAM SECTION",
+        "SHELL SECTION" | "SHELL GENERAL SECTION" | "MEMBRANE SECTION" => {
+            "members have *BEAM SECTION"
+        }
         "CONNECTOR SECTION" | "CONNECTOR BEHAVIOR" | "CONNECTOR ELASTICITY" => {
             "supported springs are SPRING1"
         }

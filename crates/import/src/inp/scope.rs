@@ -17,7 +17,9 @@ pub fn with_instances(blocks: &mut [KeywordBlock]) {
         let block = blocks.iter().find(|block| block.name == keyword)?;
         block.parameter("NAME").map(|name| name.text.clone())
     };
-    let Some(instance) = name_of("INSTANCE").or_else(|| name_of("PART")) else { return };
+    let Some(instance) = name_of("INSTANCE").or_else(|| name_of("PART")) else {
+        return;
+    };
     let rename = |field: &mut InpField| {
         if !field.text.is_empty() && number_of(&field.text).is_none() {
             field.text = format!("{instance}.{}", field.text);
@@ -33,7 +35,10 @@ pub fn with_instances(blocks: &mut [KeywordBlock]) {
         if !inside {
             continue;
         }
-        let named = block.parameters.iter_mut().filter(|parameter| NAMES.contains(&parameter.name.as_str()));
+        let named = block
+            .parameters
+            .iter_mut()
+            .filter(|parameter| NAMES.contains(&parameter.name.as_str()));
         named.for_each(|parameter| rename(&mut parameter.value));
         let places = match block.name.as_str() {
             "NSET" | "ELSET" => 0..usize::MAX,
@@ -42,7 +47,10 @@ pub fn with_instances(blocks: &mut [KeywordBlock]) {
             _ => continue,
         };
         for line in &mut block.data {
-            let fields = line.iter_mut().enumerate().filter(|(index, _)| places.contains(index));
+            let fields = line
+                .iter_mut()
+                .enumerate()
+                .filter(|(index, _)| places.contains(index));
             fields.for_each(|(_, field)| rename(field));
         }
     }

@@ -64,8 +64,15 @@ pub fn solid(block: &KeywordBlock, findings: &mut ImportFindings) -> Option<InpS
     let material = block.required("MATERIAL", findings)?.clone();
     let none = Vec::new();
     let line = block.data.first().unwrap_or(&none);
-    let area = if line.is_empty() { 1.0 } else { positive(block, line, 0, "area", findings)? };
-    let numbers = SectionNumbers { area, ..SectionNumbers::default() };
+    let area = if line.is_empty() {
+        1.0
+    } else {
+        positive(block, line, 0, "area", findings)?
+    };
+    let numbers = SectionNumbers {
+        area,
+        ..SectionNumbers::default()
+    };
     Some(InpSection {
         set,
         label: block.label(),
@@ -78,7 +85,11 @@ pub fn solid(block: &KeywordBlock, findings: &mut ImportFindings) -> Option<InpS
 }
 
 /// Reads *BEAM SECTION, or *BEAM GENERAL SECTION if `general` is set, whose section and moduli are in its data lines.
-pub fn beam(block: &KeywordBlock, general: bool, findings: &mut ImportFindings) -> Option<InpSection> {
+pub fn beam(
+    block: &KeywordBlock,
+    general: bool,
+    findings: &mut ImportFindings,
+) -> Option<InpSection> {
     let set = block.required("ELSET", findings)?.clone();
     let shape = match block.parameter("SECTION") {
         Some(shape) => shape.text.to_uppercase(),
@@ -105,7 +116,13 @@ pub fn beam(block: &KeywordBlock, general: bool, findings: &mut ImportFindings) 
         let g = positive(block, line(2), 1, "G", findings);
         let density = match block.parameter("DENSITY") {
             None => Some(0.0),
-            Some(field) => real(block, std::slice::from_ref(field), 0, ("DENSITY", None), findings),
+            Some(field) => real(
+                block,
+                std::slice::from_ref(field),
+                0,
+                ("DENSITY", None),
+                findings,
+            ),
         };
         MaterialOf::Own([e?, g?, density.filter(|density| *density >= 0.0)?])
     } else {
@@ -136,10 +153,21 @@ fn general_numbers(
     let (area, iy, iz, product, j) = (area?, iy?, iz?, product?, j?);
     if product * product >= iy * iz {
         let expected = "must be below the root of I11 I22 in magnitude";
-        findings.error(ImportFinding::new(block.at, format!("{}: I12", block.label()), expected));
+        findings.error(ImportFinding::new(
+            block.at,
+            format!("{}: I12", block.label()),
+            expected,
+        ));
         return None;
     }
-    Some(SectionNumbers { area, iy, iz, product, j, k: 1.0 })
+    Some(SectionNumbers {
+        area,
+        iy,
+        iz,
+        product,
+        j,
+        k: 1.0,
+    })
 }
 
 /// Computes the numbers of a shape from its dimensions.
@@ -162,8 +190,14 @@ fn shape_numbers(
                 }
                 _ => "known: RECT, CIRC, PIPE, BOX, I, and GENERAL in *BEAM GENERAL SECTION",
             };
-            let at = block.parameter("SECTION").map_or(block.at, |field| field.at);
-            let finding = ImportFinding::new(at, format!("{}: SECTION", block.label()), "is not supported");
+            let at = block
+                .parameter("SECTION")
+                .map_or(block.at, |field| field.at);
+            let finding = ImportFinding::new(
+                at,
+                format!("{}: SECTION", block.label()),
+                "is not supported",
+            );
             findings.error(finding.with_found(shape).hint(hint));
             return None;
         }
@@ -199,14 +233,33 @@ fn shape_numbers(
                 return None;
             }
             // the web of the other drawing is along y
-            (section_properties("I", &[h, b1, b2, t3, t1, t2]), 0.44, true)
+            (
+                section_properties("I", &[h, b1, b2, t3, t1, t2]),
+                0.44,
+                true,
+            )
         }
         _ => return None,
     };
     let Ok(found) = found else {
-        refuse("dimensions", "must form a section", "the dimensions leave no space between the walls");
+        refuse(
+            "dimensions",
+            "must form a section",
+            "the dimensions leave no space between the walls",
+        );
         return None;
     };
-    let [iz, iy] = if is_turned { [found.i2, found.i1] } else { [found.i1, found.i2] };
-    Some(SectionNumbers { area: found.area, iy, iz, product: 0.0, j: found.j, k })
+    let [iz, iy] = if is_turned {
+        [found.i2, found.i1]
+    } else {
+        [found.i1, found.i2]
+    };
+    Some(SectionNumbers {
+        area: found.area,
+        iy,
+        iz,
+        product: 0.0,
+        j: found.j,
+        k,
+    })
 }

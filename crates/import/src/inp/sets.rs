@@ -54,19 +54,28 @@ impl InpSets {
 
     /// Reads *NSET or *ELSET, of which `parameter` is the name of the set.
     pub fn read(&mut self, block: &KeywordBlock, parameter: &str, findings: &mut ImportFindings) {
-        let Some(name) = block.required(parameter, findings).map(|name| name.text.clone()) else { return };
+        let Some(name) = block
+            .required(parameter, findings)
+            .map(|name| name.text.clone())
+        else {
+            return;
+        };
         let generates = block.parameter("GENERATE").is_some();
         for line in &block.data {
             if self.entries > MOST_ENTRIES {
-                let expected = format!("must have at most {MOST_ENTRIES} entries in all sets together");
+                let expected =
+                    format!("must have at most {MOST_ENTRIES} entries in all sets together");
                 findings.error(ImportFinding::new(block.at, block.label(), expected));
                 return;
             }
             if generates {
                 let first = whole(block, line, 0, "first number", findings);
                 let last = whole(block, line, 1, "last number", findings);
-                let step =
-                    if line.len() > 2 { whole(block, line, 2, "increment", findings) } else { Some(1) };
+                let step = if line.len() > 2 {
+                    whole(block, line, 2, "increment", findings)
+                } else {
+                    Some(1)
+                };
                 if let (Some(first), Some(last), Some(step)) = (first, last, step) {
                     self.add_range(&name, [first, last, step]);
                 }
@@ -87,7 +96,10 @@ impl InpSets {
             }
         }
         if block.data.is_empty() {
-            self.sets.entry(key_of(&name)).or_insert(InpSet { name, entries: BTreeSet::new() });
+            self.sets.entry(key_of(&name)).or_insert(InpSet {
+                name,
+                entries: BTreeSet::new(),
+            });
         }
     }
 }

@@ -33,7 +33,11 @@ pub fn field<'b>(
     let found = line.get(index).filter(|field| !field.text.is_empty());
     if found.is_none() {
         let at = line.first().map_or(block.at, |field| field.at);
-        findings.error(ImportFinding::new(at, about(block, what), "is missing in this line"));
+        findings.error(ImportFinding::new(
+            at,
+            about(block, what),
+            "is missing in this line",
+        ));
     }
     found
 }
@@ -49,7 +53,11 @@ pub fn whole(
     let field = field(block, line, index, what, findings)?;
     let value = number_of(&field.text).filter(|value| *value > 0);
     if value.is_none() {
-        let finding = ImportFinding::new(field.at, about(block, what), "must be a whole number above 0");
+        let finding = ImportFinding::new(
+            field.at,
+            about(block, what),
+            "must be a whole number above 0",
+        );
         findings.error(finding.with_found(ascii(&field.text)));
     }
     value
@@ -63,11 +71,18 @@ pub fn real(
     (what, default): (&str, Option<f64>),
     findings: &mut ImportFindings,
 ) -> Option<f64> {
-    if let (None | Some(""), Some(default)) = (line.get(index).map(|field| field.text.as_str()), default) {
+    if let (None | Some(""), Some(default)) =
+        (line.get(index).map(|field| field.text.as_str()), default)
+    {
         return Some(default);
     }
     let field = field(block, line, index, what, findings)?;
-    let value = field.text.replace(['d', 'D'], "e").parse::<f64>().ok().filter(|value| value.is_finite());
+    let value = field
+        .text
+        .replace(['d', 'D'], "e")
+        .parse::<f64>()
+        .ok()
+        .filter(|value| value.is_finite());
     let [least, most] = MAGNITUDES;
     let expected = match value {
         None => "must be a finite number".to_owned(),
@@ -90,7 +105,9 @@ pub fn positive(
     let value = real(block, line, index, (what, None), findings)?;
     if value <= 0.0 {
         let at = line.get(index).map_or(block.at, |field| field.at);
-        findings.error(ImportFinding::new(at, about(block, what), "must be positive").with_found(value));
+        findings.error(
+            ImportFinding::new(at, about(block, what), "must be positive").with_found(value),
+        );
     }
     (value > 0.0).then_some(value)
 }

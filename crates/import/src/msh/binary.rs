@@ -13,7 +13,11 @@ use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::text::fault::number;
 
 /// The position of all errors of a binary mesh, whose lines have no meaning.
-const WHOLE_FILE: FilePlace = FilePlace { file: 0, line: 0, column: 0 };
+const WHOLE_FILE: FilePlace = FilePlace {
+    file: 0,
+    line: 0,
+    column: 0,
+};
 
 /// Why a section could not be read to its end.
 struct Broken {
@@ -32,12 +36,18 @@ struct Bytes<'b> {
 
 impl<'b> Bytes<'b> {
     fn broken(&self, expected: impl Into<String>) -> Broken {
-        Broken { expected: expected.into(), byte: self.at }
+        Broken {
+            expected: expected.into(),
+            byte: self.at,
+        }
     }
 
     fn take<const N: usize>(&mut self) -> Result<[u8; N], Broken> {
         let end = self.at.saturating_add(N);
-        let part = self.all.get(self.at..end).and_then(|part| <[u8; N]>::try_from(part).ok());
+        let part = self
+            .all
+            .get(self.at..end)
+            .and_then(|part| <[u8; N]>::try_from(part).ok());
         let mut part = part.ok_or_else(|| self.broken("ends too early"))?;
         self.at = end;
         if self.is_big {
@@ -74,13 +84,19 @@ impl<'b> Bytes<'b> {
             return Ok(value);
         }
         self.at -= 8;
-        Err(self.broken(format!("must have finite coordinates, at most {} in magnitude", number(LARGEST))))
+        Err(self.broken(format!(
+            "must have finite coordinates, at most {} in magnitude",
+            number(LARGEST)
+        )))
     }
 
     /// The rest of a line of text, without its end.
     fn line(&mut self) -> Result<&'b str, Broken> {
         let rest = self.all.get(self.at..).unwrap_or_default();
-        let length = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+        let length = rest
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .unwrap_or(rest.len());
         let line = std::str::from_utf8(&rest[..length]).map_err(|_| self.broken("must be text"))?;
         self.at = (self.at + length + 1).min(self.all.len());
         Ok(line.trim())
@@ -89,15 +105,19 @@ impl<'b> Bytes<'b> {
     fn count(&mut self) -> Result<u64, Broken> {
         let before = self.at;
         let line = self.line()?;
-        line.parse()
-            .map_err(|_| Broken { expected: "must have its number of entries".to_owned(), byte: before })
+        line.parse().map_err(|_| Broken {
+            expected: "must have its number of entries".to_owned(),
+            byte: before,
+        })
     }
 
     /// The bytes up to the end of the section `name`, which the cursor passes.
     fn up_to_end(&mut self, name: &str) -> Result<&'b [u8], Broken> {
         let mark = format!("$End{name}");
         let rest = self.all.get(self.at..).unwrap_or_default();
-        let found = rest.windows(mark.len()).position(|window| window == mark.as_bytes());
+        let found = rest
+            .windows(mark.len())
+            .position(|window| window == mark.as_bytes());
         let length = found.ok_or_else(|| self.broken("has no end"))?;
         self.at += length;
         self.line()?;
@@ -107,7 +127,11 @@ impl<'b> Bytes<'b> {
 
 /// Reads a mesh and adds its errors to the findings.
 pub fn read(mesh: &mut Mesh, all: &[u8], version: MeshVersion, findings: &mut ImportFindings) {
-    let mut bytes = Bytes { all, at: 0, is_big: false };
+    let mut bytes = Bytes {
+        all,
+        at: 0,
+        is_big: false,
+    };
     let mut seen: Vec<String> = Vec::new();
     while bytes.at < all.len() {
         let name = match bytes.line() {
@@ -182,7 +206,10 @@ fn section(
     let rest = bytes.up_to_end(name)?;
     let is_read = ["MeshFormat", "Entities", "Nodes", "Elements"].contains(&name);
     if is_read && rest.iter().any(|byte| !byte.is_ascii_whitespace()) {
-        return Err(Broken { expected: "has more bytes than its entries".to_owned(), byte: after });
+        return Err(Broken {
+            expected: "has more bytes than its entries".to_owned(),
+            byte: after,
+        });
     }
     Ok(())
 }
@@ -204,27 +231,41 @@ fn entities(mesh: &mut Mesh, bytes: &mut Bytes<'_>) -> Result<(), Broken> {
                 }
             }
             if mesh.groups.insert((dimension, tag), list).is_some() {
-                return Err(bytes.broken(format!("has entity {tag} of dimension {dimension} twice")));
+                return Err(
+                    bytes.broken(format!("has entity {tag} of dimension {dimension} twice"))
+                );
             }
         }
     }
     Ok(())
 }
 
-fn nodes(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindings) -> Result<(), Broken> {
+fn nodes(
+    mesh: &mut Mesh,
+    bytes: &mut Bytes<'_>,
+    findings: &mut ImportFindings,
+) -> Result<(), Broken> {
     let blocks = bytes.size()?;
     bytes.skip(24)?;
     for _ in 0..blocks {
         let dimension = bytes.tag()?;
         let entity = bytes.tag()?;
-        let parameters = if bytes.int()? == 0 { 0 } else { dimension.min(3) as usize };
+        let parameters = if bytes.int()? == 0 {
+            0
+        } else {
+            dimension.min(3) as usize
+        };
         let count = bytes.size()?;
         let mut tags = Vec::new();
         for _ in 0..count {
             tags.push(bytes.size()?);
         }
         for tag in tags {
-            let place = [bytes.coordinate()?, bytes.coordinate()?, bytes.coordinate()?];
+            let place = [
+                bytes.coordinate()?,
+                bytes.coordinate()?,
+                bytes.coordinate()?,
+            ];
             bytes.skip(8 * parameters)?;
             mesh.add_node(tag, place, WHOLE_FILE, findings);
             if dimension == 0 {
@@ -235,7 +276,11 @@ fn nodes(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindings) 
     Ok(())
 }
 
-fn elements(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindings) -> Result<(), Broken> {
+fn elements(
+    mesh: &mut Mesh,
+    bytes: &mut Bytes<'_>,
+    findings: &mut ImportFindings,
+) -> Result<(), Broken> {
     let blocks = bytes.size()?;
     bytes.skip(24)?;
     let mut others = OtherElements::new();
@@ -266,17 +311,29 @@ fn elements(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFinding
     Ok(())
 }
 
-fn nodes_2(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindings) -> Result<(), Broken> {
+fn nodes_2(
+    mesh: &mut Mesh,
+    bytes: &mut Bytes<'_>,
+    findings: &mut ImportFindings,
+) -> Result<(), Broken> {
     for _ in 0..bytes.count()? {
         let tag = bytes.tag()?;
-        let place = [bytes.coordinate()?, bytes.coordinate()?, bytes.coordinate()?];
+        let place = [
+            bytes.coordinate()?,
+            bytes.coordinate()?,
+            bytes.coordinate()?,
+        ];
         mesh.add_node(tag, place, WHOLE_FILE, findings);
     }
     Ok(())
 }
 
 /// Elements of format 2 are in blocks of one type and number of tags.
-fn elements_2(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindings) -> Result<(), Broken> {
+fn elements_2(
+    mesh: &mut Mesh,
+    bytes: &mut Bytes<'_>,
+    findings: &mut ImportFindings,
+) -> Result<(), Broken> {
     let count = bytes.count()?;
     let mut collector = ElementCollector::default();
     let mut read = 0;
@@ -302,7 +359,14 @@ fn elements_2(mesh: &mut Mesh, bytes: &mut Bytes<'_>, findings: &mut ImportFindi
                 nodes.push(bytes.tag()?);
             }
             let [group, entity] = labels;
-            let element = Element2 { tag, kind, group, entity, nodes: &nodes, at: WHOLE_FILE };
+            let element = Element2 {
+                tag,
+                kind,
+                group,
+                entity,
+                nodes: &nodes,
+                at: WHOLE_FILE,
+            };
             collector.add(mesh, element, findings);
         }
         read += follow;

@@ -24,13 +24,21 @@ pub enum MeshVersion {
 /// Reads the header of a mesh; returns `None`, with an error, if its format cannot be read. `text` may have any
 /// characters in place of binary numbers after the second line.
 pub fn format(text: &str, findings: &mut ImportFindings) -> Option<MeshFormat> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let at = |line: usize| FilePlace { file: 0, line: line + 1, column: 1 };
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| !line.trim().is_empty());
+    let at = |line: usize| FilePlace {
+        file: 0,
+        line: line + 1,
+        column: 1,
+    };
     let first = lines.next();
     if first.is_none_or(|(_, line)| line.trim() != "$MeshFormat") {
         let line = first.map_or(0, |(line, _)| line);
         findings.error(
-            ImportFinding::new(at(line), "", "must begin with $MeshFormat").hint("is this a gmsh mesh?"),
+            ImportFinding::new(at(line), "", "must begin with $MeshFormat")
+                .hint("is this a gmsh mesh?"),
         );
         return None;
     }
@@ -49,9 +57,21 @@ pub fn format(text: &str, findings: &mut ImportFindings) -> Option<MeshFormat> {
         None => return refuse(known, "nothing"),
     };
     match (words.get(1), words.get(2)) {
-        (Some(&"0"), _) => Some(MeshFormat { version, binary: false }),
-        (Some(&"1"), Some(&"8")) => Some(MeshFormat { version, binary: true }),
-        (Some(&"1"), size) => refuse("must have real numbers of 8 bytes", size.unwrap_or(&"nothing")),
-        (kind, _) => refuse("must be 0 for text or 1 for binary numbers", kind.unwrap_or(&"nothing")),
+        (Some(&"0"), _) => Some(MeshFormat {
+            version,
+            binary: false,
+        }),
+        (Some(&"1"), Some(&"8")) => Some(MeshFormat {
+            version,
+            binary: true,
+        }),
+        (Some(&"1"), size) => refuse(
+            "must have real numbers of 8 bytes",
+            size.unwrap_or(&"nothing"),
+        ),
+        (kind, _) => refuse(
+            "must be 0 for text or 1 for binary numbers",
+            kind.unwrap_or(&"nothing"),
+        ),
     }
 }

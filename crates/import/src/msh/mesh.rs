@@ -53,7 +53,8 @@ impl Mesh {
                 "Nodes" => self.read_nodes(&mut section, findings),
                 "Elements" => self.read_elements(&mut section, findings),
                 "PartitionedEntities" => {
-                    let finding = ImportFinding::new(section.at, "$PartitionedEntities", "is not supported");
+                    let finding =
+                        ImportFinding::new(section.at, "$PartitionedEntities", "is not supported");
                     findings.error(finding.hint("write the mesh without partitions"));
                     None
                 }
@@ -69,25 +70,44 @@ impl Mesh {
         section: &mut MeshBlock<'_>,
         findings: &mut ImportFindings,
     ) -> Option<()> {
-        let count = section.next(findings)?.whole(0, "number of names", findings)?;
+        let count = section
+            .next(findings)?
+            .whole(0, "number of names", findings)?;
         for _ in 0..count {
             let record = section.next(findings)?;
             let dimension = record.whole(0, "dimension", findings)?;
             let tag = record.tag(1, "physical group", findings)?;
-            let name = record.line.split_once('"').and_then(|(_, rest)| rest.strip_suffix('"'));
+            let name = record
+                .line
+                .split_once('"')
+                .and_then(|(_, rest)| rest.strip_suffix('"'));
             let Some(name) = name.filter(|name| !name.is_empty()) else {
-                findings.error(ImportFinding::new(record.at, "name", "must be between quotation marks"));
+                findings.error(ImportFinding::new(
+                    record.at,
+                    "name",
+                    "must be between quotation marks",
+                ));
                 return None;
             };
-            if self.names.insert((dimension, tag), name.to_owned()).is_some() {
-                findings
-                    .error(ImportFinding::new(record.at, "physical group", "has two names").with_found(tag));
+            if self
+                .names
+                .insert((dimension, tag), name.to_owned())
+                .is_some()
+            {
+                findings.error(
+                    ImportFinding::new(record.at, "physical group", "has two names")
+                        .with_found(tag),
+                );
             }
         }
         Some(())
     }
 
-    fn read_entities(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
+    fn read_entities(
+        &mut self,
+        section: &mut MeshBlock<'_>,
+        findings: &mut ImportFindings,
+    ) -> Option<()> {
         let head = section.next(findings)?;
         let names = ["points", "curves", "surfaces", "volumes"];
         let mut counts = [0; 4];
@@ -106,15 +126,23 @@ impl Mesh {
                     list.push(record.tag(index, "physical group", findings)?);
                 }
                 if self.groups.insert((dimension, tag), list).is_some() {
-                    findings.error(ImportFinding::new(record.at, "entity", "occurs twice").with_found(tag));
+                    findings.error(
+                        ImportFinding::new(record.at, "entity", "occurs twice").with_found(tag),
+                    );
                 }
             }
         }
         Some(())
     }
 
-    fn read_nodes(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
-        let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
+    fn read_nodes(
+        &mut self,
+        section: &mut MeshBlock<'_>,
+        findings: &mut ImportFindings,
+    ) -> Option<()> {
+        let blocks = section
+            .next(findings)?
+            .whole(0, "number of blocks", findings)?;
         for _ in 0..blocks {
             let head = section.next(findings)?;
             let dimension = head.whole(0, "dimension", findings)?;
@@ -140,8 +168,14 @@ impl Mesh {
         Some(())
     }
 
-    fn read_elements(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
-        let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
+    fn read_elements(
+        &mut self,
+        section: &mut MeshBlock<'_>,
+        findings: &mut ImportFindings,
+    ) -> Option<()> {
+        let blocks = section
+            .next(findings)?
+            .whole(0, "number of blocks", findings)?;
         let mut others = OtherElements::new();
         for _ in 0..blocks {
             let head = section.next(findings)?;
@@ -154,7 +188,10 @@ impl Mesh {
                 let tag = record.whole(0, "element", findings)?;
                 match kind {
                     LINE => {
-                        let nodes = [record.whole(1, "node", findings)?, record.whole(2, "node", findings)?];
+                        let nodes = [
+                            record.whole(1, "node", findings)?,
+                            record.whole(2, "node", findings)?,
+                        ];
                         self.add_line(entity, tag, nodes, record.at, findings);
                     }
                     POINT if dimension == 0 => {
@@ -187,7 +224,11 @@ impl Mesh {
         findings: &mut ImportFindings,
     ) {
         if nodes[0] == nodes[1] {
-            findings.error(ImportFinding::new(at, format!("element {tag}"), "must join two nodes"));
+            findings.error(ImportFinding::new(
+                at,
+                format!("element {tag}"),
+                "must join two nodes",
+            ));
         }
         if self.lines.insert(tag, (curve, nodes, at)).is_some() {
             findings.error(ImportFinding::new(at, "element", "occurs twice").with_found(tag));
@@ -215,9 +256,15 @@ pub(super) fn report_others(others: OtherElements, findings: &mut ImportFindings
         let about = format!("elements of type {kind}");
         if matches!(kind, 8 | 26..=28) {
             let expected = format!("{name} are not supported: members have two nodes");
-            findings.error(ImportFinding::new(at, about, expected).hint("mesh with Mesh.ElementOrder = 1"));
+            findings.error(
+                ImportFinding::new(at, about, expected).hint("mesh with Mesh.ElementOrder = 1"),
+            );
         } else {
-            findings.warn(ImportFinding::new(at, about, format!("{name} are left out, {count} of them")));
+            findings.warn(ImportFinding::new(
+                at,
+                about,
+                format!("{name} are left out, {count} of them"),
+            ));
         }
     }
 }
@@ -232,7 +279,11 @@ pub(super) fn once_each<'t>(
     for section in sections(text, findings) {
         if seen.contains(&section.name) {
             let about = format!("${}", section.name);
-            findings.error(ImportFinding::new(section.at, about, "must occur only once"));
+            findings.error(ImportFinding::new(
+                section.at,
+                about,
+                "must occur only once",
+            ));
         } else {
             seen.push(section.name);
             kept.push(section);
@@ -245,7 +296,11 @@ pub(super) fn once_each<'t>(
 pub(super) fn require(needed: &[&str], seen: &[&str], findings: &mut ImportFindings) {
     for name in needed {
         if !seen.contains(name) && !findings.has_errors() {
-            let at = FilePlace { file: 0, line: 1, column: 1 };
+            let at = FilePlace {
+                file: 0,
+                line: 1,
+                column: 1,
+            };
             findings.error(ImportFinding::new(at, format!("${name}"), "is missing").hint(CONVERT));
         }
     }

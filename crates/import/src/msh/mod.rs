@@ -63,14 +63,19 @@ pub fn structure_of(
         let about = format!("element {id}");
         let [a, b] = nodes.map(|node| index.get(&node).copied());
         let (Some(a), Some(b)) = (a, b) else {
-            let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
+            let missing = nodes
+                .into_iter()
+                .find(|node| !index.contains_key(node))
+                .unwrap_or_default();
             findings.error(
-                ImportFinding::new(at, about, "refers to a node that does not exist").with_found(missing),
+                ImportFinding::new(at, about, "refers to a node that does not exist")
+                    .with_found(missing),
             );
             continue;
         };
         let names: Vec<&str> = names(mesh, 1, curve);
-        let Some(name) = group_of(mesh, (curve, at), &names, groups, &mut reported, findings) else {
+        let Some(name) = group_of(mesh, (curve, at), &names, groups, &mut reported, findings)
+        else {
             continue;
         };
         let group = &groups.groups[name];
@@ -80,9 +85,13 @@ pub fn structure_of(
             findings.error(ImportFinding::new(at, about, "must have a positive length"));
             continue;
         }
-        if group.kind == MemberKind::Beam && orientation.is_none_or(|vector| parallel(vector, along)) {
+        if group.kind == MemberKind::Beam
+            && orientation.is_none_or(|vector| parallel(vector, along))
+        {
             if reported.insert(curve) {
-                let hint = format!("state the `orientation` of \"{name}\" in `members` of the sections file");
+                let hint = format!(
+                    "state the `orientation` of \"{name}\" in `members` of the sections file"
+                );
                 let expected = "must have an orientation that is not parallel to it";
                 findings.error(ImportFinding::new(at, about, expected).hint(hint));
             }
@@ -103,11 +112,18 @@ pub fn structure_of(
         });
     }
     if structure.members.is_empty() && !findings.has_errors() {
-        let at = FilePlace { file: 0, line: 1, column: 1 };
+        let at = FilePlace {
+            file: 0,
+            line: 1,
+            column: 1,
+        };
         let hint = "mesh the curves (gmsh -1), and put them in physical groups";
         findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));
     }
-    structure.cell_sets = sets.into_iter().map(|(name, set)| (name.to_owned(), set)).collect();
+    structure.cell_sets = sets
+        .into_iter()
+        .map(|(name, set)| (name.to_owned(), set))
+        .collect();
     structure
 }
 
@@ -136,14 +152,19 @@ fn group_of<'m>(
     reported: &mut BTreeSet<u64>,
     findings: &mut ImportFindings,
 ) -> Option<&'m str> {
-    let mut known = names.iter().filter(|name| groups.groups.contains_key(**name));
+    let mut known = names
+        .iter()
+        .filter(|name| groups.groups.contains_key(**name));
     if let (Some(&only), None) = (known.next(), known.next()) {
         return Some(only);
     }
     if reported.insert(curve) {
         let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
         let [entity, set] = mesh.group_words;
-        let expected = format!("must be in one {set} that is a section or in `members`, {}", list(names));
+        let expected = format!(
+            "must be in one {set} that is a section or in `members`, {}",
+            list(names)
+        );
         let hint = format!("in the sections file: {}", known.join(", "));
         findings.error(ImportFinding::new(at, format!("{entity} {curve}"), expected).hint(hint));
     }
@@ -162,7 +183,9 @@ fn list(names: &[&str]) -> String {
 /// Names of the physical groups to which an entity belongs.
 fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
     let groups = mesh.groups.get(&(dimension, entity)).into_iter().flatten();
-    groups.filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str)).collect()
+    groups
+        .filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str))
+        .collect()
 }
 
 /// Adds the nodes of line elements and of physical points in the order of their numbers, and a set for each physical
@@ -174,7 +197,11 @@ fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeM
             named.entry(name).or_default().extend(nodes);
         }
     }
-    let mut used: Vec<u64> = mesh.lines.values().flat_map(|(_, nodes, _)| *nodes).collect();
+    let mut used: Vec<u64> = mesh
+        .lines
+        .values()
+        .flat_map(|(_, nodes, _)| *nodes)
+        .collect();
     used.extend(named.values().flatten());
     used.sort_unstable();
     used.dedup();
@@ -182,13 +209,19 @@ fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeM
     for node in used {
         if let Some(at) = mesh.nodes.get(&node) {
             index.insert(node, structure.points.len());
-            structure.points.push(ImportedPoint { name: String::new(), at: at.map(|part| part * factor) });
+            structure.points.push(ImportedPoint {
+                name: String::new(),
+                at: at.map(|part| part * factor),
+            });
         }
     }
     for (name, mut nodes) in named {
         nodes.sort_unstable();
         nodes.dedup();
-        let set: Vec<usize> = nodes.iter().filter_map(|node| index.get(node).copied()).collect();
+        let set: Vec<usize> = nodes
+            .iter()
+            .filter_map(|node| index.get(node).copied())
+            .collect();
         structure.point_sets.push((name.to_owned(), set));
     }
     index

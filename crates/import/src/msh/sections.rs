@@ -98,7 +98,14 @@ pub struct Sections {
     pub groups: BTreeMap<String, SectionGroup>,
 }
 
-const DOFS: [(&str, usize); 6] = [("ux", 0), ("uy", 1), ("uz", 2), ("rx", 3), ("ry", 4), ("rz", 5)];
+const DOFS: [(&str, usize); 6] = [
+    ("ux", 0),
+    ("uy", 1),
+    ("uz", 2),
+    ("rx", 3),
+    ("ry", 4),
+    ("rz", 5),
+];
 
 impl Sections {
     /// Reads a sections file.
@@ -117,30 +124,57 @@ impl Sections {
         let own = Units::read(&raw.units, &root, faults);
         // without units the numbers are checked in an arbitrary system of units
         let units = own.unwrap_or(Units::SI);
-        let mut check = Check { faults, scale: Scale { from: units, to: units } };
+        let mut check = Check {
+            faults,
+            scale: Scale {
+                from: units,
+                to: units,
+            },
+        };
         let materials = materials(raw, &root, &mut check);
         let sections = sections(raw, &materials, &root, &mut check);
         let groups = groups(raw, &materials, &sections, &root, check.faults);
-        own.map(|units| Sections { units, materials, sections, groups })
+        own.map(|units| Sections {
+            units,
+            materials,
+            sections,
+            groups,
+        })
     }
 }
 
 fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<ImportedMaterial> {
     let list = root.key("materials");
     let mut materials: Vec<ImportedMaterial> = Vec::new();
-    for (index, raw) in
-        check.faults.require(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    for (index, raw) in check
+        .faults
+        .require(&raw.materials, root, "materials")
+        .into_iter()
+        .flatten()
+        .enumerate()
     {
         let at = list.index(index);
-        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check
+            .faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
         if materials.iter().any(|other| other.name == name) {
-            check.faults.add(Fault::new(&at.key("name"), "must differ from the other materials").got(&name));
+            check.faults.add(
+                Fault::new(&at.key("name"), "must differ from the other materials").got(&name),
+            );
         }
         let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
         let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
-        let density =
-            raw.density.map(|value| check.not_negative(value, &at.key("density"), Dimension::DENSITY, ""));
-        materials.push(ImportedMaterial { name, e, g, density });
+        let density = raw
+            .density
+            .map(|value| check.not_negative(value, &at.key("density"), Dimension::DENSITY, ""));
+        materials.push(ImportedMaterial {
+            name,
+            e,
+            g,
+            density,
+        });
     }
     materials
 }
@@ -153,21 +187,42 @@ fn sections(
 ) -> Vec<ImportedSection> {
     let list = root.key("sections");
     let mut sections: Vec<ImportedSection> = Vec::new();
-    for (index, raw) in
-        check.faults.require(&raw.sections, root, "sections").into_iter().flatten().enumerate()
+    for (index, raw) in check
+        .faults
+        .require(&raw.sections, root, "sections")
+        .into_iter()
+        .flatten()
+        .enumerate()
     {
         let at = list.index(index);
-        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check
+            .faults
+            .require(&raw.name, &at, "name")
+            .cloned()
+            .unwrap_or_default();
         if sections.iter().any(|other| other.name == name) {
-            check.faults.add(Fault::new(&at.key("name"), "must differ from the other sections").got(&name));
+            check
+                .faults
+                .add(Fault::new(&at.key("name"), "must differ from the other sections").got(&name));
         }
-        let material = check.faults.require(&raw.material, &at, "material").cloned().unwrap_or_default();
+        let material = check
+            .faults
+            .require(&raw.material, &at, "material")
+            .cloned()
+            .unwrap_or_default();
         if raw.material.is_some() && !materials.iter().any(|other| other.name == material) {
             let known: Vec<&str> = materials.iter().map(|other| other.name.as_str()).collect();
-            unknown(check.faults, &at.key("material"), "a material", &material, &known);
+            unknown(
+                check.faults,
+                &at.key("material"),
+                "a material",
+                &material,
+                &known,
+            );
         }
-        let mut number =
-            |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
+        let mut number = |value, key: &str, dimension| {
+            check.optional_positive(value, &at.key(key), dimension, "")
+        };
         sections.push(ImportedSection {
             name,
             material,
@@ -187,7 +242,11 @@ fn unknown(faults: &mut Faults, at: &Place<'_>, what: &str, name: &str, known: &
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("known: {}", known.join(", ")),
     };
-    faults.add(Fault::new(at, format!("must be the name of {what}")).got(format!("\"{name}\"")).hint(hint));
+    faults.add(
+        Fault::new(at, format!("must be the name of {what}"))
+            .got(format!("\"{name}\""))
+            .hint(hint),
+    );
 }
 
 /// Reads the groups of `members`.
@@ -201,15 +260,25 @@ fn named_groups(
     let place = root.key("members");
     for (name, raw) in raw.members.iter().flat_map(|members| &members.0) {
         let at = place.key(name);
-        let mut group = SectionGroup { orientation: raw.orientation, ..SectionGroup::default() };
+        let mut group = SectionGroup {
+            orientation: raw.orientation,
+            ..SectionGroup::default()
+        };
         let wanted = raw.section.as_ref().unwrap_or(name);
         let position = sections.iter().position(|section| section.name == *wanted);
-        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss), ("rod", MemberKind::Rod)];
+        let kinds = [
+            ("beam", MemberKind::Beam),
+            ("truss", MemberKind::Truss),
+            ("rod", MemberKind::Rod),
+        ];
         if let Some(word) = &raw.kind {
-            group.kind = faults.one_of(word, &at.key("kind"), &kinds).unwrap_or_default();
+            group.kind = faults
+                .one_of(word, &at.key("kind"), &kinds)
+                .unwrap_or_default();
         }
-        for (end, (key, words)) in
-            [("release_a", &raw.release_a), ("release_b", &raw.release_b)].into_iter().enumerate()
+        for (end, (key, words)) in [("release_a", &raw.release_a), ("release_b", &raw.release_b)]
+            .into_iter()
+            .enumerate()
         {
             let list = at.key(key);
             for (index, word) in words.iter().flatten().enumerate() {
@@ -221,7 +290,10 @@ fn named_groups(
         match position {
             Some(section) => group.section = section,
             None => {
-                let known: Vec<&str> = sections.iter().map(|section| section.name.as_str()).collect();
+                let known: Vec<&str> = sections
+                    .iter()
+                    .map(|section| section.name.as_str())
+                    .collect();
                 let section = at.key("section");
                 unknown(
                     faults,
@@ -249,22 +321,40 @@ fn groups(
     let mut groups = named_groups(raw, sections, root, faults);
     let list = root.key("sections");
     for (index, section) in sections.iter().enumerate() {
-        if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
-            groups.insert(section.name.clone(), SectionGroup { section: index, ..SectionGroup::default() });
+        if !groups.contains_key(&section.name)
+            && groups.values().all(|group| group.section != index)
+        {
+            groups.insert(
+                section.name.clone(),
+                SectionGroup {
+                    section: index,
+                    ..SectionGroup::default()
+                },
+            );
         }
         // trusses require the area only, rods the area and the torsion constant
-        let used: Vec<&SectionGroup> = groups.values().filter(|group| group.section == index).collect();
+        let used: Vec<&SectionGroup> = groups
+            .values()
+            .filter(|group| group.section == index)
+            .collect();
         let beams = used.iter().any(|group| group.kind == MemberKind::Beam);
         let twists = used.iter().any(|group| group.kind != MemberKind::Truss);
         let at = list.index(index);
-        for (key, value) in [("A", section.area), ("Iy", section.iy), ("Iz", section.iz), ("J", section.j)] {
+        for (key, value) in [
+            ("A", section.area),
+            ("Iy", section.iy),
+            ("Iz", section.iz),
+            ("J", section.j),
+        ] {
             if value.is_none() && (beams || key == "A" || key == "J" && twists) {
-                let hint = "beams need A, Iy, Iz and J; rods and trusses need their `kind` in `members`";
+                let hint =
+                    "beams need A, Iy, Iz and J; rods and trusses need their `kind` in `members`";
                 faults.add(Fault::new(&at, format!("missing key `{key}`")).hint(hint));
             }
         }
-        let stiff =
-            materials.iter().any(|material| material.name == section.material && material.g.is_none());
+        let stiff = materials
+            .iter()
+            .any(|material| material.name == section.material && material.g.is_none());
         if twists && stiff {
             let hint = "torsion of beams and rods and shear of beams depend on it";
             faults.add(Fault::new(&at, "its material needs `G`").hint(hint));

@@ -28,7 +28,15 @@ impl<'t> MeshRecord<'t> {
             words.push((column + 1, word));
         }
         let column = words.first().map_or(1, |(column, _)| *column);
-        MeshRecord { at: FilePlace { file: 0, line, column }, line: trimmed, words }
+        MeshRecord {
+            at: FilePlace {
+                file: 0,
+                line,
+                column,
+            },
+            line: trimmed,
+            words,
+        }
     }
 
     /// Number of words.
@@ -38,8 +46,16 @@ impl<'t> MeshRecord<'t> {
     }
 
     /// Returns a word by index; adds an error if the line has fewer words.
-    fn word(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<(FilePlace, &'t str)> {
-        let word = self.words.get(index).map(|&(column, word)| (FilePlace { column, ..self.at }, word));
+    fn word(
+        &self,
+        index: usize,
+        what: &str,
+        findings: &mut ImportFindings,
+    ) -> Option<(FilePlace, &'t str)> {
+        let word = self
+            .words
+            .get(index)
+            .map(|&(column, word)| (FilePlace { column, ..self.at }, word));
         if word.is_none() {
             findings.error(
                 ImportFinding::new(self.at, what, "is missing in this line")
@@ -54,7 +70,9 @@ impl<'t> MeshRecord<'t> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok();
         if value.is_none() {
-            findings.error(ImportFinding::new(at, what, "must be a whole number from 0").with_found(word));
+            findings.error(
+                ImportFinding::new(at, what, "must be a whole number from 0").with_found(word),
+            );
         }
         value
     }
@@ -70,11 +88,17 @@ impl<'t> MeshRecord<'t> {
     }
 
     /// Reads a coordinate.
-    pub fn coordinate(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<f64> {
+    pub fn coordinate(
+        &self,
+        index: usize,
+        what: &str,
+        findings: &mut ImportFindings,
+    ) -> Option<f64> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().filter(|value: &f64| value.is_finite());
         match value {
-            None => findings.error(ImportFinding::new(at, what, "must be a finite number").with_found(word)),
+            None => findings
+                .error(ImportFinding::new(at, what, "must be a finite number").with_found(word)),
             Some(value) if value.abs() > LARGEST => {
                 let expected = format!("must be at most {} in magnitude", number(LARGEST));
                 findings.error(ImportFinding::new(at, what, expected).with_found(word));
@@ -104,9 +128,9 @@ impl<'t> MeshBlock<'t> {
         self.next += 1;
         if record.is_none() {
             let finding = ImportFinding::new(self.at, format!("${}", self.name), "ends too early");
-            findings.error(
-                finding.hint("the stated numbers of entries do not match the section; write the mesh again"),
-            );
+            findings.error(finding.hint(
+                "the stated numbers of entries do not match the section; write the mesh again",
+            ));
         }
         record
     }
@@ -128,15 +152,23 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
                     ));
                     continue;
                 }
-                sections.push(MeshBlock { name, at: record.at, lines: Vec::new(), next: 0 });
+                sections.push(MeshBlock {
+                    name,
+                    at: record.at,
+                    lines: Vec::new(),
+                    next: 0,
+                });
                 open = true;
             }
             Some(name) => {
-                let Some(section) = sections.last() else { continue };
+                let Some(section) = sections.last() else {
+                    continue;
+                };
                 open = false;
                 if name.strip_prefix("End") != Some(section.name) {
                     let expected = format!("must be $End{}", section.name);
-                    findings.error(ImportFinding::new(record.at, "", expected).with_found(record.line));
+                    findings
+                        .error(ImportFinding::new(record.at, "", expected).with_found(record.line));
                     return sections;
                 }
             }
@@ -149,7 +181,9 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
             }
             None if record.len() > 0 => {
                 let finding = ImportFinding::new(record.at, "", "must be within a section");
-                findings.error(finding.hint("sections are between $Name and $EndName; is this a gmsh mesh?"));
+                findings.error(
+                    finding.hint("sections are between $Name and $EndName; is this a gmsh mesh?"),
+                );
                 return sections;
             }
             None => {}

@@ -59,7 +59,11 @@ impl ElementCollector {
             }
             _ => {
                 let about = format!("element {}", element.tag);
-                findings.error(ImportFinding::new(element.at, about, "has the wrong number of nodes"));
+                findings.error(ImportFinding::new(
+                    element.at,
+                    about,
+                    "has the wrong number of nodes",
+                ));
             }
         }
     }
@@ -85,8 +89,14 @@ pub fn read(mesh: &mut Mesh, text: &str, findings: &mut ImportFindings) {
     require(&["Nodes", "Elements"], &seen, findings);
 }
 
-fn read_nodes(mesh: &mut Mesh, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
-    let count = section.next(findings)?.whole(0, "number of nodes", findings)?;
+fn read_nodes(
+    mesh: &mut Mesh,
+    section: &mut MeshBlock<'_>,
+    findings: &mut ImportFindings,
+) -> Option<()> {
+    let count = section
+        .next(findings)?
+        .whole(0, "number of nodes", findings)?;
     for _ in 0..count {
         let record = section.next(findings)?;
         let tag = record.whole(0, "node", findings)?;
@@ -99,8 +109,14 @@ fn read_nodes(mesh: &mut Mesh, section: &mut MeshBlock<'_>, findings: &mut Impor
     Some(())
 }
 
-fn read_elements(mesh: &mut Mesh, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
-    let count = section.next(findings)?.whole(0, "number of elements", findings)?;
+fn read_elements(
+    mesh: &mut Mesh,
+    section: &mut MeshBlock<'_>,
+    findings: &mut ImportFindings,
+) -> Option<()> {
+    let count = section
+        .next(findings)?
+        .whole(0, "number of elements", findings)?;
     let mut collector = ElementCollector::default();
     for _ in 0..count {
         let record = section.next(findings)?;
@@ -108,7 +124,11 @@ fn read_elements(mesh: &mut Mesh, section: &mut MeshBlock<'_>, findings: &mut Im
         let kind = record.whole(1, "type of element", findings)?;
         let tags = record.whole(2, "number of tags", findings)?;
         let label = |index: u64, what: &str, findings: &mut ImportFindings| {
-            if index < tags { record.tag(3 + index as usize, what, findings) } else { Some(0) }
+            if index < tags {
+                record.tag(3 + index as usize, what, findings)
+            } else {
+                Some(0)
+            }
         };
         let group = label(0, "physical group", findings)?;
         let entity = label(1, "entity", findings)?;
@@ -117,12 +137,21 @@ fn read_elements(mesh: &mut Mesh, section: &mut MeshBlock<'_>, findings: &mut Im
             POINT => 1,
             _ => 0,
         };
-        let first = usize::try_from(tags).unwrap_or(usize::MAX).saturating_add(3);
+        let first = usize::try_from(tags)
+            .unwrap_or(usize::MAX)
+            .saturating_add(3);
         let mut list = Vec::new();
         for index in 0..nodes {
             list.push(record.whole(first.saturating_add(index), "node", findings)?);
         }
-        let element = Element2 { tag, kind, group, entity, nodes: &list, at: record.at };
+        let element = Element2 {
+            tag,
+            kind,
+            group,
+            entity,
+            nodes: &list,
+            at: record.at,
+        };
         collector.add(mesh, element, findings);
     }
     collector.finish(findings);

@@ -65,9 +65,16 @@ pub(crate) struct Staging {
 impl Staging {
     /// Creates the folder in an output folder.
     pub fn new(parent: &Path) -> io::Result<Staging> {
-        let folder = tempfile::Builder::new().prefix(TEMPORARY).tempdir_in(parent)?;
+        let folder = tempfile::Builder::new()
+            .prefix(TEMPORARY)
+            .tempdir_in(parent)?;
         let put = |(contents, path): (FileContents, PathBuf)| contents.put_at(&path);
-        Ok(Staging { writers: Background::new(AT_ONCE, put), folder, count: 0, written: Vec::new() })
+        Ok(Staging {
+            writers: Background::new(AT_ONCE, put),
+            folder,
+            count: 0,
+            written: Vec::new(),
+        })
     }
 
     /// Begins to write a file and returns its number.
@@ -81,7 +88,8 @@ impl Staging {
     /// Waits until the file of this number is on the disk, for which it is asked once.
     pub fn finish(&mut self, number: usize) -> io::Result<Hash> {
         if self.written.len() <= number {
-            self.written.extend(self.writers.wait().into_iter().map(Some));
+            self.written
+                .extend(self.writers.wait().into_iter().map(Some));
         }
         self.written[number].take().expect("it is asked once")
     }

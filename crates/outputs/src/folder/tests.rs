@@ -5,7 +5,15 @@ use serde_json::{Value, json};
 
 fn open(path: &Path, force: bool, names: &[&str]) -> Result<OutputFolder, Error> {
     let names = names.iter().map(|name| (*name).to_owned()).collect();
-    OutputFolder::open(path, "run", force, &PlannedFiles { names, plots: vec!["path-".to_owned()] })
+    OutputFolder::open(
+        path,
+        "run",
+        force,
+        &PlannedFiles {
+            names,
+            plots: vec!["path-".to_owned()],
+        },
+    )
 }
 
 fn filled(path: &Path, files: &[(&str, &str)]) -> OutputFolder {
@@ -23,7 +31,9 @@ fn new_manifest() -> Manifest {
 }
 
 fn commit(path: &Path, files: &[(&str, &str)]) {
-    filled(path, files).commit(new_manifest()).expect("a writable folder");
+    filled(path, files)
+        .commit(new_manifest())
+        .expect("a writable folder");
 }
 
 fn manifest(path: &Path) -> Value {
@@ -33,8 +43,15 @@ fn manifest(path: &Path) -> Value {
 
 fn names(path: &Path) -> Vec<String> {
     let entries = fs::read_dir(path).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    let mut names: Vec<String> = entries
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
     names.sort();
     names
 }
@@ -52,9 +69,15 @@ fn a_folder_has_its_files_and_a_manifest_and_nothing_else() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let path = temporary.path().join("deep/out");
     commit(&path, &[("b.csv", "1,2"), ("plots/a.svg", "<svg/>")]);
-    assert_eq!(names(&path), ["b.csv", "manifest.json", "plots", "timing.json"]);
+    assert_eq!(
+        names(&path),
+        ["b.csv", "manifest.json", "plots", "timing.json"]
+    );
     let outputs = manifest(&path)["outputs"].clone();
-    assert_eq!(outputs[0], json!({ "name": "b.csv", "bytes": 3, "sha256": sha256(b"1,2") }));
+    assert_eq!(
+        outputs[0],
+        json!({ "name": "b.csv", "bytes": 3, "sha256": sha256(b"1,2") })
+    );
     assert_eq!(outputs[2], json!({ "name": "timing.json" }));
 }
 
@@ -62,11 +85,24 @@ fn a_folder_has_its_files_and_a_manifest_and_nothing_else() {
 fn a_new_run_takes_away_what_the_old_one_left_but_not_what_a_user_changed() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let path = temporary.path();
-    commit(path, &[("history.csv", "1"), ("history-old.csv", "2"), ("history-mine.csv", "3")]);
+    commit(
+        path,
+        &[
+            ("history.csv", "1"),
+            ("history-old.csv", "2"),
+            ("history-mine.csv", "3"),
+        ],
+    );
     fs::write(path.join("history-mine.csv"), "edited").expect("writable");
     fs::write(path.join("notes.txt"), "mine").expect("writable");
     commit(path, &[("history.csv", "4")]);
-    let left = ["history-mine.csv", "history.csv", "manifest.json", "notes.txt", "timing.json"];
+    let left = [
+        "history-mine.csv",
+        "history.csv",
+        "manifest.json",
+        "notes.txt",
+        "timing.json",
+    ];
     assert_eq!(names(path), left);
     assert_eq!(read(&path.join("history.csv")), "4");
 }
@@ -91,24 +127,43 @@ fn a_run_that_does_not_commit_leaves_no_trace() {
 fn files_of_others_are_refused_by_name_and_replaced_by_force_alone() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let path = temporary.path();
-    commit(path, &[("history.csv", "1"), ("plots/path-a.svg", "2"), ("summary.json", "3")]);
+    commit(
+        path,
+        &[
+            ("history.csv", "1"),
+            ("plots/path-a.svg", "2"),
+            ("summary.json", "3"),
+        ],
+    );
     fs::write(path.join("history.csv"), "edited").expect("writable");
     fs::write(path.join("plots/path-b.svg"), "mine").expect("writable");
     fs::write(path.join("plots/photo.svg"), "mine").expect("writable");
     let planned = ["history.csv", "summary.json", "timing.json"];
     let told = message(&open(path, false, &planned).expect_err("files of others"));
     assert_eq!(told.lines().count(), 2, "{told}");
-    assert!(told.contains("history.csv: would be replaced") && told.contains("plots/path-b.svg"), "{told}");
+    assert!(
+        told.contains("history.csv: would be replaced") && told.contains("plots/path-b.svg"),
+        "{told}"
+    );
     assert!(told.contains("--force"), "{told}");
 
     // names that are known only at the end are checked before anything is replaced
-    let known = PlannedFiles { names: vec!["summary.json".to_owned()], plots: Vec::new() };
+    let known = PlannedFiles {
+        names: vec!["summary.json".to_owned()],
+        plots: Vec::new(),
+    };
     let mut folder = OutputFolder::open(path, "run", false, &known).expect("it is ours");
     folder.add("summary.json", "4");
     folder.add("plots/photo.svg", "5");
-    assert!(message(&folder.commit(new_manifest()).expect_err("a file of others")).contains("photo.svg"));
+    assert!(
+        message(&folder.commit(new_manifest()).expect_err("a file of others"))
+            .contains("photo.svg")
+    );
     assert_eq!(
-        (read(&path.join("summary.json")), read(&path.join("plots/photo.svg"))),
+        (
+            read(&path.join("summary.json")),
+            read(&path.join("plots/photo.svg"))
+        ),
         ("3".into(), "mine".into())
     );
 
@@ -116,7 +171,10 @@ fn files_of_others_are_refused_by_name_and_replaced_by_force_alone() {
     folder.add("history.csv", "6");
     folder.commit(new_manifest()).expect("force");
     assert_eq!(
-        (read(&path.join("history.csv")), read(&path.join("plots/photo.svg"))),
+        (
+            read(&path.join("history.csv")),
+            read(&path.join("plots/photo.svg"))
+        ),
         ("6".into(), "mine".into())
     );
     assert!(!path.join("summary.json").exists() && path.join("plots/path-b.svg").exists());
@@ -142,8 +200,19 @@ fn a_name_too_long_is_refused_before_the_work_and_at_the_end_leaves_the_older_re
     let mut folder = filled(path, &[("history.csv", "3")]);
     folder.add(&long, "4");
     assert!(message(&folder.commit(new_manifest()).expect_err("too long")).contains("too long"));
-    assert_eq!(names(path), ["history.csv", "manifest.json", "summary.json", "timing.json"]);
-    assert_eq!((read(&path.join("history.csv")), read(&path.join(MANIFEST))), ("1".into(), before));
+    assert_eq!(
+        names(path),
+        [
+            "history.csv",
+            "manifest.json",
+            "summary.json",
+            "timing.json"
+        ]
+    );
+    assert_eq!(
+        (read(&path.join("history.csv")), read(&path.join(MANIFEST))),
+        ("1".into(), before)
+    );
 }
 
 #[test]
@@ -157,12 +226,23 @@ fn a_replacement_that_fails_puts_the_older_result_back() {
     let staging = folder.staging.take().expect("an open folder");
     // the third file cannot be placed
     fs::remove_file(staging.path(2)).expect("written");
-    let mut exchange = Exchange { staging: &staging, steps: Vec::new() };
-    folder.place(&mut exchange, 0).expect_err("a file is missing");
-    assert_eq!((read(&path.join("a.csv")), path.join(MANIFEST).exists()), ("3".into(), false));
+    let mut exchange = Exchange {
+        staging: &staging,
+        steps: Vec::new(),
+    };
+    folder
+        .place(&mut exchange, 0)
+        .expect_err("a file is missing");
+    assert_eq!(
+        (read(&path.join("a.csv")), path.join(MANIFEST).exists()),
+        ("3".into(), false)
+    );
     exchange.undo().expect("renames");
     drop((staging, folder));
-    assert_eq!(names(path), ["a.csv", "b.csv", "manifest.json", "timing.json"]);
+    assert_eq!(
+        names(path),
+        ["a.csv", "b.csv", "manifest.json", "timing.json"]
+    );
     let now = ["a.csv", "b.csv", MANIFEST].map(|name| read(&path.join(name)));
     assert_eq!(now, ["1".to_owned(), "2".to_owned(), before]);
 }
@@ -176,7 +256,10 @@ fn a_second_writer_is_refused_while_the_first_one_lives() {
     first.staging().finish(number).expect("writable");
     let staged = first.staging().path(number);
     let told = message(&open(path, true, &[]).expect_err("the first one lives"));
-    assert!(told.contains("another run is writing into this folder"), "{told}");
+    assert!(
+        told.contains("another run is writing into this folder"),
+        "{told}"
+    );
     assert!(staged.exists());
     first.add("summary.json", "2");
     first.commit(new_manifest()).expect("its own folder");
@@ -189,7 +272,15 @@ fn what_a_dead_run_left_is_cleared_and_its_files_count_as_ours() {
     let path = temporary.path();
     commit(path, &[("a.csv", "1"), ("b.csv", "2")]);
     // a run that died after it had placed `a.csv` and `c.csv`: no destructor was run
-    let mut dead = filled(path, &[("a.csv", "3"), ("b.csv", "4"), ("c.csv", "5"), ("d.csv", "6")]);
+    let mut dead = filled(
+        path,
+        &[
+            ("a.csv", "3"),
+            ("b.csv", "4"),
+            ("c.csv", "5"),
+            ("d.csv", "6"),
+        ],
+    );
     let entry = |name: &str, text: &str| OutputEntry {
         name: name.to_owned(),
         bytes: Some(text.len()),
@@ -197,7 +288,13 @@ fn what_a_dead_run_left_is_cleared_and_its_files_count_as_ours() {
     };
     let old = dead.listed.clone();
     dead.journal.list(&old).expect("writable");
-    dead.journal.list(&[entry("a.csv", "3"), entry("b.csv", "4"), entry("c.csv", "5")]).expect("writable");
+    dead.journal
+        .list(&[
+            entry("a.csv", "3"),
+            entry("b.csv", "4"),
+            entry("c.csv", "5"),
+        ])
+        .expect("writable");
     dead.finish_files(&mut new_manifest()).expect("writable");
     let staging = dead.staging.take().expect("an open folder");
     let left = staging.path(0);
@@ -213,7 +310,10 @@ fn what_a_dead_run_left_is_cleared_and_its_files_count_as_ours() {
     drop(open(path, false, &["a.csv", "b.csv", "c.csv"]).expect("all of them are ours"));
     assert!(path.join(JOURNAL).exists() && !left.exists());
     commit(path, &[("a.csv", "7"), ("b.csv", "8")]);
-    assert_eq!(names(path), ["a.csv", "b.csv", "manifest.json", "timing.json"]);
+    assert_eq!(
+        names(path),
+        ["a.csv", "b.csv", "manifest.json", "timing.json"]
+    );
 }
 
 #[test]

@@ -49,15 +49,36 @@ impl CraneKind {
     /// AIST TR-13 (2021), 3.7.2 with Table 3.2 (3.6.2 in the draft of 2020).
     #[must_use]
     pub fn fractions(self) -> LoadFractions {
-        let usual = LoadFractions { impact: 0.25, lifted: 0.4, trolley: 0.2, crane: 0.1, traction: 0.2 };
+        let usual = LoadFractions {
+            impact: 0.25,
+            lifted: 0.4,
+            trolley: 0.2,
+            crane: 0.1,
+            traction: 0.2,
+        };
         match self {
             CraneKind::Mill | CraneKind::Ladle => usual,
-            CraneKind::Bucket | CraneKind::SoakingPit | CraneKind::Stripping => {
-                LoadFractions { lifted: 1.0, ..usual }
-            }
-            CraneKind::MotorRoom => LoadFractions { impact: 0.2, lifted: 0.3, ..usual },
-            CraneKind::Stacker => LoadFractions { lifted: 2.0, trolley: 0.4, crane: 0.15, ..usual },
-            CraneKind::Pendant => LoadFractions { impact: 0.1, lifted: 0.0, trolley: 0.0, ..usual },
+            CraneKind::Bucket | CraneKind::SoakingPit | CraneKind::Stripping => LoadFractions {
+                lifted: 1.0,
+                ..usual
+            },
+            CraneKind::MotorRoom => LoadFractions {
+                impact: 0.2,
+                lifted: 0.3,
+                ..usual
+            },
+            CraneKind::Stacker => LoadFractions {
+                lifted: 2.0,
+                trolley: 0.4,
+                crane: 0.15,
+                ..usual
+            },
+            CraneKind::Pendant => LoadFractions {
+                impact: 0.1,
+                lifted: 0.0,
+                trolley: 0.0,
+                ..usual
+            },
         }
     }
 }
@@ -120,7 +141,9 @@ pub fn with_impact(kind: CraneKind, load: f64) -> Result<f64, Error> {
 /// AIST TR-13 (2021), 3.7.2.
 pub fn tractive_force(kind: CraneKind, driven: &[f64]) -> Result<f64, Error> {
     let fraction = kind.fractions().traction;
-    driven.iter().try_fold(0.0, |sum, load| Ok(sum + fraction * non_negative(Argument::Force, *load)?))
+    driven.iter().try_fold(0.0, |sum, load| {
+        Ok(sum + fraction * non_negative(Argument::Force, *load)?)
+    })
 }
 
 /// The class of a mill building, by the number of load cycles of its members.

@@ -54,5 +54,7 @@ pub fn lateral_force(lifted: f64, trolley: f64) -> Result<f64, Error> {
 /// # Source
 /// ASCE/SEI 7-16, 4.9.5.
 pub fn longitudinal_force(wheels: &[f64]) -> Result<f64, Error> {
-    wheels.iter().try_fold(0.0, |sum, load| Ok(sum + 0.1 * non_negative(Argument::Force, *load)?))
+    wheels.iter().try_fold(0.0, |sum, load| {
+        Ok(sum + 0.1 * non_negative(Argument::Force, *load)?)
+    })
 }

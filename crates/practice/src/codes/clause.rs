@@ -53,49 +53,89 @@ pub const AIST_TR_13: &str = "AIST TR-13";
 /// A clause of EN 1991-3:2006.
 #[must_use]
 pub const fn en_1991_3(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: EN_1991_3, edition: "2006", clause, evidence }
+    CodeClause {
+        standard: EN_1991_3,
+        edition: "2006",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of EN 1993-6:2007.
 #[must_use]
 pub const fn en_1993_6(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: EN_1993_6, edition: "2007", clause, evidence }
+    CodeClause {
+        standard: EN_1993_6,
+        edition: "2007",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of the edition of 2010 of CMAA 70.
 #[must_use]
 pub const fn cmaa_2010(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: CMAA_70, edition: "2010", clause, evidence }
+    CodeClause {
+        standard: CMAA_70,
+        edition: "2010",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of the edition of 1983 of CMAA 70.
 #[must_use]
 pub const fn cmaa_1983(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: CMAA_70, edition: "1983", clause, evidence }
+    CodeClause {
+        standard: CMAA_70,
+        edition: "1983",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of AIST Technical Report 13, edition of 2021.
 #[must_use]
 pub const fn aist_2021(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: AIST_TR_13, edition: "2021", clause, evidence }
+    CodeClause {
+        standard: AIST_TR_13,
+        edition: "2021",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of AIST Technical Report 13, draft of 2020.
 #[must_use]
 pub const fn aist_2020(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: AIST_TR_13, edition: "draft of 2020", clause, evidence }
+    CodeClause {
+        standard: AIST_TR_13,
+        edition: "draft of 2020",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of ASCE/SEI 7-16, which ASCE/SEI 7-22 repeats.
 #[must_use]
 pub const fn asce_7(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: "ASCE/SEI 7", edition: "2016", clause, evidence }
+    CodeClause {
+        standard: "ASCE/SEI 7",
+        edition: "2016",
+        clause,
+        evidence,
+    }
 }
 
 /// A clause of 29 CFR 1910.179 (OSHA).
 #[must_use]
 pub const fn osha(clause: &'static str) -> CodeClause {
-    CodeClause { standard: "29 CFR 1910.179", edition: "current", clause, evidence: Evidence::Quoted }
+    CodeClause {
+        standard: "29 CFR 1910.179",
+        edition: "current",
+        clause,
+        evidence: Evidence::Quoted,
+    }
 }
 
 /// FEM 1.001, booklet 2, 2.2.3.3.
@@ -109,5 +149,10 @@ pub const FEM_SKEW: CodeClause = CodeClause {
 /// A value that follows from `principle` and from no code.
 #[must_use]
 pub const fn mechanics(principle: &'static str) -> CodeClause {
-    CodeClause { standard: "mechanics", edition: "", clause: principle, evidence: Evidence::Derived }
+    CodeClause {
+        standard: "mechanics",
+        edition: "",
+        clause: principle,
+        evidence: Evidence::Derived,
+    }
 }

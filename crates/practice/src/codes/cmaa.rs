@@ -60,7 +60,10 @@ pub const LEAST_DEAD_LOAD_FACTOR: f64 = 1.1;
 /// # Source
 /// CMAA 70-2010, 3.3.2.1.4.2.
 pub fn hoist_load_factor(speed: f64) -> Result<f64, Error> {
-    Ok((0.005 * feet_per_minute(non_negative(Argument::Speed, speed)?)).clamp(LEAST_HOIST_LOAD_FACTOR, 0.5))
+    Ok(
+        (0.005 * feet_per_minute(non_negative(Argument::Speed, speed)?))
+            .clamp(LEAST_HOIST_LOAD_FACTOR, 0.5),
+    )
 }
 
 /// The dead load factor DLF = 1.05 + v/2000, v in ft/min, within 1.1 and 1.2, on the dead weight of the
@@ -75,8 +78,10 @@ pub fn hoist_load_factor(speed: f64) -> Result<f64, Error> {
 /// # Source
 /// CMAA 70-2010, 3.3.2.1.4.1.
 pub fn dead_load_factor(speed: f64) -> Result<f64, Error> {
-    Ok((1.05 + feet_per_minute(non_negative(Argument::Speed, speed)?) / 2000.0)
-        .clamp(LEAST_DEAD_LOAD_FACTOR, 1.2))
+    Ok(
+        (1.05 + feet_per_minute(non_negative(Argument::Speed, speed)?) / 2000.0)
+            .clamp(LEAST_DEAD_LOAD_FACTOR, 1.2),
+    )
 }
 
 /// The ratio of lateral to vertical load on the bridge girders from the acceleration of the bridge: 7.8 % per

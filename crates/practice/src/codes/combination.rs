@@ -108,11 +108,26 @@ impl DynamicFactors {
     ///
     /// # Source
     /// EN 1991-3:2006, Table 2.4, 2.10 and 2.11.1.
-    pub fn of_crane(phi2: f64, phi5: f64, release: factor::Release) -> Result<DynamicFactors, Error> {
+    pub fn of_crane(
+        phi2: f64,
+        phi5: f64,
+        release: factor::Release,
+    ) -> Result<DynamicFactors, Error> {
         let phi3 = factor::phi3(1.0, 1.0, release)?;
         let phi7 = buffer::phi7(0.5)?;
-        let phi = [factor::PHI1[1], phi2, phi3, factor::PHI4, phi5, factor::phi6(phi2)?, phi7];
-        Ok(DynamicFactors { phi, remaining: 0.0 })
+        let phi = [
+            factor::PHI1[1],
+            phi2,
+            phi3,
+            factor::PHI4,
+            phi5,
+            factor::phi6(phi2)?,
+            phi7,
+        ];
+        Ok(DynamicFactors {
+            phi,
+            remaining: 0.0,
+        })
     }
 }
 
@@ -208,7 +223,8 @@ impl LoadGroup {
 #[must_use]
 pub fn eurocode_groups() -> Vec<LoadGroup> {
     use CraneLoad::{
-        BridgeDrives, BufferForce, HoistLoad, SelfWeight, Skewing, TestLoad, Tilting, TrolleyDrives, Wind,
+        BridgeDrives, BufferForce, HoistLoad, SelfWeight, Skewing, TestLoad, Tilting,
+        TrolleyDrives, Wind,
     };
     use LoadFactor::{Number, Phi1, Phi2, Phi3, Phi4, Phi5, Phi6, Phi7, Remaining};
     let one = Number(1.0);
@@ -216,21 +232,79 @@ pub fn eurocode_groups() -> Vec<LoadGroup> {
         name,
         purpose,
         is_single_crane: false,
-        loads: loads.iter().map(|&(load, factor)| FactoredLoad { load, factor }).collect(),
+        loads: loads
+            .iter()
+            .map(|&(load, factor)| FactoredLoad { load, factor })
+            .collect(),
         clause: en_1991_3("Table 2.2", evidence),
     };
     let (ultimate, used, memory) = (GroupUse::Ultimate, Evidence::Used, Evidence::Memory);
     let drives = [(BridgeDrives, Phi5), (Wind, one)];
     vec![
-        group("1", ultimate, used, &[(SelfWeight, Phi1), (HoistLoad, Phi2), drives[0], drives[1]]),
-        group("2", ultimate, used, &[(SelfWeight, Phi1), (HoistLoad, Phi3), drives[0], drives[1]]),
-        group("3", ultimate, used, &[(SelfWeight, one), drives[0], drives[1]]),
-        group("4", ultimate, used, &[(SelfWeight, Phi4), (HoistLoad, Phi4), drives[0], drives[1]]),
-        group("5", ultimate, used, &[(SelfWeight, Phi4), (HoistLoad, Phi4), (Skewing, one), (Wind, one)]),
-        group("6", ultimate, memory, &[(SelfWeight, Phi4), (HoistLoad, Phi4), (TrolleyDrives, one)]),
-        group("7", ultimate, memory, &[(SelfWeight, one), (HoistLoad, Remaining)]),
-        group("8", GroupUse::Test, memory, &[(SelfWeight, Phi1), drives[0], drives[1], (TestLoad, Phi6)]),
-        group("9", GroupUse::Accidental, memory, &[(SelfWeight, one), (HoistLoad, one), (BufferForce, Phi7)]),
-        group("10", GroupUse::Accidental, memory, &[(SelfWeight, one), (HoistLoad, one), (Tilting, one)]),
+        group(
+            "1",
+            ultimate,
+            used,
+            &[(SelfWeight, Phi1), (HoistLoad, Phi2), drives[0], drives[1]],
+        ),
+        group(
+            "2",
+            ultimate,
+            used,
+            &[(SelfWeight, Phi1), (HoistLoad, Phi3), drives[0], drives[1]],
+        ),
+        group(
+            "3",
+            ultimate,
+            used,
+            &[(SelfWeight, one), drives[0], drives[1]],
+        ),
+        group(
+            "4",
+            ultimate,
+            used,
+            &[(SelfWeight, Phi4), (HoistLoad, Phi4), drives[0], drives[1]],
+        ),
+        group(
+            "5",
+            ultimate,
+            used,
+            &[
+                (SelfWeight, Phi4),
+                (HoistLoad, Phi4),
+                (Skewing, one),
+                (Wind, one),
+            ],
+        ),
+        group(
+            "6",
+            ultimate,
+            memory,
+            &[(SelfWeight, Phi4), (HoistLoad, Phi4), (TrolleyDrives, one)],
+        ),
+        group(
+            "7",
+            ultimate,
+            memory,
+            &[(SelfWeight, one), (HoistLoad, Remaining)],
+        ),
+        group(
+            "8",
+            GroupUse::Test,
+            memory,
+            &[(SelfWeight, Phi1), drives[0], drives[1], (TestLoad, Phi6)],
+        ),
+        group(
+            "9",
+            GroupUse::Accidental,
+            memory,
+            &[(SelfWeight, one), (HoistLoad, one), (BufferForce, Phi7)],
+        ),
+        group(
+            "10",
+            GroupUse::Accidental,
+            memory,
+            &[(SelfWeight, one), (HoistLoad, one), (Tilting, one)],
+        ),
     ]
 }

@@ -56,7 +56,11 @@ impl Crane {
     /// Statics.
     pub fn wheel_loads(&self, dead: f64, hoist: f64) -> Result<StaticWheelLoads, Error> {
         let force = |force| non_negative(Argument::Force, force);
-        let (lifted, trolley, bridge) = (force(self.lifted)?, force(self.trolley)?, force(self.bridge)?);
+        let (lifted, trolley, bridge) = (
+            force(self.lifted)?,
+            force(self.trolley)?,
+            force(self.bridge)?,
+        );
         let dead = non_negative(Argument::Factor, dead)?;
         let hoist = non_negative(Argument::Factor, hoist)?;
         let span = positive(Argument::Length, self.span)?;

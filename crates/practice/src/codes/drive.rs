@@ -21,7 +21,9 @@ pub const FRICTION: [f64; 2] = [0.2, 0.5];
 /// EN 1991-3:2006, 2.7.3.
 pub fn drive_force(friction: f64, wheels: &[f64]) -> Result<f64, Error> {
     let friction = non_negative(Argument::Friction, friction)?;
-    wheels.iter().try_fold(0.0, |sum, load| Ok(sum + friction * non_negative(Argument::Force, *load)?))
+    wheels.iter().try_fold(0.0, |sum, load| {
+        Ok(sum + friction * non_negative(Argument::Force, *load)?)
+    })
 }
 
 /// A crane that accelerates or brakes. Forces and lengths are in any consistent units.

@@ -17,10 +17,14 @@ use crate::error::{Argument, non_negative};
 pub struct FatigueClass(u8);
 
 /// Damage-equivalent factors lambda of S0 to S9 for normal stresses.
-const NORMAL: [f64; 10] = [0.198, 0.250, 0.315, 0.397, 0.500, 0.630, 0.794, 1.000, 1.260, 1.587];
+const NORMAL: [f64; 10] = [
+    0.198, 0.250, 0.315, 0.397, 0.500, 0.630, 0.794, 1.000, 1.260, 1.587,
+];
 
 /// Damage-equivalent factors lambda of S0 to S9 for shear stresses.
-const SHEAR: [f64; 10] = [0.379, 0.436, 0.500, 0.575, 0.660, 0.758, 0.871, 1.000, 1.149, 1.320];
+const SHEAR: [f64; 10] = [
+    0.379, 0.436, 0.500, 0.575, 0.660, 0.758, 0.871, 1.000, 1.149, 1.320,
+];
 
 impl FatigueClass {
     /// The class S`index`; `None` beyond S9.

@@ -32,8 +32,12 @@ pub enum HoistingClass {
 
 impl HoistingClass {
     /// All classes in order.
-    pub const ALL: [HoistingClass; 4] =
-        [HoistingClass::Hc1, HoistingClass::Hc2, HoistingClass::Hc3, HoistingClass::Hc4];
+    pub const ALL: [HoistingClass; 4] = [
+        HoistingClass::Hc1,
+        HoistingClass::Hc2,
+        HoistingClass::Hc3,
+        HoistingClass::Hc4,
+    ];
 
     /// phi2,min, and beta2 in s/m.
     ///

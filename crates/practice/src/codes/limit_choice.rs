@@ -7,8 +7,14 @@ use super::limits::{
 };
 
 /// Names of the codes that [`limits_of`] knows; those of EN 1993-6 also for EN 1991-3.
-pub const LIMIT_CODES: [&str; 6] =
-    ["EN 1991-3", "EN 1993-6", "CMAA 70", "AISC Design Guide 7", "AIST TR-13", "IS 800"];
+pub const LIMIT_CODES: [&str; 6] = [
+    "EN 1991-3",
+    "EN 1993-6",
+    "CMAA 70",
+    "AISC Design Guide 7",
+    "AIST TR-13",
+    "IS 800",
+];
 
 /// The service class of CMAA 70 with this letter; `None` beyond A to F.
 #[must_use]

@@ -94,7 +94,9 @@ impl DeflectionLimit {
     #[must_use]
     pub fn formula(&self) -> String {
         let [symbol, _] = self.displacement.reference_length();
-        let ratio = self.ratio.map(|ratio| format!("{symbol}/{}", ratio.round()));
+        let ratio = self
+            .ratio
+            .map(|ratio| format!("{symbol}/{}", ratio.round()));
         let most = self.most.map(|most| format!("{:.0} mm", 1000.0 * most));
         match (ratio, most) {
             (Some(ratio), Some(most)) => format!("{ratio}, at most {most}"),
@@ -145,7 +147,13 @@ const fn limit(
     loads: &'static str,
     clause: CodeClause,
 ) -> DeflectionLimit {
-    DeflectionLimit { displacement, ratio: Some(ratio), most: None, loads, clause }
+    DeflectionLimit {
+        displacement,
+        ratio: Some(ratio),
+        most: None,
+        loads,
+        clause,
+    }
 }
 
 /// Limits of EN 1993-6:2007, 7.3, Tables 7.1 and 7.2; national annexes may change them.
@@ -157,8 +165,18 @@ pub const EN_1993_6_LIMITS: [DeflectionLimit; 7] = [
         loads: STATIC,
         clause: en_1993_6("Table 7.2 a", Evidence::Used),
     },
-    limit(LimitedDisplacement::RunwayLateral, 600.0, HORIZONTAL, en_1993_6("Table 7.1 a", Evidence::Used)),
-    limit(LimitedDisplacement::FrameLateral, 400.0, HORIZONTAL, en_1993_6("Table 7.1 b", Evidence::Used)),
+    limit(
+        LimitedDisplacement::RunwayLateral,
+        600.0,
+        HORIZONTAL,
+        en_1993_6("Table 7.1 a", Evidence::Used),
+    ),
+    limit(
+        LimitedDisplacement::FrameLateral,
+        400.0,
+        HORIZONTAL,
+        en_1993_6("Table 7.1 b", Evidence::Used),
+    ),
     limit(
         LimitedDisplacement::FrameDifference,
         600.0,
@@ -172,7 +190,12 @@ pub const EN_1993_6_LIMITS: [DeflectionLimit; 7] = [
         loads: "crane loads with temperature effects",
         clause: en_1993_6("Table 7.1 e", Evidence::Memory),
     },
-    limit(LimitedDisplacement::HeightDifference, 600.0, STATIC, en_1993_6("Table 7.2 b", Evidence::Memory)),
+    limit(
+        LimitedDisplacement::HeightDifference,
+        600.0,
+        STATIC,
+        en_1993_6("Table 7.2 b", Evidence::Memory),
+    ),
     limit(
         LimitedDisplacement::MonorailVertical,
         500.0,
@@ -205,7 +228,12 @@ pub const CMAA_LIMITS: [DeflectionLimit; 3] = [
 
 /// A clause of AISC Design Guide 7, third edition.
 const fn design_guide_7(clause: &'static str, evidence: Evidence) -> CodeClause {
-    CodeClause { standard: "AISC Design Guide 7", edition: "3rd (2019)", clause, evidence }
+    CodeClause {
+        standard: "AISC Design Guide 7",
+        edition: "3rd (2019)",
+        clause,
+        evidence,
+    }
 }
 
 /// Limits of AISC Design Guide 7 for runway girders by the service class of the crane: vertically L/600 for A to
@@ -242,7 +270,12 @@ pub fn mill_limits(building: BuildingClass) -> [DeflectionLimit; 3] {
             "one crane, static, without impact",
             clause,
         ),
-        limit(LimitedDisplacement::RunwayLateral, aist::RUNWAY_LATERAL, "side thrust of one crane", clause),
+        limit(
+            LimitedDisplacement::RunwayLateral,
+            aist::RUNWAY_LATERAL,
+            "side thrust of one crane",
+            clause,
+        ),
         DeflectionLimit {
             displacement: LimitedDisplacement::FrameLateral,
             ratio: Some(400.0),
@@ -261,8 +294,12 @@ pub fn mill_limits(building: BuildingClass) -> [DeflectionLimit; 3] {
 /// IS 800:2007, Table 6.
 #[must_use]
 pub fn is_800_limits(crane: GantryCrane, cab: bool) -> [DeflectionLimit; 4] {
-    let clause =
-        CodeClause { standard: "IS 800", edition: "2007", clause: "Table 6", evidence: Evidence::Used };
+    let clause = CodeClause {
+        standard: "IS 800",
+        edition: "2007",
+        clause: "Table 6",
+        evidence: Evidence::Used,
+    };
     let ratio = match crane {
         GantryCrane::Manual => 500.0,
         GantryCrane::ElectricTo50Tonnes => 750.0,
@@ -279,6 +316,11 @@ pub fn is_800_limits(crane: GantryCrane, cab: bool) -> [DeflectionLimit; 4] {
             loads: surge,
             clause,
         },
-        limit(LimitedDisplacement::FrameLateral, if cab { 400.0 } else { 200.0 }, surge, clause),
+        limit(
+            LimitedDisplacement::FrameLateral,
+            if cab { 400.0 } else { 200.0 },
+            surge,
+            clause,
+        ),
     ]
 }

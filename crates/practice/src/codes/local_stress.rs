@@ -129,7 +129,10 @@ impl LocalStresses {
     pub fn over(force: f64, length: f64, web: f64) -> Result<LocalStresses, Error> {
         let area = positive(Argument::Length, length)? * positive(Argument::Length, web)?;
         let vertical = non_negative(Argument::Force, force)? / area;
-        Ok(LocalStresses { vertical, shear: LOCAL_SHEAR * vertical })
+        Ok(LocalStresses {
+            vertical,
+            shear: LOCAL_SHEAR * vertical,
+        })
     }
 
     /// The shear stress with that of the girder as a whole, `global`, of either sign: |tau| + tau_oxz.

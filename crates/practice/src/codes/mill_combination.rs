@@ -25,39 +25,139 @@ type Row = (&'static str, Cranes, [f64; 8]);
 
 /// Combinations for allowable stress design.
 const ALLOWABLE: [Row; 15] = [
-    ("1", Cranes::Several, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("1a", Cranes::Several, [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("2", Cranes::Several, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-    ("2a", Cranes::Several, [1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0]),
+    (
+        "1",
+        Cranes::Several,
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "1a",
+        Cranes::Several,
+        [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "2",
+        Cranes::Several,
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+    ),
+    (
+        "2a",
+        Cranes::Several,
+        [1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+    ),
     ("2b", Cranes::One, [1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0]),
-    ("4a", Cranes::Several, [1.0, 1.0, 0.75, 0.0, 0.75, 0.75, 0.75, 0.0]),
-    ("4b", Cranes::One, [1.0, 1.0, 0.75, 0.75, 0.0, 0.75, 0.75, 0.0]),
-    ("5a", Cranes::Several, [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("6a1", Cranes::Several, [1.0, 1.0, 0.75, 0.0, 0.0, 0.0, 0.75, 0.0]),
-    ("7", Cranes::Several, [0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("8", Cranes::Several, [0.6, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (
+        "4a",
+        Cranes::Several,
+        [1.0, 1.0, 0.75, 0.0, 0.75, 0.75, 0.75, 0.0],
+    ),
+    (
+        "4b",
+        Cranes::One,
+        [1.0, 1.0, 0.75, 0.75, 0.0, 0.75, 0.75, 0.0],
+    ),
+    (
+        "5a",
+        Cranes::Several,
+        [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "6a1",
+        Cranes::Several,
+        [1.0, 1.0, 0.75, 0.0, 0.0, 0.0, 0.75, 0.0],
+    ),
+    (
+        "7",
+        Cranes::Several,
+        [0.6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "8",
+        Cranes::Several,
+        [0.6, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
     ("9", Cranes::One, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.67]),
-    ("10", Cranes::OneEmpty, [0.6, 0.6, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
-    ("11 with traction", Cranes::OneEmpty, [0.6, 0.6, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
-    ("11 with buffer", Cranes::OneEmpty, [0.6, 0.6, 1.0, 0.0, 0.0, 0.0, 0.0, 0.67]),
+    (
+        "10",
+        Cranes::OneEmpty,
+        [0.6, 0.6, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "11 with traction",
+        Cranes::OneEmpty,
+        [0.6, 0.6, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+    ),
+    (
+        "11 with buffer",
+        Cranes::OneEmpty,
+        [0.6, 0.6, 1.0, 0.0, 0.0, 0.0, 0.0, 0.67],
+    ),
 ];
 
 /// Combinations for strength design.
 const STRENGTH: [Row; 14] = [
-    ("1", Cranes::Several, [1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("1a", Cranes::Several, [1.4, 1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("2", Cranes::Several, [1.2, 0.0, 0.0, 0.0, 0.0, 0.0, 1.6, 0.0]),
-    ("2a", Cranes::Several, [1.2, 1.2, 1.0, 0.0, 1.0, 1.0, 1.6, 0.0]),
-    ("2b", Cranes::Several, [1.2, 1.2, 1.6, 0.0, 1.6, 1.6, 1.0, 0.0]),
+    (
+        "1",
+        Cranes::Several,
+        [1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "1a",
+        Cranes::Several,
+        [1.4, 1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "2",
+        Cranes::Several,
+        [1.2, 0.0, 0.0, 0.0, 0.0, 0.0, 1.6, 0.0],
+    ),
+    (
+        "2a",
+        Cranes::Several,
+        [1.2, 1.2, 1.0, 0.0, 1.0, 1.0, 1.6, 0.0],
+    ),
+    (
+        "2b",
+        Cranes::Several,
+        [1.2, 1.2, 1.6, 0.0, 1.6, 1.6, 1.0, 0.0],
+    ),
     ("2c", Cranes::One, [1.2, 1.2, 1.6, 1.6, 0.0, 1.6, 1.0, 0.0]),
-    ("3a", Cranes::Several, [1.2, 1.2, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0]),
-    ("4a", Cranes::Several, [1.2, 1.2, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-    ("6 and 7", Cranes::Several, [0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ("7a", Cranes::Several, [0.9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (
+        "3a",
+        Cranes::Several,
+        [1.2, 1.2, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+    ),
+    (
+        "4a",
+        Cranes::Several,
+        [1.2, 1.2, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+    ),
+    (
+        "6 and 7",
+        Cranes::Several,
+        [0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "7a",
+        Cranes::Several,
+        [0.9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
     ("8", Cranes::One, [1.2, 1.2, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
-    ("9", Cranes::OneEmpty, [0.9, 0.9, 1.6, 0.0, 1.6, 0.0, 0.0, 0.0]),
-    ("10 with traction", Cranes::One, [0.9, 0.9, 0.0, 0.0, 0.0, 1.6, 0.0, 0.0]),
-    ("10 with buffer", Cranes::One, [0.9, 0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    (
+        "9",
+        Cranes::OneEmpty,
+        [0.9, 0.9, 1.6, 0.0, 1.6, 0.0, 0.0, 0.0],
+    ),
+    (
+        "10 with traction",
+        Cranes::One,
+        [0.9, 0.9, 0.0, 0.0, 0.0, 1.6, 0.0, 0.0],
+    ),
+    (
+        "10 with buffer",
+        Cranes::One,
+        [0.9, 0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    ),
 ];
 
 /// The combinations of AIST Technical Report 13 with the loads of a runway, for [`GroupUse::AllowableStress`] or
@@ -74,7 +174,9 @@ pub fn mill_combinations(purpose: GroupUse) -> Vec<LoadGroup> {
         GroupUse::Strength => &STRENGTH,
         _ => &[],
     };
-    rows.iter().map(|row| mill_combination(row, purpose)).collect()
+    rows.iter()
+        .map(|row| mill_combination(row, purpose))
+        .collect()
 }
 
 /// One combination.
@@ -93,7 +195,10 @@ fn mill_combination(&(name, cranes, factors): &Row, purpose: GroupUse) -> LoadGr
         CraneLoad::Live,
         CraneLoad::BufferForce,
     ];
-    let present = order.into_iter().zip(factors).filter(|(_, factor)| *factor != 0.0);
+    let present = order
+        .into_iter()
+        .zip(factors)
+        .filter(|(_, factor)| *factor != 0.0);
     LoadGroup {
         name,
         purpose,
@@ -105,7 +210,10 @@ fn mill_combination(&(name, cranes, factors): &Row, purpose: GroupUse) -> LoadGr
 
 /// Loads with factors that are numbers.
 fn numbers(loads: impl IntoIterator<Item = (CraneLoad, f64)>) -> Vec<FactoredLoad> {
-    let factored = |(load, factor)| FactoredLoad { load, factor: LoadFactor::Number(factor) };
+    let factored = |(load, factor)| FactoredLoad {
+        load,
+        factor: LoadFactor::Number(factor),
+    };
     loads.into_iter().map(factored).collect()
 }
 
@@ -143,13 +251,20 @@ pub fn asce_group(operation: CraneOperation) -> LoadGroup {
     let clause: CodeClause = asce_7("4.9.3 to 4.9.5", Evidence::Used);
     let is_powered = operation != CraneOperation::HandGeared;
     let horizontal = [(CraneLoad::SideThrust, 0.2), (CraneLoad::Traction, 0.1)];
-    let vertical =
-        [(CraneLoad::SelfWeight, 1.0), (CraneLoad::HoistLoad, 1.0), (CraneLoad::Impact, operation.impact())];
+    let vertical = [
+        (CraneLoad::SelfWeight, 1.0),
+        (CraneLoad::HoistLoad, 1.0),
+        (CraneLoad::Impact, operation.impact()),
+    ];
     LoadGroup {
         name: "crane loads",
         purpose: GroupUse::AllowableStress,
         is_single_crane: false,
-        loads: numbers(vertical.into_iter().chain(horizontal.into_iter().filter(|_| is_powered))),
+        loads: numbers(
+            vertical
+                .into_iter()
+                .chain(horizontal.into_iter().filter(|_| is_powered)),
+        ),
         clause,
     }
 }

@@ -138,12 +138,19 @@ pub fn skewing(kind: WheelPairs, span: f64, heavy: f64, pairs: &[f64]) -> Result
         return Err(Error::NoRotationCentre);
     }
     let side = |pair: f64| (1.0 - pair / reach) / count;
-    let along = if coupled > 0.0 { heavy * light * span / (count * reach) } else { 0.0 };
+    let along = if coupled > 0.0 {
+        heavy * light * span / (count * reach)
+    } else {
+        0.0
+    };
     Ok(Skewing {
         rotation_distance: reach,
         guide: (if free { light } else { 1.0 }) * (1.0 - first / (count * reach)),
         along: vec![along; pairs.len()],
-        across: pairs.iter().map(|&e| [light * side(e), if free { 0.0 } else { heavy * side(e) }]).collect(),
+        across: pairs
+            .iter()
+            .map(|&e| [light * side(e), if free { 0.0 } else { heavy * side(e) }])
+            .collect(),
     })
 }
 

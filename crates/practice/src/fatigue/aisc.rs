@@ -79,7 +79,10 @@ impl AiscCurve {
     /// # Errors
     /// [`Error::Range`] for a `ksi` that is not positive.
     pub fn new(category: AiscCategory, ksi: f64) -> Result<AiscCurve, Error> {
-        Ok(AiscCurve { category, ksi: positive(Argument::Range, ksi)? })
+        Ok(AiscCurve {
+            category,
+            ksi: positive(Argument::Range, ksi)?,
+        })
     }
 
     /// The range whose life on the sloping line is [`REFERENCE_CYCLES`] cycles; the threshold is disregarded.

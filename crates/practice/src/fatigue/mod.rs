@@ -9,5 +9,7 @@ mod strength;
 pub mod stress;
 
 pub use rainflow::{Cycle, Repetition, rainflow};
-pub use strength::{CATEGORIES, CUT_OFF_CYCLES, Damage, LIMIT_CYCLES, REFERENCE_CYCLES, Strength, Stress};
+pub use strength::{
+    CATEGORIES, CUT_OFF_CYCLES, Damage, LIMIT_CYCLES, REFERENCE_CYCLES, Strength, Stress,
+};
 pub use stress::{SectionPoint, SectionProperties};

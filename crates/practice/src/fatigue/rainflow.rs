@@ -70,7 +70,8 @@ pub fn rainflow(values: &[f64], history: Repetition) -> Result<Vec<Cycle>, Error
     let turns = match history {
         Repetition::Once => turning_points(samples),
         Repetition::Repeated => {
-            let top = (0..values.len()).fold(0, |top, k| if values[k] > values[top] { k } else { top });
+            let top =
+                (0..values.len()).fold(0, |top, k| if values[k] > values[top] { k } else { top });
             let round = (top..values.len()).chain(0..values.len().min(top + 1));
             turning_points(round.map(|k| (values[k], k)))
         }
@@ -95,7 +96,10 @@ pub fn rainflow(values: &[f64], history: Repetition) -> Result<Vec<Cycle>, Error
 /// The ranges in increasing order as pairs of range and count; equal ranges are combined.
 #[must_use]
 pub fn ranges(cycles: &[Cycle]) -> Vec<[f64; 2]> {
-    let mut pairs: Vec<[f64; 2]> = cycles.iter().map(|cycle| [cycle.range(), cycle.count]).collect();
+    let mut pairs: Vec<[f64; 2]> = cycles
+        .iter()
+        .map(|cycle| [cycle.range(), cycle.count])
+        .collect();
     pairs.sort_by(|a, b| a[0].total_cmp(&b[0]));
     pairs.dedup_by(|next, kept| {
         let same = next[0] == kept[0];
@@ -107,7 +111,11 @@ pub fn ranges(cycles: &[Cycle]) -> Vec<[f64; 2]> {
 
 /// The cycle between two turning points.
 fn cycle(from: Turn, to: Turn, count: f64) -> Cycle {
-    Cycle { ends: [from.0, to.0], samples: [from.1, to.1], count }
+    Cycle {
+        ends: [from.0, to.0],
+        samples: [from.1, to.1],
+        count,
+    }
 }
 
 /// The first and last sample and every turning point; of successive equal samples the first is taken.

@@ -17,8 +17,9 @@ pub const CUT_OFF_CYCLES: f64 = 1e8;
 ///
 /// # Source
 /// EN 1993-1-9:2005, Figure 7.1.
-pub const CATEGORIES: [f64; 14] =
-    [36.0, 40.0, 45.0, 50.0, 56.0, 63.0, 71.0, 80.0, 90.0, 100.0, 112.0, 125.0, 140.0, 160.0];
+pub const CATEGORIES: [f64; 14] = [
+    36.0, 40.0, 45.0, 50.0, 56.0, 63.0, 71.0, 80.0, 90.0, 100.0, 112.0, 125.0, 140.0, 160.0,
+];
 
 /// The kind of stress of a detail category.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,7 +56,12 @@ impl Strength {
     ///
     /// # Source
     /// EN 1993-1-9:2005, 7.1 and A.5.
-    pub fn new(stress: Stress, category: f64, loads: f64, material: f64) -> Result<Strength, Error> {
+    pub fn new(
+        stress: Stress,
+        category: f64,
+        loads: f64,
+        material: f64,
+    ) -> Result<Strength, Error> {
         let category = positive(Argument::Range, category)?;
         let loads = positive(Argument::Partial, loads)?;
         let material = positive(Argument::Partial, material)?;
@@ -163,7 +169,11 @@ impl Damage {
         limit: f64,
         by: impl Fn(f64) -> Result<f64, Error>,
     ) -> Result<Damage, Error> {
-        let mut damage = Damage { sum: 0.0, largest_range: 0.0, below_limit: true };
+        let mut damage = Damage {
+            sum: 0.0,
+            largest_range: 0.0,
+            below_limit: true,
+        };
         for cycle in cycles {
             let range = cycle.range();
             damage.sum += non_negative(Argument::Count, cycle.count)? * by(range)?;

@@ -65,10 +65,16 @@ pub fn weights(section: &SectionProperties, point: SectionPoint) -> Result<[f64;
 /// assert!((sigma - 15_000.0).abs() < 1e-9);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn direct(section: &SectionProperties, point: SectionPoint, forces: [f64; 6]) -> Result<f64, Error> {
+pub fn direct(
+    section: &SectionProperties,
+    point: SectionPoint,
+    forces: [f64; 6],
+) -> Result<f64, Error> {
     let weights = weights(section, point)?;
     forces
         .iter()
         .zip(weights)
-        .try_fold(0.0, |sum, (force, weight)| Ok(sum + weight * signed(Argument::Force, *force)?))
+        .try_fold(0.0, |sum, (force, weight)| {
+            Ok(sum + weight * signed(Argument::Force, *force)?)
+        })
 }

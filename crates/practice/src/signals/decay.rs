@@ -47,9 +47,15 @@ pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Err
     let step = positive(Argument::Time, step)?;
     let floor = within(Argument::Fraction, floor, 0.0, 1.0)?;
     check_samples(0, values)?;
-    let noise = NOISE * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let noise = NOISE
+        * values
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
     let tops = extremes(values);
-    let ranges: Vec<f64> = tops.windows(2).map(|pair| (pair[0].1 - pair[1].1).abs()).collect();
+    let ranges: Vec<f64> = tops
+        .windows(2)
+        .map(|pair| (pair[0].1 - pair[1].1).abs())
+        .collect();
     let start = (0..ranges.len()).fold(0, |top, k| if ranges[k] > ranges[top] { k } else { top });
     let kept = ranges[start.min(ranges.len())..].iter();
     let logs: Vec<f64> = kept
@@ -81,7 +87,11 @@ fn extremes(values: &[f64]) -> Vec<(f64, f64)> {
         let [a, b, c] = [values[k - 1], values[k], values[k + 1]];
         if (b > a && b >= c) || (b < a && b <= c) {
             let curve = a - 2.0 * b + c;
-            let shift = if curve == 0.0 { 0.0 } else { 0.5 * (a - c) / curve };
+            let shift = if curve == 0.0 {
+                0.0
+            } else {
+                0.5 * (a - c) / curve
+            };
             tops.push((k as f64 + shift, b - 0.25 * (a - c) * shift));
         }
     }

@@ -55,7 +55,11 @@ pub fn envelope(runs: &[RunHistories], count: usize) -> Result<Vec<Extremes>, Er
     let expected = runs.first().map_or(0, |run| run.series.len()).max(count);
     for (index, run) in runs.iter().enumerate() {
         if run.series.len() != expected {
-            return Err(Error::Series { run: index, found: run.series.len(), expected });
+            return Err(Error::Series {
+                run: index,
+                found: run.series.len(),
+                expected,
+            });
         }
         check(run.times, run.series)?;
     }
@@ -71,7 +75,11 @@ pub fn envelope(runs: &[RunHistories], count: usize) -> Result<Vec<Extremes>, Er
 }
 
 /// The instant at which a series is `better` than at every one before. At least one run must have a sample.
-fn extreme(runs: &[RunHistories], series: usize, better: impl Fn(f64, f64) -> bool) -> ExtremeInstant {
+fn extreme(
+    runs: &[RunHistories],
+    series: usize,
+    better: impl Fn(f64, f64) -> bool,
+) -> ExtremeInstant {
     let mut best: Option<(usize, usize, f64)> = None;
     for (index, run) in runs.iter().enumerate() {
         for (sample, &value) in run.series[series].iter().enumerate() {
@@ -81,6 +89,15 @@ fn extreme(runs: &[RunHistories], series: usize, better: impl Fn(f64, f64) -> bo
         }
     }
     let (run, sample, _) = best.expect("envelope refuses runs without samples");
-    let values = runs[run].series.iter().map(|series| series[sample]).collect();
-    ExtremeInstant { run, sample, time: runs[run].times[sample], values }
+    let values = runs[run]
+        .series
+        .iter()
+        .map(|series| series[sample])
+        .collect();
+    ExtremeInstant {
+        run,
+        sample,
+        time: runs[run].times[sample],
+        values,
+    }
 }

@@ -38,8 +38,14 @@ pub fn low_pass(values: &[f64], step: f64, cut: f64) -> Result<Vec<f64>, Error> 
     };
     let section = Biquad::new((PI * cut * step).tan());
     let pad = ((5.0 / (cut * step)).ceil() as usize).min(values.len() - 1);
-    let before = values[1..=pad].iter().rev().map(|value| 2.0 * first - value);
-    let after = values[values.len() - 1 - pad..values.len() - 1].iter().rev().map(|value| 2.0 * last - value);
+    let before = values[1..=pad]
+        .iter()
+        .rev()
+        .map(|value| 2.0 * first - value);
+    let after = values[values.len() - 1 - pad..values.len() - 1]
+        .iter()
+        .rev()
+        .map(|value| 2.0 * last - value);
     let mut padded: Vec<f64> = before.chain(values.iter().copied()).chain(after).collect();
     section.run(&mut padded);
     padded.reverse();
@@ -58,7 +64,13 @@ impl Biquad {
     /// The Butterworth low-pass with K = tan(pi c h).
     fn new(k: f64) -> Biquad {
         let norm = 1.0 + SQRT_2 * k + k * k;
-        Biquad { b: k * k / norm, a: [2.0 * (k * k - 1.0) / norm, (1.0 - SQRT_2 * k + k * k) / norm] }
+        Biquad {
+            b: k * k / norm,
+            a: [
+                2.0 * (k * k - 1.0) / norm,
+                (1.0 - SQRT_2 * k + k * k) / norm,
+            ],
+        }
     }
 
     /// Filters in place. The initial state is that of a constant history equal to the first value.

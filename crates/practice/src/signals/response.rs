@@ -82,8 +82,14 @@ pub fn response(
         None => even,
     };
     let best = |better: fn(f64, f64) -> bool| {
-        let sample = (0..even.len()).fold(0, |best, k| if better(even[k], even[best]) { k } else { best });
-        TimedValue { time: view.from + sample as f64 * view.step, value: even[sample] }
+        let sample = (0..even.len()).fold(
+            0,
+            |best, k| if better(even[k], even[best]) { k } else { best },
+        );
+        TimedValue {
+            time: view.from + sample as f64 * view.step,
+            value: even[sample],
+        }
     };
     Ok(ResponseCharacteristics {
         mean,

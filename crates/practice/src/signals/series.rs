@@ -8,7 +8,11 @@ use crate::error::{Argument, check_samples, non_negative, positive, signed, with
 pub(crate) fn check(times: &[f64], series: &[&[f64]]) -> Result<(), Error> {
     for (index, values) in series.iter().enumerate() {
         if values.len() != times.len() {
-            return Err(Error::Samples { series: index, found: values.len(), expected: times.len() });
+            return Err(Error::Samples {
+                series: index,
+                found: values.len(),
+                expected: times.len(),
+            });
         }
         check_samples(index, values)?;
     }
@@ -34,7 +38,10 @@ pub(crate) fn check(times: &[f64], series: &[&[f64]]) -> Result<(), Error> {
 pub fn mean(times: &[f64], values: &[f64], from: f64) -> Result<f64, Error> {
     check(times, &[values])?;
     let [first, .., last] = times[..] else {
-        return Err(Error::Few { found: times.len(), least: 2 });
+        return Err(Error::Few {
+            found: times.len(),
+            least: 2,
+        });
     };
     within(Argument::Time, from, first, last)?;
     let length = positive(Argument::Time, last - from)?;
@@ -58,11 +65,19 @@ pub fn mean(times: &[f64], values: &[f64], from: f64) -> Result<f64, Error> {
 pub fn resample(times: &[f64], values: &[f64], from: f64, step: f64) -> Result<Vec<f64>, Error> {
     check(times, &[values])?;
     let [first, .., last] = times[..] else {
-        return Err(Error::Few { found: times.len(), least: 2 });
+        return Err(Error::Few {
+            found: times.len(),
+            least: 2,
+        });
     };
     within(Argument::Time, from, first, last)?;
     let length = last - from;
-    let step = within(Argument::Time, positive(Argument::Time, step)?, length / f64::from(1 << 24), 1e30)?;
+    let step = within(
+        Argument::Time,
+        positive(Argument::Time, step)?,
+        length / f64::from(1 << 24),
+        1e30,
+    )?;
     // The tolerance keeps the last sample where rounding would put it just beyond the end.
     let count = (length / step * (1.0 + 1e-12)).floor() as usize + 1;
     let mut k = 1;
@@ -80,7 +95,11 @@ pub fn resample(times: &[f64], values: &[f64], from: f64, step: f64) -> Result<V
 /// The value at a time between the samples k - 1 and k, interpolated linearly.
 fn between(times: &[f64], values: &[f64], k: usize, time: f64) -> f64 {
     let length = times[k] - times[k - 1];
-    let fraction = if length > 0.0 { ((time - times[k - 1]) / length).clamp(0.0, 1.0) } else { 1.0 };
+    let fraction = if length > 0.0 {
+        ((time - times[k - 1]) / length).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
     values[k - 1] * (1.0 - fraction) + values[k] * fraction
 }
 

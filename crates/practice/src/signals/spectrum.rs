@@ -57,13 +57,25 @@ impl HistorySpectrum {
         let step = positive(Argument::Time, step)?;
         check_samples(0, values)?;
         if values.len() < LEAST {
-            return Err(Error::Few { found: values.len(), least: LEAST });
+            return Err(Error::Few {
+                found: values.len(),
+                least: LEAST,
+            });
         }
         let count = values.len() as f64;
         let sizes = transform(values).iter().map(|bin| bin.norm()).collect();
         // The rounding errors of a constant history must not count as a sine.
-        let noise = NOISE * count * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        Ok(HistorySpectrum { sizes, noise, count, step })
+        let noise = NOISE
+            * count
+            * values
+                .iter()
+                .fold(0.0, |most: f64, value| most.max(value.abs()));
+        Ok(HistorySpectrum {
+            sizes,
+            noise,
+            count,
+            step,
+        })
     }
 
     /// The strongest sine component with a frequency in `band`, given by its lower and upper limit in cycles per unit of
@@ -83,7 +95,12 @@ impl HistorySpectrum {
     pub fn strongest(&self, band: [f64; 2]) -> Result<Option<SineComponent>, Error> {
         let least = non_negative(Argument::Frequency, band[0])?;
         let most = within(Argument::Frequency, band[1], least, 1e30)?;
-        let HistorySpectrum { sizes, noise, count, step } = self;
+        let HistorySpectrum {
+            sizes,
+            noise,
+            count,
+            step,
+        } = self;
         let mut peak: Option<(usize, f64)> = None;
         for k in 1..sizes.len() - 1 {
             let frequency = k as f64 / (count * step);
@@ -97,7 +114,11 @@ impl HistorySpectrum {
             let right = sizes[k + 1] >= sizes[k - 1];
             let ratio = if right { sizes[k + 1] } else { sizes[k - 1] } / size;
             let shift = ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(0.0, 0.5);
-            let lobe = if shift > 0.0 { (PI * shift).sin() / (PI * shift) } else { 1.0 };
+            let lobe = if shift > 0.0 {
+                (PI * shift).sin() / (PI * shift)
+            } else {
+                1.0
+            };
             let place = k as f64 + if right { shift } else { -shift };
             SineComponent {
                 frequency: place / (count * step),
@@ -117,10 +138,14 @@ fn transform(values: &[f64]) -> Vec<Complex<f64>> {
     let n = values.len() as f64;
     let mean = values.iter().map(|value| value / n).sum::<f64>();
     let window = |k: usize| 0.5 - 0.5 * (2.0 * PI * k as f64 / n).cos();
-    let mut input: Vec<f64> =
-        values.iter().enumerate().map(|(k, value)| (value - mean) * window(k)).collect();
+    let mut input: Vec<f64> = values
+        .iter()
+        .enumerate()
+        .map(|(k, value)| (value - mean) * window(k))
+        .collect();
     let plan = PLANNER.with_borrow_mut(|planner| planner.plan_fft_forward(values.len()));
     let mut output = plan.make_output_vec();
-    plan.process(&mut input, &mut output).expect("lengths are those of the plan");
+    plan.process(&mut input, &mut output)
+        .expect("lengths are those of the plan");
     output
 }

@@ -27,12 +27,19 @@ pub struct ChartAxis {
 impl ChartAxis {
     /// A linear axis whose range is taken from the data.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        ChartAxis { label: label.into(), unit: unit.into(), ..ChartAxis::default() }
+        ChartAxis {
+            label: label.into(),
+            unit: unit.into(),
+            ..ChartAxis::default()
+        }
     }
 
     /// The same axis with positive values downwards.
     pub fn downwards(self) -> Self {
-        ChartAxis { downwards: true, ..self }
+        ChartAxis {
+            downwards: true,
+            ..self
+        }
     }
 
     /// The same axis on a logarithmic scale.
@@ -42,7 +49,10 @@ impl ChartAxis {
 
     /// The same axis from `low` to `high`.
     pub fn range(self, low: f64, high: f64) -> Self {
-        ChartAxis { range: Some([low, high]), ..self }
+        ChartAxis {
+            range: Some([low, high]),
+            ..self
+        }
     }
 
     /// Label with unit and the common power of ten of the tick labels.

@@ -10,7 +10,9 @@ use std::fmt::Write;
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontStyle, FontTransform};
-use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingErrorKind};
+use plotters_backend::{
+    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingErrorKind,
+};
 
 use super::text::text_width;
 
@@ -44,15 +46,24 @@ impl<'s> SvgBackend<'s> {
             add_path(&mut data, one.iter().copied());
             data.push('Z');
         }
-        self.tag(&format!("<path fill=\"{}\" d=\"{data}\"/>", colour(style.color())));
+        self.tag(&format!(
+            "<path fill=\"{}\" d=\"{data}\"/>",
+            colour(style.color())
+        ));
     }
 
     /// Writes polylines as one stroked path.
     pub fn draw_paths<S: BackendStyle>(&mut self, paths: &[Vec<BackendCoord>], style: &S) {
         let mut data = String::new();
-        paths.iter().for_each(|one| add_path(&mut data, one.iter().copied()));
+        paths
+            .iter()
+            .for_each(|one| add_path(&mut data, one.iter().copied()));
         // a straight line has no area
-        let fill = if matches!(paths, [line] if line.len() == 2) { "" } else { "fill=\"none\" " };
+        let fill = if matches!(paths, [line] if line.len() == 2) {
+            ""
+        } else {
+            "fill=\"none\" "
+        };
         self.tag(&format!("<path {fill}{} d=\"{data}\"/>", stroke(style)));
     }
 }
@@ -73,11 +84,19 @@ impl DrawingBackend for SvgBackend<'_> {
     }
 
     fn draw_pixel(&mut self, (x, y): BackendCoord, own: BackendColor) -> Drawn {
-        self.tag(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"1\" height=\"1\" fill=\"{}\"/>", colour(own)));
+        self.tag(&format!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"1\" height=\"1\" fill=\"{}\"/>",
+            colour(own)
+        ));
         Ok(())
     }
 
-    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Drawn {
+    fn draw_line<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+    ) -> Drawn {
         self.draw_path([from, to], style)
     }
 
@@ -127,7 +146,9 @@ impl DrawingBackend for SvgBackend<'_> {
             } else {
                 format!("fill=\"none\" {}", stroke(style))
             };
-            self.tag(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" {paint}/>"));
+            self.tag(&format!(
+                "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" {paint}/>"
+            ));
         }
         Ok(())
     }
@@ -143,7 +164,12 @@ impl DrawingBackend for SvgBackend<'_> {
         Ok(())
     }
 
-    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, (x, y): BackendCoord) -> Drawn {
+    fn draw_text<S: BackendTextStyle>(
+        &mut self,
+        text: &str,
+        style: &S,
+        (x, y): BackendCoord,
+    ) -> Drawn {
         if style.color().alpha == 0.0 || text.is_empty() {
             return Ok(());
         }
@@ -157,7 +183,11 @@ impl DrawingBackend for SvgBackend<'_> {
             VPos::Center => "0.5ex",
             VPos::Bottom => "-0.5ex",
         };
-        let weight = if matches!(style.style(), FontStyle::Bold) { " font-weight=\"bold\"" } else { "" };
+        let weight = if matches!(style.style(), FontStyle::Bold) {
+            " font-weight=\"bold\""
+        } else {
+            ""
+        };
         let turn = match style.transform() {
             FontTransform::None => String::new(),
             FontTransform::Rotate90 => format!(" transform=\"rotate(90 {x} {y})\""),
@@ -179,25 +209,43 @@ impl DrawingBackend for SvgBackend<'_> {
         style: &S,
     ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
         let size = style.size();
-        Ok((text_width(text, size).ceil() as u32, (LINE_HEIGHT * size).round() as u32))
+        Ok((
+            text_width(text, size).ceil() as u32,
+            (LINE_HEIGHT * size).round() as u32,
+        ))
     }
 }
 
-fn colour(BackendColor { alpha, rgb: (r, g, b) }: BackendColor) -> String {
+fn colour(
+    BackendColor {
+        alpha,
+        rgb: (r, g, b),
+    }: BackendColor,
+) -> String {
     if alpha < 1.0 {
-        format!("#{r:02X}{g:02X}{b:02X}{:02X}", (255.0 * alpha).round() as u8)
+        format!(
+            "#{r:02X}{g:02X}{b:02X}{:02X}",
+            (255.0 * alpha).round() as u8
+        )
     } else {
         format!("#{r:02X}{g:02X}{b:02X}")
     }
 }
 
 fn stroke<S: BackendStyle>(style: &S) -> String {
-    format!("stroke=\"{}\" stroke-width=\"{}\"", colour(style.color()), style.stroke_width())
+    format!(
+        "stroke=\"{}\" stroke-width=\"{}\"",
+        colour(style.color()),
+        style.stroke_width()
+    )
 }
 
 /// Text between tags and in attributes.
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// Adds the path data of an open polyline: absolute to the first corner, relative from there on, with one number for each
@@ -240,7 +288,17 @@ mod tests {
 
     #[test]
     fn a_path_goes_through_the_corners_of_its_polyline() {
-        let points = [(10, 20), (12, 20), (12, 5), (0, 5), (0, -3), (7, -3), (8, -10), (8, 0), (9, 0)];
+        let points = [
+            (10, 20),
+            (12, 20),
+            (12, 5),
+            (0, 5),
+            (0, -3),
+            (7, -3),
+            (8, -10),
+            (8, 0),
+            (9, 0),
+        ];
         let style = ShapeStyle::from(RGBColor(0x16, 0x16, 0x1d)).stroke_width(20);
         assert_eq!(
             drawn(|backend| backend.draw_path(points, &style)),
@@ -250,7 +308,15 @@ mod tests {
 
     #[test]
     fn a_path_has_one_number_for_a_horizontal_or_vertical_step() {
-        let points = [(10, 20), (30, 20), (30, 15), (30, 10), (20, 5), (10, 7), (10, 7)];
+        let points = [
+            (10, 20),
+            (30, 20),
+            (30, 15),
+            (30, 10),
+            (20, 5),
+            (10, 7),
+            (10, 7),
+        ];
         let mut data = String::new();
         add_path(&mut data, []);
         assert_eq!(data, "");
@@ -270,7 +336,10 @@ mod tests {
             drawn(|backend| backend.draw_circle((1, 2), 36, &white, true)),
             "<circle cx=\"1\" cy=\"2\" r=\"36\" fill=\"#FFFFFF\"/>\n"
         );
-        assert_eq!(drawn(|backend| backend.draw_rect((1, 2), (3, 4), &TRANSPARENT, true)), "");
+        assert_eq!(
+            drawn(|backend| backend.draw_rect((1, 2), (3, 4), &TRANSPARENT, true)),
+            ""
+        );
         let text = TextStyle::from(("sans-serif", 120)).color(&BLACK);
         assert_eq!(
             drawn(|backend| backend.draw_text("a < b", &text, (1, 2))),

@@ -27,7 +27,14 @@ pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> R
     for row in 1..y.len() {
         let mut strip = Strip::default();
         let [lower, upper] = [&values[row - 1], &values[row]];
-        let corners_of = |column: usize| [lower[column - 1], lower[column], upper[column], upper[column - 1]];
+        let corners_of = |column: usize| {
+            [
+                lower[column - 1],
+                lower[column],
+                upper[column],
+                upper[column - 1],
+            ]
+        };
         let is_above = |column: usize| corners_of(column).iter().any(|value| *value > level);
         let is_whole = |column: usize| corners_of(column).iter().all(|value| *value >= level);
         let mut column = 1;
@@ -37,13 +44,22 @@ pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> R
                 continue;
             }
             let first = column;
-            while is_whole(column) && column + 1 < x.len() && is_whole(column + 1) && is_above(column + 1) {
+            while is_whole(column)
+                && column + 1 < x.len()
+                && is_whole(column + 1)
+                && is_above(column + 1)
+            {
                 column += 1;
             }
             if !strip.ends_at(x[first - 1]) {
                 found.polygons.extend(std::mem::take(&mut strip).polygon());
             }
-            let places = [[first - 1, row - 1], [column, row - 1], [column, row], [first - 1, row]];
+            let places = [
+                [first - 1, row - 1],
+                [column, row - 1],
+                [column, row],
+                [first - 1, row],
+            ];
             let places = places.map(|[j, i]| [x[j], y[i]]);
             if is_whole(column) {
                 strip.join(&places);
@@ -78,14 +94,22 @@ impl Strip {
 
     /// Adds a convex polygon, counterclockwise, that shares its left edge with the strip.
     fn join(&mut self, part: &[[f64; 2]]) {
-        let left = part.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
-        let right = part.iter().map(|point| point[0]).fold(f64::NEG_INFINITY, f64::max);
+        let left = part
+            .iter()
+            .map(|point| point[0])
+            .fold(f64::INFINITY, f64::min);
+        let right = part
+            .iter()
+            .map(|point| point[0])
+            .fold(f64::NEG_INFINITY, f64::max);
         let first = (0..part.len()).find(|&k| {
             let before = part[(k + part.len() - 1) % part.len()];
             part[k][0] == left && (before[0] > left || before[1] > part[k][1])
         });
         let around = |k: usize| part[(first.unwrap_or_default() + k) % part.len()];
-        let turn = (0..part.len()).find(|&k| around(k)[0] == right).unwrap_or_default();
+        let turn = (0..part.len())
+            .find(|&k| around(k)[0] == right)
+            .unwrap_or_default();
         (0..=turn).for_each(|k| push(&mut self.sides[0], around(k)));
         let is_pointed = around(turn + 1)[0] < right;
         let start = if is_pointed { turn } else { turn + 1 };
@@ -93,7 +117,9 @@ impl Strip {
             // the left end is a single point, which belongs to both sides
             push(&mut self.sides[1], around(0));
         }
-        (start..part.len()).rev().for_each(|k| push(&mut self.sides[1], around(k)));
+        (start..part.len())
+            .rev()
+            .for_each(|k| push(&mut self.sides[1], around(k)));
     }
 
     /// The polygon; `None` of an empty strip.
@@ -133,7 +159,10 @@ fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 
         }
         if (*value >= level) != (after >= level) {
             let t = (level - value) / (after - value);
-            let cut = [point[0] + t * (next[0] - point[0]), point[1] + t * (next[1] - point[1])];
+            let cut = [
+                point[0] + t * (next[0] - point[0]),
+                point[1] + t * (next[1] - point[1]),
+            ];
             polygon.push(cut);
             if *value >= level {
                 leaving = Some(cut);

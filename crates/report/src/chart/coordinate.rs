@@ -30,7 +30,11 @@ impl Ranged for Coordinate {
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
         // no finer lines between the ticks
-        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.values.clone() }
+        if hint.weight().allow_light_points() {
+            Vec::new()
+        } else {
+            self.ticks.values.clone()
+        }
     }
 
     fn range(&self) -> Range<f64> {
@@ -41,6 +45,7 @@ impl Ranged for Coordinate {
 impl ValueFormatter<f64> for Coordinate {
     fn format_ext(&self, value: &f64) -> String {
         let tick = self.ticks.values.iter().position(|own| own == value);
-        tick.map(|tick| self.ticks.labels[tick].clone()).unwrap_or_default()
+        tick.map(|tick| self.ticks.labels[tick].clone())
+            .unwrap_or_default()
     }
 }

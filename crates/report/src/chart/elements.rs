@@ -63,8 +63,11 @@ impl<'s, C> Drawable<SvgBackend<'s>> for OnePath<C> {
         backend: &mut SvgBackend<'s>,
         _: (u32, u32),
     ) -> Drawn<SvgBackend<'s>> {
-        let pieces: Vec<Vec<BackendCoord>> =
-            self.pieces.iter().map(|piece| places.by_ref().take(piece.len()).collect()).collect();
+        let pieces: Vec<Vec<BackendCoord>> = self
+            .pieces
+            .iter()
+            .map(|piece| places.by_ref().take(piece.len()).collect())
+            .collect();
         if self.style.filled {
             backend.fill_polygons(&pieces, &self.style);
         } else {
@@ -103,14 +106,20 @@ impl<C> Symbol<C> {
             1 => vec![Part::Square(whole(0.9 * size), ink)],
             2 => {
                 let (w, h) = (whole(1.15 * size), whole(size));
-                vec![Part::Polygon(vec![(-w, h), (w, h), (0, -whole(1.1 * size))], ink)]
+                vec![Part::Polygon(
+                    vec![(-w, h), (w, h), (0, -whole(1.1 * size))],
+                    ink,
+                )]
             }
             3 => vec![disc(size, ink), disc(0.5 * size, WHITE)],
             4 => {
                 let r = whole(1.35 * size);
                 vec![Part::Polygon(vec![(-r, 0), (0, -r), (r, 0), (0, r)], ink)]
             }
-            _ => vec![Part::Square(whole(size), ink), Part::Square(whole(0.5 * size), WHITE)],
+            _ => vec![
+                Part::Square(whole(size), ink),
+                Part::Square(whole(0.5 * size), WHITE),
+            ],
         };
         Symbol { at, parts }
     }
@@ -122,7 +131,10 @@ impl<C> Symbol<C> {
         if !is_fixed {
             parts.extend([-55, 55].map(|x| Part::Disc((x, 190), 26, GREY)));
         }
-        parts.push(Part::Line([(-140, ground), (140, ground)], GREY.stroke_width(12)));
+        parts.push(Part::Line(
+            [(-140, ground), (140, ground)],
+            GREY.stroke_width(12),
+        ));
         parts.extend(
             [-100, -40, 20, 80, 140]
                 .map(|x| Part::Line([(x, ground), (x - 50, ground + 50)], GREY.stroke_width(9))),
@@ -133,7 +145,13 @@ impl<C> Symbol<C> {
     /// Arrow of a load, which ends at the point from above.
     pub fn load(at: C) -> Symbol<C> {
         let shaft = Part::Line([(0, -440), (0, -100)], INK.stroke_width(18));
-        Symbol { at, parts: vec![shaft, Part::Polygon(vec![(0, -40), (-45, -140), (45, -140)], INK)] }
+        Symbol {
+            at,
+            parts: vec![
+                shaft,
+                Part::Polygon(vec![(0, -40), (-45, -140), (45, -140)], INK),
+            ],
+        }
     }
 }
 
@@ -153,10 +171,14 @@ impl<C, B: DrawingBackend> Drawable<B> for Symbol<C> {
         backend: &mut B,
         _: (u32, u32),
     ) -> Drawn<B> {
-        let Some((x, y)) = places.next() else { return Ok(()) };
+        let Some((x, y)) = places.next() else {
+            return Ok(());
+        };
         let at = |(dx, dy): BackendCoord| (x + dx, y + dy);
         self.parts.iter().try_for_each(|part| match part {
-            Part::Disc(centre, radius, ink) => backend.draw_circle(at(*centre), *radius, &ink.filled(), true),
+            Part::Disc(centre, radius, ink) => {
+                backend.draw_circle(at(*centre), *radius, &ink.filled(), true)
+            }
             Part::Square(half, ink) => {
                 backend.draw_rect(at((-half, -half)), at((*half, *half)), &ink.filled(), true)
             }

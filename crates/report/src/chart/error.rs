@@ -36,7 +36,9 @@ pub enum Error {
     #[error("marker {0} is not finite")]
     Marker(usize),
     /// A grid's size differs from its stations'.
-    #[error("the grid's row {row} has {columns} columns; {rows} rows of {expected} columns were expected")]
+    #[error(
+        "the grid's row {row} has {columns} columns; {rows} rows of {expected} columns were expected"
+    )]
     Shape {
         /// First offending row, or the number of rows found where that is wrong.
         row: usize,

@@ -70,7 +70,15 @@ impl PlotArea {
         let left = CAPTION + widest(&y_ticks);
         let width = WIDTH - left - RIGHT;
         let is_reversed = [x.0.downwards, y.0.downwards];
-        let frame = PlotArea { left, top, width, height, x: x.1, y: y.1, is_reversed };
+        let frame = PlotArea {
+            left,
+            top,
+            width,
+            height,
+            x: x.1,
+            y: y.1,
+            is_reversed,
+        };
         (frame, [frame.x_ticks(), y_ticks])
     }
 
@@ -101,7 +109,12 @@ impl PlotArea {
 
     /// Rectangle with a margin around it.
     pub(super) fn around(&self, margin: f64) -> [f64; 4] {
-        [self.left - margin, self.top - margin, self.width + 2.0 * margin, self.height + 2.0 * margin]
+        [
+            self.left - margin,
+            self.top - margin,
+            self.width + 2.0 * margin,
+            self.height + 2.0 * margin,
+        ]
     }
 
     pub(super) fn bottom(&self) -> f64 {
@@ -111,8 +124,16 @@ impl PlotArea {
     /// plotters' chart with this frame as plotting area, and room for labels left and below.
     pub(super) fn plot<'s>(&self, area: &Area<'s>, [x, y]: [Ticks; 2]) -> Result<Plot<'s>, Error> {
         let coordinates = [
-            Coordinate { scale: self.x, ticks: x, is_reversed: self.is_reversed[0] },
-            Coordinate { scale: self.y, ticks: y, is_reversed: self.is_reversed[1] },
+            Coordinate {
+                scale: self.x,
+                ticks: x,
+                is_reversed: self.is_reversed[0],
+            },
+            Coordinate {
+                scale: self.y,
+                ticks: y,
+                is_reversed: self.is_reversed[1],
+            },
         ];
         let labels = [0.0, LABELS, self.left - EDGE, 0.0];
         plot(area, self.around(0.0), labels, coordinates)
@@ -148,9 +169,22 @@ pub(super) fn plot<'s>(
 pub(super) fn grid(plot: &mut Plot<'_>) -> Result<(), Error> {
     let (x, y, zero) = (plot.x_range(), plot.y_range(), 0.0);
     let both = plot.as_coord_spec();
-    let upright = both.x_spec().ticks.values.iter().map(|at| vec![(*at, y.start), (*at, y.end)]);
-    let level = both.y_spec().ticks.values.iter().map(|at| vec![(x.start, *at), (x.end, *at)]);
-    let lines = OnePath { pieces: upright.chain(level).collect(), style: stroke(FAINT, 0.8) };
+    let upright = both
+        .x_spec()
+        .ticks
+        .values
+        .iter()
+        .map(|at| vec![(*at, y.start), (*at, y.end)]);
+    let level = both
+        .y_spec()
+        .ticks
+        .values
+        .iter()
+        .map(|at| vec![(x.start, *at), (x.end, *at)]);
+    let lines = OnePath {
+        pieces: upright.chain(level).collect(),
+        style: stroke(FAINT, 0.8),
+    };
     plot.plotting_area().draw(&lines)?;
     if plot.as_coord_spec().y_spec().ticks.values.contains(&zero) {
         let line = PathElement::new([(x.start, zero), (x.end, zero)], stroke(GREY, 0.8));
@@ -192,5 +226,9 @@ pub(super) fn pairs(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
 
 /// Width of the widest label.
 fn widest(ticks: &Ticks) -> f64 {
-    ticks.labels.iter().map(|label| text_width(label, SMALL)).fold(0.0, f64::max)
+    ticks
+        .labels
+        .iter()
+        .map(|label| text_width(label, SMALL))
+        .fold(0.0, f64::max)
 }

@@ -108,7 +108,9 @@ impl GirderPlot {
         };
         let rail = add(!self.rail.is_empty(), "rail".into(), Style::Line);
         let stations = add(!self.stations.is_empty(), "stations".into(), Style::Points);
-        let deflected = shape.as_ref().and_then(|(label, _)| add(true, label.clone(), Style::Dashed));
+        let deflected = shape
+            .as_ref()
+            .and_then(|(label, _)| add(true, label.clone(), Style::Dashed));
 
         let title = wrap(&self.title, WIDTH - 40.0, TITLE);
         let top = 14.0 + TITLE_LINE * title.len() as f64;
@@ -117,17 +119,31 @@ impl GirderPlot {
         let note = wrap(&self.note, WIDTH - 2.0 * MARGIN, SMALL);
         let end = frame.bottom();
         sheet::picture(WIDTH, end + 42.0 + NOTE_LINE * note.len() as f64, |area| {
-            let plain = |scale| Coordinate { scale, ticks: Ticks::none(), is_reversed: false };
-            let mut view = plot(area, frame.around(0.0), [0.0; 4], [plain(frame.x), plain(frame.y)])?;
+            let plain = |scale| Coordinate {
+                scale,
+                ticks: Ticks::none(),
+                is_reversed: false,
+            };
+            let mut view = plot(
+                area,
+                frame.around(0.0),
+                [0.0; 4],
+                [plain(frame.x), plain(frame.y)],
+            )?;
             group(area, "class=\"structure\" stroke-linecap=\"round\"", || {
                 for member in &self.members {
                     view.draw_series(LineSeries::new(pairs(member), stroke(colour(0), 4.0)))?;
                 }
                 if let Some(index) = rail {
-                    view.draw_series(LineSeries::new(pairs(&self.rail), stroke(colour(index), 2.4)))?;
+                    view.draw_series(LineSeries::new(
+                        pairs(&self.rail),
+                        stroke(colour(index), 2.4),
+                    ))?;
                 }
                 view.draw_series(
-                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.is_fixed_lengthwise)),
+                    self.supports
+                        .iter()
+                        .map(|s| Symbol::support((s.at[0], s.at[1]), s.is_fixed_lengthwise)),
                 )?;
                 Ok(())
             })?;
@@ -152,34 +168,65 @@ impl GirderPlot {
 
     fn check(&self) -> Result<(), Error> {
         let empty = Vec::new();
-        let (at, by) = self.deflected.as_ref().map_or((&empty, &empty), |d| (&d.at, &d.by));
+        let (at, by) = self
+            .deflected
+            .as_ref()
+            .map_or((&empty, &empty), |d| (&d.at, &d.by));
         let supports: Vec<_> = self.supports.iter().map(|s| s.at).collect();
         let rest = [&self.rail, &supports, &self.stations, &self.loads, at, by];
         for (series, points) in self.members.iter().chain(rest).enumerate() {
-            if let Some(point) = points.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
+            if let Some(point) = points
+                .iter()
+                .position(|p| !(p[0].is_finite() && p[1].is_finite()))
+            {
                 return Err(Error::NotFinite { series, point });
             }
         }
         if at.len() != by.len() {
-            return Err(Error::Shape { row: 1, columns: by.len(), rows: 2, expected: at.len() });
+            return Err(Error::Shape {
+                row: 1,
+                columns: by.len(),
+                rows: 2,
+                expected: at.len(),
+            });
         }
-        if self.members.iter().all(Vec::is_empty) { Err(Error::NoData) } else { Ok(()) }
+        if self.members.iter().all(Vec::is_empty) {
+            Err(Error::NoData)
+        } else {
+            Ok(())
+        }
     }
 
     fn ends(&self) -> (f64, f64) {
-        extent(self.members.iter().chain([&self.rail]).flatten().map(|p| p[0]))
+        extent(
+            self.members
+                .iter()
+                .chain([&self.rail])
+                .flatten()
+                .map(|p| p[0]),
+        )
     }
 
     /// Legend text and exaggerated points of the deflected shape.
     fn shape(&self) -> Option<(String, Vec<[f64; 2]>)> {
         let shape = self.deflected.as_ref().filter(|d| !d.at.is_empty())?;
-        let largest = shape.by.iter().map(|b| b[0].hypot(b[1])).fold(0.0, f64::max);
+        let largest = shape
+            .by
+            .iter()
+            .map(|b| b[0].hypot(b[1]))
+            .fold(0.0, f64::max);
         let (left, right) = self.ends();
         let wanted = DRAWN_DEFLECTION * (right - left) / largest;
-        let chosen = if wanted.is_finite() && wanted > 0.0 { step(0.0, wanted, 1.0) } else { 1.0 };
+        let chosen = if wanted.is_finite() && wanted > 0.0 {
+            step(0.0, wanted, 1.0)
+        } else {
+            1.0
+        };
         let factor = shape.factor.unwrap_or(chosen);
         let points = shape.at.iter().zip(&shape.by);
-        let points = points.map(|(a, b)| [a[0] + factor * b[0], a[1] + factor * b[1]]).collect();
+        let points = points
+            .map(|(a, b)| [a[0] + factor * b[0], a[1] + factor * b[1]])
+            .collect();
         Some((format!("{}, displacements x {factor}", shape.label), points))
     }
 
@@ -188,10 +235,19 @@ impl GirderPlot {
         let (left, right) = self.ends();
         let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
         if !(scale.is_finite() && scale > 0.0) {
-            return Err(Error::Range { low: left, high: right });
+            return Err(Error::Range {
+                low: left,
+                high: right,
+            });
         }
-        let all = self.members.iter().chain([&self.rail, &self.stations, &self.loads]).flatten();
-        let all = all.chain(shape.unwrap_or(&[])).chain(self.supports.iter().map(|s| &s.at));
+        let all = self
+            .members
+            .iter()
+            .chain([&self.rail, &self.stations, &self.loads])
+            .flatten();
+        let all = all
+            .chain(shape.unwrap_or(&[]))
+            .chain(self.supports.iter().map(|s| &s.at));
         let (low, high) = extent(all.map(|p| p[1]));
         let above = if self.loads.is_empty() { 30.0 } else { 56.0 };
         let below = 34.0;
@@ -199,9 +255,25 @@ impl GirderPlot {
         if !(height.is_finite() && top + height < TALLEST) {
             return Err(Error::Range { low, high });
         }
-        let x = AxisScale { low: left, high: right, log: false };
-        let y = AxisScale { low: low - below / scale, high: high + above / scale, log: false };
-        Ok(PlotArea { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
+        let x = AxisScale {
+            low: left,
+            high: right,
+            log: false,
+        };
+        let y = AxisScale {
+            low: low - below / scale,
+            high: high + above / scale,
+            log: false,
+        };
+        Ok(PlotArea {
+            left: MARGIN,
+            top,
+            width: WIDTH - 2.0 * MARGIN,
+            height,
+            x,
+            y,
+            is_reversed: [false; 2],
+        })
     }
 
     /// Draws symbols of the stations, and their coordinates above them where labels overlap neither each other nor loads.
@@ -212,10 +284,16 @@ impl GirderPlot {
         frame: &PlotArea,
         index: usize,
     ) -> Result<(), Error> {
-        view.draw_series(pairs(&self.stations).map(|at| Symbol::of_series(index, at, RADIUS * FINE)))?;
+        view.draw_series(
+            pairs(&self.stations).map(|at| Symbol::of_series(index, at, RADIUS * FINE)),
+        )?;
         let style = font(SMALL, INK, HPos::Center, VPos::Center);
         let mut free = f64::NEG_INFINITY;
-        let arrows: Vec<f64> = self.loads.iter().map(|load| frame.place(*load)[0]).collect();
+        let arrows: Vec<f64> = self
+            .loads
+            .iter()
+            .map(|load| frame.place(*load)[0])
+            .collect();
         for station in &self.stations {
             let [x, y] = frame.place(*station);
             let text = short(station[0]);
@@ -232,7 +310,12 @@ impl GirderPlot {
     /// Draws a chain of dimensions below the frame, between the ends of the girder and its supports.
     fn dimensions(&self, area: &Area<'_>, frame: &PlotArea) -> Result<(), Error> {
         let (left, right) = self.ends();
-        let mut stops: Vec<f64> = self.supports.iter().map(|s| s.at[0]).chain([left, right]).collect();
+        let mut stops: Vec<f64> = self
+            .supports
+            .iter()
+            .map(|s| s.at[0])
+            .chain([left, right])
+            .collect();
         stops.sort_by(f64::total_cmp);
         let tiny = 1e-9 * (right - left);
         stops.dedup_by(|a, b| (*a - *b).abs() <= tiny);
@@ -247,7 +330,11 @@ impl GirderPlot {
             }
         }
         places.iter().try_for_each(|x| {
-            sheet::line(area, &[[x - 4.0, row + 4.0], [x + 4.0, row - 4.0]], stroke(GREY, 1.2))
+            sheet::line(
+                area,
+                &[[x - 4.0, row + 4.0], [x + 4.0, row - 4.0]],
+                stroke(GREY, 1.2),
+            )
         })
     }
 }

@@ -6,8 +6,8 @@ pub(crate) fn with_power(exponent: i32, unit: &str) -> String {
         return unit.to_owned();
     }
     const RAISED: [char; 10] = [
-        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}',
-        '\u{2079}',
+        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}',
+        '\u{2078}', '\u{2079}',
     ];
     let mut text = String::from("10");
     if exponent < 0 {
@@ -26,7 +26,11 @@ pub(crate) fn with_power(exponent: i32, unit: &str) -> String {
 /// `text (10^exponent unit)`, and the text alone where there is neither.
 pub(super) fn with_unit(text: &str, exponent: i32, unit: &str) -> String {
     let unit = with_power(exponent, unit);
-    if unit.is_empty() { text.to_owned() } else { format!("{text} ({unit})") }
+    if unit.is_empty() {
+        text.to_owned()
+    } else {
+        format!("{text} ({unit})")
+    }
 }
 
 /// `value / 10^exponent` with that many decimals, a true minus sign and no negative zero.

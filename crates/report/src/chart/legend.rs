@@ -38,7 +38,11 @@ impl Legend {
     /// Entries between the abscissas `left` and `right` and below the ordinate `top`. A single series has none.
     pub fn new(series: &[Series], left: f64, right: f64, top: f64, with_symbols: bool) -> Self {
         if series.len() < 2 {
-            return Legend { places: Vec::new(), with_symbols, height: 0.0 };
+            return Legend {
+                places: Vec::new(),
+                with_symbols,
+                height: 0.0,
+            };
         }
         let (mut at, mut row) = (left, 0.0);
         let mut places = Vec::new();
@@ -51,7 +55,11 @@ impl Legend {
             places.push([at, top + (row + 0.5) * ROW]);
             at += width + GAP;
         }
-        Legend { places, with_symbols, height: (row + 1.0) * ROW + 4.0 }
+        Legend {
+            places,
+            with_symbols,
+            height: (row + 1.0) * ROW + 4.0,
+        }
     }
 
     /// Draws the groups of each entry.
@@ -59,7 +67,9 @@ impl Legend {
         let style = font(SMALL, INK, HPos::Left, VPos::Center);
         for (index, ([x, y], one)) in self.places.iter().zip(series).enumerate() {
             let class = format!("class=\"key\" data-series=\"{index}\"");
-            group(area, &class, || text(area, &one.label, [x + SWATCH + LABEL_SPACE, *y], &style))?;
+            group(area, &class, || {
+                text(area, &one.label, [x + SWATCH + LABEL_SPACE, *y], &style)
+            })?;
             if one.style != Style::Points {
                 let colour = line_colour(one.style, index);
                 group(area, &format!("{class}{}", dashes(one.style)), || {
@@ -68,7 +78,9 @@ impl Legend {
             }
             if self.with_symbols && one.may_have_symbols() || one.has_symbols() {
                 let middle = place([x + 0.5 * SWATCH, *y]);
-                group(area, &class, || Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?))?;
+                group(area, &class, || {
+                    Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?)
+                })?;
             }
         }
         Ok(())
@@ -77,5 +89,9 @@ impl Legend {
 
 /// Attribute of a group that draws its lines in this style.
 pub(super) fn dashes(style: Style) -> &'static str {
-    if matches!(style, Style::Dashed | Style::Limit) { " stroke-dasharray=\"80 50\"" } else { "" }
+    if matches!(style, Style::Dashed | Style::Limit) {
+        " stroke-dasharray=\"80 50\""
+    } else {
+        ""
+    }
 }

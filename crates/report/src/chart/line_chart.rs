@@ -84,7 +84,12 @@ pub struct Drawing {
 impl Chart {
     /// A chart without series.
     pub fn new(title: impl Into<String>, x_axis: ChartAxis, y_axis: ChartAxis) -> Self {
-        Chart { title: title.into(), x_axis, y_axis, ..Chart::default() }
+        Chart {
+            title: title.into(),
+            x_axis,
+            y_axis,
+            ..Chart::default()
+        }
     }
 
     /// The same chart with one more series.
@@ -123,7 +128,11 @@ impl Chart {
             drawn = self.draw_on(area, &layout)?;
             Ok(())
         })?;
-        Ok(Drawing { svg, frame: layout.frame, series: drawn })
+        Ok(Drawing {
+            svg,
+            frame: layout.frame,
+            series: drawn,
+        })
     }
 
     /// Arranges title, legend, labels of markers, frame and note one below the other.
@@ -132,14 +141,31 @@ impl Chart {
         let title = wrap(&self.title, WIDTH - 40.0, TITLE);
         let mut top = 14.0 + TITLE_LINE * title.len() as f64;
         let (mut frame, ticks) = PlotArea::new((&self.x_axis, x), (&self.y_axis, y), top, height);
-        let legend = Legend::new(&self.series, frame.left, WIDTH - RIGHT, top, self.is_crowded());
+        let legend = Legend::new(
+            &self.series,
+            frame.left,
+            WIDTH - RIGHT,
+            top,
+            self.is_crowded(),
+        );
         top += legend.height;
         let marker_labels = self.marker_labels(&frame);
-        let rows = marker_labels.iter().map(|label| label.1 + 1).max().unwrap_or(0);
+        let rows = marker_labels
+            .iter()
+            .map(|label| label.1 + 1)
+            .max()
+            .unwrap_or(0);
         top += MARKER_ROW * rows as f64;
         frame.top = top + 6.0;
         let note = wrap(&self.note, WIDTH - frame.left - RIGHT, SMALL);
-        Ok(Layout { title, legend, marker_labels, frame, ticks, note })
+        Ok(Layout {
+            title,
+            legend,
+            marker_labels,
+            frame,
+            ticks,
+            note,
+        })
     }
 
     /// Draws the chart on a sheet; returns the points drawn for each series.
@@ -149,13 +175,15 @@ impl Chart {
         group(area, "class=\"grid\"", || frame::grid(&mut plot))?;
         group(area, "class=\"markers\" stroke-dasharray=\"30 30\"", || {
             let (low, high) = (frame.y.low, frame.y.high);
-            let lines =
-                self.inside(frame).map(|m| PathElement::new([(m.x, low), (m.x, high)], stroke(GREY, 1.0)));
+            let lines = self
+                .inside(frame)
+                .map(|m| PathElement::new([(m.x, low), (m.x, high)], stroke(GREY, 1.0)));
             plot.draw_series(lines)?;
             Ok(())
         })?;
-        let drawn: Result<_, Error> =
-            (0..self.series.len()).map(|index| self.curve(area, &mut plot, frame, index)).collect();
+        let drawn: Result<_, Error> = (0..self.series.len())
+            .map(|index| self.curve(area, &mut plot, frame, index))
+            .collect();
         group(area, "class=\"scales\"", || {
             frame::axes(&mut plot, [&self.x_axis, &self.y_axis])?;
             sheet::title(area, &layout.title)?;
@@ -164,7 +192,11 @@ impl Chart {
                 let at = [*at, frame.top - 8.0 - MARKER_ROW * *row as f64];
                 sheet::text(area, &marker.label, at, &style)?;
             }
-            sheet::note(area, &layout.note, [frame.left, frame.bottom() + BELOW + 6.0])
+            sheet::note(
+                area,
+                &layout.note,
+                [frame.left, frame.bottom() + BELOW + 6.0],
+            )
         })?;
         layout.legend.draw(area, &self.series)?;
         drawn
@@ -194,7 +226,10 @@ impl Chart {
     fn scales(&self) -> Result<(AxisScale, AxisScale, f64), Error> {
         let points = || self.series.iter().flat_map(|s| &s.points);
         let loose = self.series.iter().any(Series::has_symbols) && !self.equal_aspect;
-        let spread = self.series.iter().flat_map(|s| s.spread.iter().flatten().copied());
+        let spread = self
+            .series
+            .iter()
+            .flat_map(|s| s.spread.iter().flatten().copied());
         let spread = spread.filter(|x| x.is_finite() && (*x > 0.0 || !self.x_axis.log));
         let x = AxisScale::new(&self.x_axis, points().map(|p| p[0]).chain(spread), loose)?;
         let y = AxisScale::new(&self.y_axis, points().map(|p| p[1]), true)?;
@@ -202,11 +237,21 @@ impl Chart {
         if self.equal_aspect && !x.log && !y.log {
             // The width of the frame depends on the labels of the y axis, and these depend on the height.
             for _ in 0..8 {
-                let width =
-                    PlotArea::new((&self.x_axis, found.0), (&self.y_axis, found.1), 0.0, found.2).0.width;
+                let width = PlotArea::new(
+                    (&self.x_axis, found.0),
+                    (&self.y_axis, found.1),
+                    0.0,
+                    found.2,
+                )
+                .0
+                .width;
                 let wanted = width * (y.high - y.low) / (x.high - x.low);
                 let height = wanted.clamp(EQUAL[0], EQUAL[1]);
-                found = (x.widened(wanted / height), y.widened(height / wanted), height);
+                found = (
+                    x.widened(wanted / height),
+                    y.widened(height / wanted),
+                    height,
+                );
             }
         }
         Ok(found)
@@ -218,7 +263,9 @@ impl Chart {
     }
 
     fn inside<'a>(&'a self, frame: &'a PlotArea) -> impl Iterator<Item = &'a SeriesMarker> {
-        self.markers.iter().filter(|m| (-1e-9..=1.0 + 1e-9).contains(&frame.x.unit(m.x)))
+        self.markers
+            .iter()
+            .filter(|m| (-1e-9..=1.0 + 1e-9).contains(&frame.x.unit(m.x)))
     }
 
     /// Middle and row of the label of each marker inside the frame; rows are counted upwards.
@@ -227,8 +274,11 @@ impl Chart {
         let mut found = Vec::new();
         for marker in self.inside(frame) {
             let half = 0.5 * text_width(&marker.label, SMALL) + 3.0;
-            let at = frame.place([marker.x, frame.y.low])[0].min(WIDTH - half).max(frame.left + half);
-            let free = |row: &Vec<[f64; 2]>| row.iter().all(|t| at + half <= t[0] || t[1] <= at - half);
+            let at = frame.place([marker.x, frame.y.low])[0]
+                .min(WIDTH - half)
+                .max(frame.left + half);
+            let free =
+                |row: &Vec<[f64; 2]>| row.iter().all(|t| at + half <= t[0] || t[1] <= at - half);
             let row = taken.iter().position(free).unwrap_or(taken.len());
             if row == taken.len() {
                 taken.push(Vec::new());
@@ -250,41 +300,69 @@ impl Chart {
         let series = &self.series[index];
         let corners = series.corners();
         let placed: Vec<_> = corners.iter().map(|p| frame.place(*p)).collect();
-        let drawn: Vec<[f64; 2]> = thin(&placed, COLUMN, LONG).into_iter().map(|i| corners[i]).collect();
+        let drawn: Vec<[f64; 2]> = thin(&placed, COLUMN, LONG)
+            .into_iter()
+            .map(|i| corners[i])
+            .collect();
         // symbols at points stand at all of them
         let path: Vec<(f64, f64)> = match series.has_symbols() {
             true => drawn.iter().map(|[x, y]| (*x, *y)).collect(),
             false => {
                 let placed: Vec<_> = drawn.iter().map(|p| frame.place(*p)).collect();
-                simplified(&placed, INVISIBLE).into_iter().map(|i| (drawn[i][0], drawn[i][1])).collect()
+                simplified(&placed, INVISIBLE)
+                    .into_iter()
+                    .map(|i| (drawn[i][0], drawn[i][1]))
+                    .collect()
             }
         };
         let is_single = path.len() == 1;
-        let margin = if self.x_axis.range.or(self.y_axis.range).is_some() { 1.5 } else { 8.0 };
+        let margin = if self.x_axis.range.or(self.y_axis.range).is_some() {
+            1.5
+        } else {
+            8.0
+        };
         let class = format!("class=\"series\" data-series=\"{index}\"");
-        clipped(area, &format!("{class}{}", dashes(series.style)), frame.around(margin), || {
-            for ([low, high], [_, y]) in series.spread.iter().zip(&series.points) {
-                let ends = [*low, *high].map(|x| frame.place([x, *y]));
-                if ends.iter().flatten().all(|own| own.is_finite()) && ends[0] != ends[1] {
-                    let range = PathElement::new([(*low, *y), (*high, *y)], stroke(colour(index), 1.0));
-                    plot.plotting_area().draw(&range)?;
+        clipped(
+            area,
+            &format!("{class}{}", dashes(series.style)),
+            frame.around(margin),
+            || {
+                for ([low, high], [_, y]) in series.spread.iter().zip(&series.points) {
+                    let ends = [*low, *high].map(|x| frame.place([x, *y]));
+                    if ends.iter().flatten().all(|own| own.is_finite()) && ends[0] != ends[1] {
+                        let range =
+                            PathElement::new([(*low, *y), (*high, *y)], stroke(colour(index), 1.0));
+                        plot.plotting_area().draw(&range)?;
+                    }
                 }
-            }
-            if series.style != Style::Points && !is_single {
-                let width = if series.style == Style::Marked { 1.0 } else { 2.0 };
-                let style = stroke(line_colour(series.style, index), width);
-                plot.draw_series(LineSeries::new(path.iter().copied(), style))?;
-            }
-            if series.has_symbols() || is_single {
-                plot.draw_series(path.iter().map(|at| Symbol::of_series(index, *at, RADIUS * FINE)))?;
-            }
-            Ok(())
-        })?;
+                if series.style != Style::Points && !is_single {
+                    let width = if series.style == Style::Marked {
+                        1.0
+                    } else {
+                        2.0
+                    };
+                    let style = stroke(line_colour(series.style, index), width);
+                    plot.draw_series(LineSeries::new(path.iter().copied(), style))?;
+                }
+                if series.has_symbols() || is_single {
+                    plot.draw_series(
+                        path.iter()
+                            .map(|at| Symbol::of_series(index, *at, RADIUS * FINE)),
+                    )?;
+                }
+                Ok(())
+            },
+        )?;
         if self.is_crowded() && series.may_have_symbols() {
             let first = FIRST + APART * (index as f64 + 0.5) / self.series.len() as f64;
             clipped(area, &class, frame.around(margin), || {
                 let symbol = move |at: (i32, i32)| Symbol::of_series(index, at, RADIUS * FINE);
-                plot.draw_series(DottedLineSeries::new(path, units(first), units(APART), symbol))?;
+                plot.draw_series(DottedLineSeries::new(
+                    path,
+                    units(first),
+                    units(APART),
+                    symbol,
+                ))?;
                 Ok(())
             })?;
         }
@@ -306,7 +384,11 @@ struct Layout {
 impl Layout {
     /// Height of the picture.
     fn end(&self) -> f64 {
-        let note = if self.note.is_empty() { 0.0 } else { 8.0 + NOTE_LINE * self.note.len() as f64 };
+        let note = if self.note.is_empty() {
+            0.0
+        } else {
+            8.0 + NOTE_LINE * self.note.len() as f64
+        };
         self.frame.bottom() + BELOW + note
     }
 }

@@ -30,13 +30,21 @@ pub(super) fn colour(series: usize) -> RGBColor {
 
 /// Colour of the lines of a series of that style.
 pub(super) fn line_colour(style: Style, series: usize) -> RGBColor {
-    if style == Style::Limit { GREY } else { colour(series) }
+    if style == Style::Limit {
+        GREY
+    } else {
+        colour(series)
+    }
 }
 
 /// Colour of a value between -1 (blue) and 1 (red); 0 is white, and the colour becomes darker with the absolute
 /// value.
 pub(super) fn shade(value: f64) -> RGBColor {
-    let full = if value < 0.0 { [0x1b, 0x4f, 0x9c] } else { [0x9e, 0x1b, 0x2e] };
+    let full = if value < 0.0 {
+        [0x1b, 0x4f, 0x9c]
+    } else {
+        [0x9e, 0x1b, 0x2e]
+    };
     let t = value.abs().min(1.0).powf(0.85);
     let [r, g, b] = full.map(|c: u8| (255.0 + t * (f64::from(c) - 255.0)).round() as u8);
     RGBColor(r, g, b)

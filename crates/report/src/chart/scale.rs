@@ -16,7 +16,9 @@ pub(super) struct AxisScale {
 
 /// Smallest and largest value; (infinity, -infinity) if there is none.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+        (a.min(v), b.max(v))
+    })
 }
 
 impl AxisScale {
@@ -25,7 +27,11 @@ impl AxisScale {
     /// # Errors
     /// [`Error::NoData`] where there is neither a range nor a value, [`Error::Range`] where the range cannot
     /// be drawn.
-    pub fn new(axis: &ChartAxis, data: impl Iterator<Item = f64>, loose: bool) -> Result<Self, Error> {
+    pub fn new(
+        axis: &ChartAxis,
+        data: impl Iterator<Item = f64>,
+        loose: bool,
+    ) -> Result<Self, Error> {
         let (mut low, mut high) = match axis.range {
             Some([low, high]) => (low, high),
             None => extent(data),
@@ -33,14 +39,20 @@ impl AxisScale {
         if axis.range.is_none() && low > high {
             return Err(Error::NoData);
         }
-        let fits = |low: f64, high: f64| low < high && (high - low).is_finite() && (!axis.log || low > 0.0);
+        let fits = |low: f64, high: f64| {
+            low < high && (high - low).is_finite() && (!axis.log || low > 0.0)
+        };
         if axis.range.is_none() {
             if axis.log {
                 if high / low < 1.001 {
                     (low, high) = (low / 2.0, high * 2.0);
                 }
             } else if high - low <= (1e-12 * low.abs().max(high.abs())).max(TINY) {
-                let half = if low.abs() <= TINY { 1.0 } else { 0.1 * low.abs() };
+                let half = if low.abs() <= TINY {
+                    1.0
+                } else {
+                    0.1 * low.abs()
+                };
                 (low, high) = (low - half, high + half);
             }
             if loose && fits(low, high) {
@@ -56,7 +68,11 @@ impl AxisScale {
             }
         }
         if fits(low, high) {
-            Ok(AxisScale { low, high, log: axis.log })
+            Ok(AxisScale {
+                low,
+                high,
+                log: axis.log,
+            })
         } else {
             Err(Error::Range { low, high })
         }
@@ -75,7 +91,11 @@ impl AxisScale {
     pub fn widened(self, factor: f64) -> Self {
         let (middle, half) = (0.5 * (self.low + self.high), 0.5 * (self.high - self.low));
         if factor > 1.0 {
-            AxisScale { low: middle - factor * half, high: middle + factor * half, ..self }
+            AxisScale {
+                low: middle - factor * half,
+                high: middle + factor * half,
+                ..self
+            }
         } else {
             self
         }
@@ -86,7 +106,11 @@ impl AxisScale {
 pub(super) fn step(low: f64, high: f64, target: f64) -> f64 {
     let raw = (high - low) / target.max(1.0);
     let power = 10f64.powf(raw.log10().floor());
-    let power = if power > 0.0 && power.is_finite() { power } else { raw };
+    let power = if power > 0.0 && power.is_finite() {
+        power
+    } else {
+        raw
+    };
     let mantissa = raw / power;
     power
         * match mantissa {

@@ -43,14 +43,23 @@ impl Style {
     /// Full lines for even indices, dashed lines for odd ones.
     #[must_use]
     pub fn alternating(index: usize) -> Style {
-        if index.is_multiple_of(2) { Style::Line } else { Style::Dashed }
+        if index.is_multiple_of(2) {
+            Style::Line
+        } else {
+            Style::Dashed
+        }
     }
 }
 
 impl Series {
     /// A series of the given style.
     pub fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
-        Series { label: label.into(), style, points, spread: Vec::new() }
+        Series {
+            label: label.into(),
+            style,
+            points,
+            spread: Vec::new(),
+        }
     }
 
     /// The same series with the range of each point along x.
@@ -95,6 +104,9 @@ pub struct SeriesMarker {
 impl SeriesMarker {
     /// A marker at `x`.
     pub fn new(x: f64, label: impl Into<String>) -> Self {
-        SeriesMarker { x, label: label.into() }
+        SeriesMarker {
+            x,
+            label: label.into(),
+        }
     }
 }

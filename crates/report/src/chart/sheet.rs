@@ -66,12 +66,19 @@ pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
 /// Style of text of a size in pixels. `across` and `down` select the point of its box that is at its position.
 pub(super) fn font(size: f64, colour: RGBColor, across: HPos, down: VPos) -> TextStyle<'static> {
     let font = FontDesc::new(FontFamily::SansSerif, size * FINE, FontStyle::Normal);
-    TextStyle { color: colour.to_backend_color(), ..TextStyle::from(font) }.pos(Pos::new(across, down))
+    TextStyle {
+        color: colour.to_backend_color(),
+        ..TextStyle::from(font)
+    }
+    .pos(Pos::new(across, down))
 }
 
 /// The same style in bold.
 pub(super) fn bold(style: TextStyle<'static>) -> TextStyle<'static> {
-    TextStyle { font: style.font.style(FontStyle::Bold), ..style }
+    TextStyle {
+        font: style.font.style(FontStyle::Bold),
+        ..style
+    }
 }
 
 /// Draws a group with attributes.
@@ -107,7 +114,12 @@ pub(super) fn line(area: &Area<'_>, points: &[[f64; 2]], style: ShapeStyle) -> R
 }
 
 /// Draws text at a place in pixels.
-pub(super) fn text(area: &Area<'_>, text: &str, at: [f64; 2], style: &TextStyle<'_>) -> Result<(), Error> {
+pub(super) fn text(
+    area: &Area<'_>,
+    text: &str,
+    at: [f64; 2],
+    style: &TextStyle<'_>,
+) -> Result<(), Error> {
     Ok(area.draw_text(text, style, place(at))?)
 }
 
@@ -124,5 +136,8 @@ pub(super) fn title<'s>(area: &Area<'s>, lines: &[String]) -> Result<Area<'s>, E
 /// Draws the lines of a note below each other, the middle of the first at `at`.
 pub(super) fn note(area: &Area<'_>, lines: &[String], [x, y]: [f64; 2]) -> Result<(), Error> {
     let style = font(SMALL, GREY, HPos::Left, VPos::Center);
-    lines.iter().enumerate().try_for_each(|(i, line)| text(area, line, [x, y + NOTE_LINE * i as f64], &style))
+    lines
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, line)| text(area, line, [x, y + NOTE_LINE * i as f64], &style))
 }

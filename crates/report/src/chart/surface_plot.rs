@@ -87,7 +87,11 @@ impl SurfacePlot {
     /// indices of the last error are row and column.
     pub fn svg(&self) -> Result<Svg, Error> {
         self.check()?;
-        if self.at.len() <= TABLE && self.loads.len() <= TABLE { self.table() } else { self.map() }
+        if self.at.len() <= TABLE && self.loads.len() <= TABLE {
+            self.table()
+        } else {
+            self.map()
+        }
     }
 
     /// One influence line for each load station, as a chart with deflections positive upwards as in the grid.
@@ -99,7 +103,12 @@ impl SurfacePlot {
         let x = ChartAxis::new("position of the deflection", &self.length_unit);
         let mut chart = Chart::new(&self.title, x, ChartAxis::new(&self.label, &self.unit));
         for (column, load) in self.loads.iter().enumerate() {
-            let points = self.at.iter().zip(&self.values).map(|(x, row)| [*x, row[column]]).collect();
+            let points = self
+                .at
+                .iter()
+                .zip(&self.values)
+                .map(|(x, row)| [*x, row[column]])
+                .collect();
             let label = format!("load at {} {}", short(*load), self.length_unit);
             chart.series.push(Series::new(label, Style::Line, points));
         }
@@ -119,11 +128,19 @@ impl SurfacePlot {
         if self.values.len() != rows || wrong.is_some() {
             let row = wrong.unwrap_or(self.values.len());
             let columns = self.values.get(row).map_or(expected, Vec::len);
-            return Err(Error::Shape { row, columns, rows, expected });
+            return Err(Error::Shape {
+                row,
+                columns,
+                rows,
+                expected,
+            });
         }
         for stations in [&self.at, &self.loads] {
             let finite = stations.iter().position(|x| !x.is_finite());
-            let ordered = stations.windows(2).position(|p| p[0] >= p[1]).map(|i| i + 1);
+            let ordered = stations
+                .windows(2)
+                .position(|p| p[0] >= p[1])
+                .map(|i| i + 1);
             if let Some(i) = finite.or(ordered) {
                 return Err(Error::Stations(i));
             }
@@ -160,19 +177,27 @@ impl SurfacePlot {
         let limit = low.abs().max(high.abs());
         let power = exponent(limit);
         let [width, height] = [((WIDTH - LEFT - RIGHT) / columns).min(CELL[0]), CELL[1]];
-        let (left, top) = (LEFT + 0.5 * (WIDTH - LEFT - RIGHT - width * columns), BELOW_HEADING[0]);
+        let (left, top) = (
+            LEFT + 0.5 * (WIDTH - LEFT - RIGHT - width * columns),
+            BELOW_HEADING[0],
+        );
         let note = wrap(&self.note, WIDTH - LEFT - RIGHT, SMALL);
         let end = top + height * rows;
         sheet::picture(WIDTH, end + 24.0 + NOTE_LINE * note.len() as f64, |area| {
             self.heading(area, power)?;
             let rectangle = [left, top, width * columns, height * rows];
-            let coordinates = [cell_indices(&self.loads, false), cell_indices(&self.at, true)];
+            let coordinates = [
+                cell_indices(&self.loads, false),
+                cell_indices(&self.at, true),
+            ];
             let mut cells = plot(area, rectangle, [37.0, 0.0, 72.0, 0.0], coordinates)?;
             group(area, "class=\"cells\"", || {
                 self.draw_cells(&mut cells, limit, power)?;
                 self.label_cells(&mut cells)
             })?;
-            group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 14.0]))
+            group(area, "class=\"note\"", || {
+                sheet::note(area, &note, [LEFT, end + 14.0])
+            })
         })
     }
 
@@ -181,7 +206,11 @@ impl SurfacePlot {
         let relative = |value: f64| if limit > 0.0 { value / limit } else { 0.0 };
         let all = || {
             let rows = self.values.iter().enumerate();
-            rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v)))
+            rows.flat_map(|(i, row)| {
+                row.iter()
+                    .enumerate()
+                    .map(move |(j, v)| (j as f64, i as f64, *v))
+            })
         };
         cells.draw_series(all().map(|(x, y, value)| {
             let corners = [(x, y), (x + 1.0, y + 1.0)];
@@ -191,7 +220,11 @@ impl SurfacePlot {
             cell
         }))?;
         cells.draw_series(all().map(|(x, y, value)| {
-            let ink = if relative(value).abs() > DARK { WHITE } else { INK };
+            let ink = if relative(value).abs() > DARK {
+                WHITE
+            } else {
+                INK
+            };
             let style = font(SMALL, ink, HPos::Center, VPos::Center);
             Text::new(fixed(value, power, 2), (x + 0.5, y + 0.5), style)
         }))?;
@@ -228,8 +261,15 @@ impl SurfacePlot {
         let x = AxisScale::new(&axes[0], self.loads.iter().copied(), false)?;
         let y = AxisScale::new(&axes[1], self.at.iter().copied(), false)?;
         let is_reversed = [false; 2];
-        let frame =
-            PlotArea { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
+        let frame = PlotArea {
+            left: LEFT,
+            top: BELOW_HEADING[1],
+            width: SIDE,
+            height: SIDE,
+            x,
+            y,
+            is_reversed,
+        };
         let levels = levels(low, high);
         let note = if levels.iter().any(|v| *v < -1e-9 * limit) {
             format!("{} Contours below zero are dashed.", self.note)
@@ -250,7 +290,9 @@ impl SurfacePlot {
                 frame::axes(&mut map, [&axes[0], &axes[1]])?;
                 bar(area, &frame, &levels, &colours, power)
             })?;
-            group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 6.0]))
+            group(area, "class=\"note\"", || {
+                sheet::note(area, &note, [LEFT, end + 6.0])
+            })
         })
     }
 
@@ -266,21 +308,37 @@ impl SurfacePlot {
     ) -> Result<(), Error> {
         let (x, y) = (frame.x, frame.y);
         let whole = [(x.low, y.low), (x.high, y.high)];
-        map.plotting_area().draw(&Rectangle::new(whole, colours[0].filled()))?;
+        map.plotting_area()
+            .draw(&Rectangle::new(whole, colours[0].filled()))?;
         // values at supports are zero except for rounding, whose sign must not affect the contours
         let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
-        let values: Vec<Vec<f64>> = self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
+        let values: Vec<Vec<f64>> = self
+            .values
+            .iter()
+            .map(|row| row.iter().map(snap).collect())
+            .collect();
         for (level, colour) in levels.iter().zip(&colours[1..]) {
             let found = region(&self.loads, &self.at, &values, *level);
             let is_zero = level.abs() < 1e-9 * limit;
-            let lines = if *level < 0.0 && !is_zero { found.dashes } else { found.chords };
-            let style = if is_zero { stroke(INK, 1.6) } else { stroke(GREY, 0.7) };
+            let lines = if *level < 0.0 && !is_zero {
+                found.dashes
+            } else {
+                found.chords
+            };
+            let style = if is_zero {
+                stroke(INK, 1.6)
+            } else {
+                stroke(GREY, 0.7)
+            };
             map.draw_series([
                 OnePath {
                     pieces: found.polygons.iter().map(|p| pairs(p).collect()).collect(),
                     style: colour.filled(),
                 },
-                OnePath { pieces: lines.iter().map(|line| pairs(line).collect()).collect(), style },
+                OnePath {
+                    pieces: lines.iter().map(|line| pairs(line).collect()).collect(),
+                    style,
+                },
             ])?;
         }
         Ok(())
@@ -289,7 +347,10 @@ impl SurfacePlot {
     /// Draws a vertical and a horizontal line through each support inside the frame.
     fn draw_supports(&self, map: &mut Plot<'_>, frame: &PlotArea) -> Result<(), Error> {
         let (x, y) = (frame.x, frame.y);
-        let inside = self.supports.iter().filter(|s| (x.low..=x.high).contains(s));
+        let inside = self
+            .supports
+            .iter()
+            .filter(|s| (x.low..=x.high).contains(s));
         map.draw_series(inside.flat_map(|s| {
             let (across, up) = ([(*s, y.low), (*s, y.high)], [(x.low, *s), (x.high, *s)]);
             [across, up].map(|ends| PathElement::new(ends, stroke(GREY, 1.0)))
@@ -302,8 +363,20 @@ impl SurfacePlot {
 fn cell_indices(stations: &[f64], is_reversed: bool) -> Coordinate {
     let values = (0..stations.len()).map(|i| i as f64 + 0.5).collect();
     let labels = stations.iter().map(|station| short(*station)).collect();
-    let scale = AxisScale { low: 0.0, high: stations.len() as f64, log: false };
-    Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
+    let scale = AxisScale {
+        low: 0.0,
+        high: stations.len() as f64,
+        log: false,
+    };
+    Coordinate {
+        scale,
+        ticks: Ticks {
+            values,
+            labels,
+            exponent: 0,
+        },
+        is_reversed,
+    }
 }
 
 /// Colours of the bands below, between and above the levels.
@@ -311,7 +384,11 @@ fn band_colours(levels: &[f64], low: f64, high: f64, limit: f64) -> Vec<RGBColor
     let middle = |k: usize| {
         let from = if k == 0 { low } else { levels[k - 1] };
         let to = levels.get(k).copied().unwrap_or(high);
-        if limit > 0.0 { 0.5 * (from + to) / limit } else { 0.0 }
+        if limit > 0.0 {
+            0.5 * (from + to) / limit
+        } else {
+            0.0
+        }
     };
     (0..=levels.len()).map(|k| shade(middle(k))).collect()
 }
@@ -324,25 +401,45 @@ fn bar(
     colours: &[RGBColor],
     power: i32,
 ) -> Result<(), Error> {
-    let apart = if levels.len() > 1 { levels[1] - levels[0] } else { 1.0 };
+    let apart = if levels.len() > 1 {
+        levels[1] - levels[0]
+    } else {
+        1.0
+    };
     let decimals = (-(apart / 10f64.powi(power)).log10().floor()).clamp(0.0, 12.0) as usize;
     let coordinate = |high: f64, ticks| Coordinate {
-        scale: AxisScale { low: 0.0, high, log: false },
+        scale: AxisScale {
+            low: 0.0,
+            high,
+            log: false,
+        },
         ticks,
         is_reversed: false,
     };
     let values = (1..=levels.len()).map(|k| k as f64).collect();
-    let labels = levels.iter().map(|level| fixed(*level, power, decimals)).collect();
-    let ticks = Ticks { values, labels, exponent: power };
-    let rectangle = [frame.left + frame.width + 36.0, frame.top, 26.0, frame.height];
-    let axes = [coordinate(1.0, Ticks::none()), coordinate(colours.len() as f64, ticks)];
+    let labels = levels
+        .iter()
+        .map(|level| fixed(*level, power, decimals))
+        .collect();
+    let ticks = Ticks {
+        values,
+        labels,
+        exponent: power,
+    };
+    let rectangle = [
+        frame.left + frame.width + 36.0,
+        frame.top,
+        26.0,
+        frame.height,
+    ];
+    let axes = [
+        coordinate(1.0, Ticks::none()),
+        coordinate(colours.len() as f64, ticks),
+    ];
     let mut bar = plot(area, rectangle, [0.0, 0.0, 0.0, 80.0], axes)?;
-    bar.draw_series(
-        colours
-            .iter()
-            .enumerate()
-            .map(|(k, colour)| Rectangle::new([(0.0, k as f64), (1.0, k as f64 + 1.0)], colour.filled())),
-    )?;
+    bar.draw_series(colours.iter().enumerate().map(|(k, colour)| {
+        Rectangle::new([(0.0, k as f64), (1.0, k as f64 + 1.0)], colour.filled())
+    }))?;
     bar.configure_mesh()
         .bold_line_style(stroke(GREY, 0.8))
         .axis_style(stroke(GREY, 0.8))
@@ -359,6 +456,15 @@ fn levels(low: f64, high: f64) -> Vec<f64> {
     }
     let step = step(low, high, 12.0);
     let first = (low / step + 1e-9).floor() + 1.0;
-    let value = |i: i32| if first + f64::from(i) == 0.0 { 0.0 } else { (first + f64::from(i)) * step };
-    (0..40).map(value).take_while(|v| *v < high - 1e-9 * step).collect()
+    let value = |i: i32| {
+        if first + f64::from(i) == 0.0 {
+            0.0
+        } else {
+            (first + f64::from(i)) * step
+        }
+    };
+    (0..40)
+        .map(value)
+        .take_while(|v| *v < high - 1e-9 * step)
+        .collect()
 }

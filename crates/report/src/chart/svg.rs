@@ -26,7 +26,11 @@ impl Svg {
     /// a pixel from the upper left corner.
     #[must_use]
     pub fn new(width: f64, height: f64, elements: impl Into<String>) -> Svg {
-        Svg { width, height, elements: elements.into() }
+        Svg {
+            width,
+            height,
+            elements: elements.into(),
+        }
     }
 
     /// Height in pixels.
@@ -50,7 +54,11 @@ impl Svg {
 
     /// The SVG element with further attributes; `unit` is the length of a pixel in the units of the parent element.
     fn element(&self, attributes: &str, unit: f64) -> String {
-        let Svg { width, height, elements } = self;
+        let Svg {
+            width,
+            height,
+            elements,
+        } = self;
         format!(
             "<svg {attributes} width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" \
              font-family=\"{FONT}\" stroke-linejoin=\"round\">\n\
@@ -68,7 +76,8 @@ impl Svg {
 pub fn stack(pictures: &[Svg]) -> Svg {
     let mut all = Svg::default();
     for picture in pictures {
-        all.elements.push_str(&picture.element(&format!("y=\"{}\"", all.height * FINE), FINE));
+        all.elements
+            .push_str(&picture.element(&format!("y=\"{}\"", all.height * FINE), FINE));
         all.width = all.width.max(picture.width);
         all.height += picture.height;
     }

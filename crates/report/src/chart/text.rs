@@ -20,7 +20,9 @@ pub(super) fn wrap(text: &str, width: f64, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if text_width(line, size) + text_width(word, size) + 0.31 * size <= width => {
+            Some(line)
+                if text_width(line, size) + text_width(word, size) + 0.31 * size <= width =>
+            {
                 line.push(' ');
                 line.push_str(word);
             }

@@ -80,7 +80,17 @@ mod tests {
     fn no_point_left_out_is_farther_away_than_asked() {
         let points: Vec<[f64; 2]> = (0..4000)
             .map(|i| f64::from(i) * 0.2)
-            .map(|x| [x, 100.0 * (x / 70.0).sin() + if (300.0..310.0).contains(&x) { 20.0 } else { 0.0 }])
+            .map(|x| {
+                [
+                    x,
+                    100.0 * (x / 70.0).sin()
+                        + if (300.0..310.0).contains(&x) {
+                            20.0
+                        } else {
+                            0.0
+                        },
+                ]
+            })
             .collect();
         let kept = simplified(&points, 0.05);
         assert!(kept.len() < 400, "{} of {}", kept.len(), points.len());

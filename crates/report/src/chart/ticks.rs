@@ -20,7 +20,11 @@ pub(super) struct Ticks {
 impl Ticks {
     /// No ticks.
     pub fn none() -> Ticks {
-        Ticks { values: Vec::new(), labels: Vec::new(), exponent: 0 }
+        Ticks {
+            values: Vec::new(),
+            labels: Vec::new(),
+            exponent: 0,
+        }
     }
 
     /// Ticks of a scale, about `target` of them.
@@ -30,7 +34,13 @@ impl Ticks {
         }
         let ticks = Ticks::logarithmic(scale);
         // A range within one decade may contain one tick at 1, 2 or 5, or none.
-        if ticks.labels.iter().filter(|label| !label.is_empty()).count() < FEWEST {
+        if ticks
+            .labels
+            .iter()
+            .filter(|label| !label.is_empty())
+            .count()
+            < FEWEST
+        {
             Ticks::linear(scale, target)
         } else {
             ticks
@@ -48,18 +58,36 @@ impl Ticks {
             if value > scale.high + slack {
                 break;
             }
-            values.push(if value.abs() < 0.5 * slack { 0.0 } else { value });
+            values.push(if value.abs() < 0.5 * slack {
+                0.0
+            } else {
+                value
+            });
         }
         let decimals = decimals(step, exponent);
-        let labels = values.iter().map(|v| fixed(*v, exponent, decimals)).collect();
-        Ticks { values, labels, exponent }
+        let labels = values
+            .iter()
+            .map(|v| fixed(*v, exponent, decimals))
+            .collect();
+        Ticks {
+            values,
+            labels,
+            exponent,
+        }
     }
 
     fn logarithmic(scale: &AxisScale) -> Ticks {
         let decades = (scale.high / scale.low).log10();
-        let factors: &[f64] = if decades <= 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let factors: &[f64] = if decades <= 3.0 {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
+        };
         let skip = (decades / 8.0).ceil().max(1.0) as i32;
-        let (from, to) = (scale.low.log10().floor() as i32, scale.high.log10().ceil() as i32);
+        let (from, to) = (
+            scale.low.log10().floor() as i32,
+            scale.high.log10().ceil() as i32,
+        );
         let plain = scale.low >= 1e-3 && scale.high <= 1e4;
         let (mut values, mut labels) = (Vec::new(), Vec::new());
         for power in from..=to {
@@ -83,7 +111,11 @@ impl Ticks {
                 });
             }
         }
-        Ticks { values, labels, exponent: 0 }
+        Ticks {
+            values,
+            labels,
+            exponent: 0,
+        }
     }
 }
 

@@ -58,7 +58,9 @@ impl Animation {
         for (element, track) in &self.tracks {
             let is_finite = match track {
                 AnimationTrack::Displacement(places) => places.iter().all(|place| finite(place)),
-                AnimationTrack::Attribute(_, values) | AnimationTrack::Number(_, values) => finite(values),
+                AnimationTrack::Attribute(_, values) | AnimationTrack::Number(_, values) => {
+                    finite(values)
+                }
                 AnimationTrack::Curve(x, y) => finite(x) && y.iter().all(|values| finite(values)),
             };
             if !is_finite {

@@ -16,7 +16,11 @@ const LARGEST: f64 = 9e15;
 pub fn exponent(range: [f64; 2]) -> i32 {
     let power = ((range[1] - range[0]).abs() / FINE).log10().floor();
     // JavaScript represents only these powers of ten exactly
-    if power.is_finite() { power.clamp(-22.0, 22.0) as i32 } else { 0 }
+    if power.is_finite() {
+        power.clamp(-22.0, 22.0) as i32
+    } else {
+        0
+    }
 }
 
 /// Encodes `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, in which n are the nearest integer
@@ -28,7 +32,12 @@ pub fn exponent(range: [f64; 2]) -> i32 {
 pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
     let steps = |value: f64| {
         let power = 10f64.powi(exponent.abs());
-        (if exponent < 0 { value * power } else { value / power }).round()
+        (if exponent < 0 {
+            value * power
+        } else {
+            value / power
+        })
+        .round()
     };
     let counts: Vec<f64> = values.iter().map(|value| steps(*value)).collect();
     if counts.iter().any(|count| count.abs() > LARGEST) {
@@ -54,7 +63,12 @@ pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
 /// Encodes `values` with seven significant digits.
 #[must_use]
 pub fn plain(values: &[f64]) -> Value {
-    json!(values.iter().map(|value| rounded(*value, 7)).collect::<Vec<f64>>())
+    json!(
+        values
+            .iter()
+            .map(|value| rounded(*value, 7))
+            .collect::<Vec<f64>>()
+    )
 }
 
 #[cfg(test)]
@@ -64,7 +78,10 @@ pub(crate) mod tests {
     /// The values as the script of the page decodes them.
     pub fn decoded(code: &Value) -> Vec<f64> {
         if let Some(plain) = code.as_array() {
-            return plain.iter().map(|value| value.as_f64().expect("a number")).collect();
+            return plain
+                .iter()
+                .map(|value| value.as_f64().expect("a number"))
+                .collect();
         }
         let exponent = code["s"].as_i64().expect("an exponent") as i32;
         let mut count = 0;
@@ -74,7 +91,11 @@ pub(crate) mod tests {
         (0..length)
             .map(|index| {
                 count += steps[index.min(steps.len() - 1)];
-                if exponent < 0 { count as f64 / power } else { count as f64 * power }
+                if exponent < 0 {
+                    count as f64 / power
+                } else {
+                    count as f64 * power
+                }
             })
             .collect()
     }
@@ -91,11 +112,18 @@ pub(crate) mod tests {
         ] {
             let exponent = exponent(range);
             let step = 10f64.powi(exponent);
-            assert!(range[1] == range[0] || step <= (range[1] - range[0]) / FINE * 1.000_001 || step == 1e22);
+            assert!(
+                range[1] == range[0]
+                    || step <= (range[1] - range[0]) / FINE * 1.000_001
+                    || step == 1e22
+            );
             let back = decoded(&coded(&values, exponent));
             assert_eq!(back.len(), values.len());
             for (back, value) in back.iter().zip(&values) {
-                assert!((back - value).abs() <= 0.500_001 * step + 1e-6 * value.abs(), "{back} {value}");
+                assert!(
+                    (back - value).abs() <= 0.500_001 * step + 1e-6 * value.abs(),
+                    "{back} {value}"
+                );
             }
         }
     }
@@ -103,7 +131,10 @@ pub(crate) mod tests {
     #[test]
     fn decimal_numbers_come_back_as_they_were_written_and_even_steps_are_short() {
         let values: Vec<f64> = (0..900).map(|i| f64::from(i) * 0.05).collect();
-        assert_eq!(coded(&values, -4), json!({"s": -4, "n": 900, "v": [0, 500]}));
+        assert_eq!(
+            coded(&values, -4),
+            json!({"s": -4, "n": 900, "v": [0, 500]})
+        );
         assert_eq!(coded(&[3.0; 7], 0), json!({"s": 0, "n": 7, "v": [3, 0]}));
         for (i, back) in decoded(&coded(&values, -4)).into_iter().enumerate() {
             assert_eq!(back, (i * 5) as f64 / 100.0);

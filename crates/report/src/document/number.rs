@@ -18,7 +18,11 @@ pub fn is_rounding(value: f64, largest: f64) -> bool {
 /// `value`, or zero where it [is zero but for rounding](is_rounding) beside `largest`.
 #[must_use]
 pub fn cleared(value: f64, largest: f64) -> f64 {
-    if is_rounding(value, largest) { 0.0 } else { value }
+    if is_rounding(value, largest) {
+        0.0
+    } else {
+        value
+    }
 }
 
 /// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
@@ -59,15 +63,26 @@ pub fn number(value: f64, digits: usize) -> Option<String> {
 pub fn with_numbers(text: &str) -> String {
     let word = |word: &str| {
         let core = word.trim_matches(|c: char| "(),.;:".contains(c) || c.is_whitespace());
-        let is_numeral = core.contains('e') && core.chars().all(|c| c.is_ascii_digit() || "-+.e".contains(c));
-        let value = core.parse().ok().filter(|_| is_numeral).and_then(|value| number(value, 7));
+        let is_numeral = core.contains('e')
+            && core
+                .chars()
+                .all(|c| c.is_ascii_digit() || "-+.e".contains(c));
+        let value = core
+            .parse()
+            .ok()
+            .filter(|_| is_numeral)
+            .and_then(|value| number(value, 7));
         value.map_or_else(|| word.to_owned(), |value| word.replacen(core, &value, 1))
     };
     text.split_inclusive(' ').map(word).collect()
 }
 
 fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
 }
 
 fn grouped(digits: &str) -> String {

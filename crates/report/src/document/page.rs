@@ -3,7 +3,9 @@
 use crate::chart::{Chart, Drawing, Style};
 use crate::document::code::{coded, exponent, plain};
 use crate::document::number::{number, with_numbers};
-use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
+use crate::document::section::{
+    Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
+};
 use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use results::threads::parallel_map;
@@ -60,13 +62,24 @@ impl Report {
         let sections = self.sections.iter().enumerate();
         let figures: Vec<(usize, usize, &Figure)> = sections
             .clone()
-            .flat_map(|(s, section)| section.figures.iter().enumerate().map(move |(i, one)| (s, i, one)))
+            .flat_map(|(s, section)| {
+                section
+                    .figures
+                    .iter()
+                    .enumerate()
+                    .map(move |(i, one)| (s, i, one))
+            })
             .collect();
-        let drawn = parallel_map(&figures, threads, |running, (s, i, one)| figure(*s, *i, one, running + 1));
+        let drawn = parallel_map(&figures, threads, |running, (s, i, one)| {
+            figure(*s, *i, one, running + 1)
+        });
         let (mut drawn, mut tables) = (drawn.into_iter(), 0);
-        let bodies: Result<Vec<Markup>, Error> =
-            sections.map(|(i, s)| section(i, s, &mut tables, &mut drawn)).collect();
-        let moves = figures.iter().any(|(.., figure)| matches!(figure.picture, Picture::Animation(_)));
+        let bodies: Result<Vec<Markup>, Error> = sections
+            .map(|(i, s)| section(i, s, &mut tables, &mut drawn))
+            .collect();
+        let moves = figures
+            .iter()
+            .any(|(.., figure)| matches!(figure.picture, Picture::Animation(_)));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -109,14 +122,22 @@ fn section(
 ) -> Result<Markup, Error> {
     let mut facts = Vec::new();
     for (fact, one) in section.facts.iter().enumerate() {
-        facts.push((one, shown(&one.value).ok_or(Error::Fact { section: index, fact })?));
+        facts.push((
+            one,
+            shown(&one.value).ok_or(Error::Fact {
+                section: index,
+                fact,
+            })?,
+        ));
     }
     let mut tables = Vec::new();
     for (i, one) in section.tables.iter().enumerate() {
         *tables_before += 1;
         tables.push(table(index, i, one, *tables_before)?);
     }
-    let figures = drawn.take(section.figures.len()).collect::<Result<Vec<Markup>, Error>>()?;
+    let figures = drawn
+        .take(section.figures.len())
+        .collect::<Result<Vec<Markup>, Error>>()?;
     Ok(html! {
         section id=(format!("section-{}", index + 1)) .ends-page[section.ends_page] {
             details open {
@@ -144,23 +165,43 @@ fn section(
     })
 }
 
-fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> Result<Markup, Error> {
+fn table(
+    section: usize,
+    index: usize,
+    table: &ReportTable,
+    running: usize,
+) -> Result<Markup, Error> {
     let mut rows = Vec::new();
     for (row, cells) in table.rows.iter().enumerate() {
         let (found, expected) = (cells.len(), table.columns.len());
         if found != expected {
-            return Err(Error::Row { section, table: index, row, found, expected });
+            return Err(Error::Row {
+                section,
+                table: index,
+                row,
+                found,
+                expected,
+            });
         }
         let mut texts = Vec::new();
         for (column, cell) in cells.iter().enumerate() {
-            let text = shown(cell).ok_or(Error::Cell { section, table: index, row, column })?;
+            let text = shown(cell).ok_or(Error::Cell {
+                section,
+                table: index,
+                row,
+                column,
+            })?;
             texts.push((matches!(cell, TableCell::Number(_)), text));
         }
         rows.push(texts);
     }
     // numbers and the headers of their columns are aligned; a text column is numeric where all its texts are numbers
     let is_text_of_numbers = |i: usize| {
-        let mut texts = table.rows.iter().filter(|row| row[i] != TableCell::Empty).peekable();
+        let mut texts = table
+            .rows
+            .iter()
+            .filter(|row| row[i] != TableCell::Empty)
+            .peekable();
         texts.peek().is_some()
             && texts.all(|row| match &row[i] {
                 TableCell::Text(text) => is_numeral(text),
@@ -168,7 +209,13 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
             })
     };
     let aligned: Vec<bool> = (0..table.columns.len()).map(is_text_of_numbers).collect();
-    let numeric = |i: usize| aligned[i] || table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
+    let numeric = |i: usize| {
+        aligned[i]
+            || table
+                .rows
+                .iter()
+                .any(|r| matches!(r[i], TableCell::Number(_)))
+    };
     let is_stacked = table.columns.len() > NARROW;
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
@@ -209,16 +256,27 @@ fn is_roomy(table: &ReportTable) -> bool {
     };
     let width = |i: usize, column: &TableColumn| {
         let header = column.name.split(' ').map(length).max().unwrap_or_default();
-        let most = table.rows.iter().map(|row| of_cell(&row[i])).fold(header, usize::max);
+        let most = table
+            .rows
+            .iter()
+            .map(|row| of_cell(&row[i]))
+            .fold(header, usize::max);
         LETTER * most as f64 + BESIDE
     };
-    table.columns.iter().enumerate().map(|(i, column)| width(i, column)).sum::<f64>() < ROOM
+    table
+        .columns
+        .iter()
+        .enumerate()
+        .map(|(i, column)| width(i, column))
+        .sum::<f64>()
+        < ROOM
 }
 
 /// Whether a text is a number as [`number`] writes it.
 fn is_numeral(text: &str) -> bool {
     let is_of_number = |c: char| {
-        c.is_ascii_digit() || ".\u{2212}\u{202f} \u{d7}\u{207b}\u{2070}\u{b9}\u{b2}\u{b3}".contains(c)
+        c.is_ascii_digit()
+            || ".\u{2212}\u{202f} \u{d7}\u{207b}\u{2070}\u{b9}\u{b2}\u{b3}".contains(c)
     };
     let is_raised = |c: char| ('\u{2074}'..='\u{2079}').contains(&c);
     text.starts_with(|c: char| c.is_ascii_digit() || c == '\u{2212}')
@@ -238,7 +296,9 @@ fn words(text: &str) -> Markup {
 fn raised(text: &str) -> String {
     [("^2", "\u{b2}"), ("^3", "\u{b3}"), ("^4", "\u{2074}")]
         .into_iter()
-        .fold(text.to_owned(), |text, (power, sign)| text.replace(power, sign))
+        .fold(text.to_owned(), |text, (power, sign)| {
+            text.replace(power, sign)
+        })
 }
 
 fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {
@@ -246,18 +306,29 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
     let (svg, class, data) = match &figure.picture {
         Picture::Svg(svg) => (svg.clone(), "picture", None),
         Picture::Animation(animation) => {
-            let data = animation.data().ok_or(Error::Animation { section, figure: index })?;
+            let data = animation.data().ok_or(Error::Animation {
+                section,
+                figure: index,
+            })?;
             still = Some(animation.still_time);
             (animation.svg.clone(), "picture animation", Some(data))
         }
         Picture::Chart(chart) => {
-            let drawing = chart.draw().map_err(|source| Error::Chart { section, figure: index, source })?;
+            let drawing = chart.draw().map_err(|source| Error::Chart {
+                section,
+                figure: index,
+                source,
+            })?;
             let data = data(chart, &drawing);
             (drawing.svg, "picture chart", Some(data))
         }
         Picture::Drawn(drawn) => {
             let (chart, drawing) = &**drawn;
-            (drawing.svg.clone(), "picture chart", Some(data(chart, drawing)))
+            (
+                drawing.svg.clone(),
+                "picture chart",
+                Some(data(chart, drawing)),
+            )
         }
     };
     let label = format!("figure-{running}");
@@ -317,7 +388,9 @@ fn shown(cell: &TableCell) -> Option<String> {
     match cell {
         TableCell::Empty => Some(String::new()),
         TableCell::Text(text) => Some(text.clone()),
-        TableCell::Number(value) if value.fract() == 0.0 && value.abs() < 1e7 => number(*value, WHOLE_DIGITS),
+        TableCell::Number(value) if value.fract() == 0.0 && value.abs() < 1e7 => {
+            number(*value, WHOLE_DIGITS)
+        }
         TableCell::Number(value) => number(*value, DIGITS),
     }
 }
@@ -336,7 +409,11 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
     };
     let [x, y] = frame.ranges();
     let list = |values: &[f64], axis: &crate::chart::ChartAxis, range| {
-        if axis.log { plain(values) } else { coded(values, exponent(range)) }
+        if axis.log {
+            plain(values)
+        } else {
+            coded(values, exponent(range))
+        }
     };
     // curves over the same abscissas store them once
     let mut places: Vec<Vec<f64>> = Vec::new();
@@ -354,8 +431,12 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
             json!({"label": one.label, "x": at, "y": list(&values, &chart.y_axis, y), "apart": is_apart})
         })
         .collect();
-    let places: Vec<_> = places.iter().map(|own| list(own, &chart.x_axis, x)).collect();
-    let place = [frame.left, frame.top, frame.width, frame.height].map(|v| (v * 100.0).round() / 100.0);
+    let places: Vec<_> = places
+        .iter()
+        .map(|own| list(own, &chart.x_axis, x))
+        .collect();
+    let place =
+        [frame.left, frame.top, frame.width, frame.height].map(|v| (v * 100.0).round() / 100.0);
     let all = json!({
         "note": chart.note,
         "frame": place,

@@ -31,7 +31,10 @@ pub struct ReportSection {
 impl ReportSection {
     /// An empty section.
     pub fn new(heading: impl Into<String>) -> Self {
-        ReportSection { heading: heading.into(), ..ReportSection::default() }
+        ReportSection {
+            heading: heading.into(),
+            ..ReportSection::default()
+        }
     }
 
     /// The same section, after which a new page begins in print.
@@ -53,13 +56,20 @@ impl ReportSection {
         value: impl Into<TableCell>,
         unit: impl Into<String>,
     ) -> Self {
-        self.facts.push(Fact { name: name.into(), value: value.into(), unit: unit.into() });
+        self.facts.push(Fact {
+            name: name.into(),
+            value: value.into(),
+            unit: unit.into(),
+        });
         self
     }
 
     /// The same section with one more figure.
     pub fn figure(mut self, picture: impl Into<Picture>, caption: impl Into<String>) -> Self {
-        self.figures.push(Figure { picture: picture.into(), caption: caption.into() });
+        self.figures.push(Figure {
+            picture: picture.into(),
+            caption: caption.into(),
+        });
         self
     }
 
@@ -129,7 +139,10 @@ pub struct TableColumn {
 impl TableColumn {
     /// A header from its parts.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        TableColumn { name: name.into(), unit: unit.into() }
+        TableColumn {
+            name: name.into(),
+            unit: unit.into(),
+        }
     }
 }
 

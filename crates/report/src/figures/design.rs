@@ -25,12 +25,27 @@ pub(crate) fn reading_unit(units: Units, dimension: Dimension) -> (String, f64) 
     let is_small = !(dimension == Dimension::FORCE || dimension == Dimension::MOMENT);
     let is_metric = matches!(units.length, Length::Metre | Length::Millimetre);
     let to = match (is_metric, is_small) {
-        (true, true) => Units { length: Length::Millimetre, force: Force::Newton },
-        (true, false) => Units { length: Length::Metre, force: Force::Kilonewton },
-        (false, true) => Units { length: Length::Inch, force: Force::Kip },
-        (false, false) => Units { length: Length::Foot, force: Force::Kip },
+        (true, true) => Units {
+            length: Length::Millimetre,
+            force: Force::Newton,
+        },
+        (true, false) => Units {
+            length: Length::Metre,
+            force: Force::Kilonewton,
+        },
+        (false, true) => Units {
+            length: Length::Inch,
+            force: Force::Kip,
+        },
+        (false, false) => Units {
+            length: Length::Foot,
+            force: Force::Kip,
+        },
     };
-    let unit = to.label(dimension).replace("^2", "\u{b2}").replace("^4", "\u{2074}");
+    let unit = to
+        .label(dimension)
+        .replace("^2", "\u{b2}")
+        .replace("^4", "\u{2074}");
     (unit, Scale { from: units, to }.factor(dimension))
 }
 
@@ -103,7 +118,11 @@ pub(crate) fn quantity_phrase(quantity: GirderResponse) -> String {
 
 /// A rail in a sentence: that of the short form has no name of its own.
 pub(crate) fn rail_phrase(name: &str) -> String {
-    if name == "rail" { "the rail".to_owned() } else { format!("rail {name}") }
+    if name == "rail" {
+        "the rail".to_owned()
+    } else {
+        format!("rail {name}")
+    }
 }
 
 /// Positions of the trains of a state, turned ones marked.
@@ -133,7 +152,9 @@ fn with_jumps(points: Vec<[f64; 2]>, supports: &[f64]) -> Vec<[f64; 2]> {
     let rounding = 1e-6 * length;
     for point in points {
         if let Some(&[before, value]) = out.last()
-            && let Some(&x) = supports.iter().find(|x| before + rounding < **x && **x < point[0] - rounding)
+            && let Some(&x) = supports
+                .iter()
+                .find(|x| before + rounding < **x && **x < point[0] - rounding)
         {
             out.extend([[x, value], [x, point[1]]]);
         }
@@ -161,8 +182,11 @@ pub(crate) fn envelope_charts(
         GirderResponse::Torsion,
     ];
     let envelopes = &result.cases[case].envelopes;
-    let other_sides: BTreeMap<usize, &Governing> =
-        envelopes.other_sides.iter().map(|(index, other)| (*index, other)).collect();
+    let other_sides: BTreeMap<usize, &Governing> = envelopes
+        .other_sides
+        .iter()
+        .map(|(index, other)| (*index, other))
+        .collect();
     let mut out = Vec::new();
     for quantity in order {
         let (unit, factor) = unit_of(design.units, quantity);
@@ -173,9 +197,14 @@ pub(crate) fn envelope_charts(
         let supports: &[f64] = if is_force { &design.spans[rail] } else { &[] };
         let points = |is_max: bool| -> Vec<[f64; 2]> {
             let all = envelopes.envelopes.iter().enumerate();
-            let own = all.filter(|(_, e)| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
-            let sides = own.flat_map(|(index, e)| in_order(&e.governing, other_sides.get(&index).copied()));
-            with_jumps(sides.map(|one| [one.x, factor * one.value]).collect(), supports)
+            let own =
+                all.filter(|(_, e)| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
+            let sides =
+                own.flat_map(|(index, e)| in_order(&e.governing, other_sides.get(&index).copied()));
+            with_jumps(
+                sides.map(|one| [one.x, factor * one.value]).collect(),
+                supports,
+            )
         };
         let (largest, smallest) = (points(true), points(false));
         if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {
@@ -187,14 +216,18 @@ pub(crate) fn envelope_charts(
         let length = design.units.label(Dimension::LENGTH);
         let mut y = ChartAxis::new(force_word(quantity), &unit);
         // Sagging moments and deflections are drawn downwards, as engineers draw them.
-        if matches!(quantity, GirderResponse::VerticalMoment | GirderResponse::VerticalDeflection) {
+        if matches!(
+            quantity,
+            GirderResponse::VerticalMoment | GirderResponse::VerticalDeflection
+        ) {
             y = y.downwards();
         }
         let chart = Chart::new(title, ChartAxis::new("x along the rail", length), y)
             .with(Series::new("largest", Style::Line, largest))
             .with(Series::new("smallest", Style::Dashed, smallest));
-        let caption =
-            format!("Envelope of {name}: the largest and smallest value at each place over all positions.");
+        let caption = format!(
+            "Envelope of {name}: the largest and smallest value at each place over all positions."
+        );
         out.push((chart, caption));
     }
     out
@@ -207,7 +240,14 @@ mod tests {
     #[test]
     fn forces_jump_at_supports_between_members_that_end_beside_them() {
         let points = vec![[0.0, 1.0], [4.0, 1.0], [6.0, 3.0], [10.0, 3.0]];
-        let jumping = [[0.0, 1.0], [4.0, 1.0], [5.0, 1.0], [5.0, 3.0], [6.0, 3.0], [10.0, 3.0]];
+        let jumping = [
+            [0.0, 1.0],
+            [4.0, 1.0],
+            [5.0, 1.0],
+            [5.0, 3.0],
+            [6.0, 3.0],
+            [10.0, 3.0],
+        ];
         assert_eq!(with_jumps(points.clone(), &[0.0, 5.0, 10.0]), jumping);
         // members that end at the support have their values there
         assert_eq!(with_jumps(points.clone(), &[0.0, 4.0, 10.0]), points);

@@ -24,7 +24,11 @@ const SMALL: f64 = 0.02;
 /// A governing value in words, such as `largest sagging moment under rail a, span 2`.
 pub(crate) fn subject_words(design: &Design, line: &GoverningLine) -> String {
     match &line.subject {
-        LineSubject::Girder { rail, span, quantity } => {
+        LineSubject::Girder {
+            rail,
+            span,
+            quantity,
+        } => {
             let word = match (quantity, line.is_max) {
                 (GirderResponse::VerticalMoment, true) => "largest sagging moment",
                 (GirderResponse::VerticalMoment, false) => "largest hogging moment",
@@ -34,7 +38,10 @@ pub(crate) fn subject_words(design: &Design, line: &GoverningLine) -> String {
                 (_, false) => "largest deflection upwards",
             };
             let name = rail_phrase(&design.spec.rails()[*rail].name);
-            format!("{word} under {name}, span {span}, x = {}", digits(line.governing.x, 4))
+            format!(
+                "{word} under {name}, span {span}, x = {}",
+                digits(line.governing.x, 4)
+            )
         }
         LineSubject::Reaction { support, .. } => {
             let word = if line.is_max { "largest" } else { "smallest" };
@@ -61,7 +68,12 @@ pub(crate) fn influence_figure(design: &Design, line: &GoverningLine) -> (Svg, S
         LineSubject::Reaction { .. } => (force.clone(), by_force, String::new()),
     };
     let loaded = line.loaded_rails();
-    let most = |rail: &usize| line.points(*rail).iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+    let most = |rail: &usize| {
+        line.points(*rail)
+            .iter()
+            .map(|p| p[1].abs())
+            .fold(0.0, f64::max)
+    };
     let scale = loaded.iter().map(most).fold(0.0, f64::max);
     let mut pictures = Vec::new();
     let mut names = Vec::new();
@@ -75,7 +87,9 @@ pub(crate) fn influence_figure(design: &Design, line: &GoverningLine) -> (Svg, S
             range: rails[rail].range,
             supports: design.spans[rail].as_slice(),
             length_unit: &length,
-            wheels: wheels.map(|wheel| (wheel.x, by_force * wheel.force)).collect(),
+            wheels: wheels
+                .map(|wheel| (wheel.x, by_force * wheel.force))
+                .collect(),
             section,
         };
         pictures.push(picture(line, rail, &sketch, (scale, factor / by_force)));
@@ -105,7 +119,12 @@ pub(crate) fn influence_figure(design: &Design, line: &GoverningLine) -> (Svg, S
 }
 
 /// The line for loads on one rail, with the wheels above it.
-fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest, factor): (f64, f64)) -> Svg {
+fn picture(
+    line: &GoverningLine,
+    rail: usize,
+    sketch: &RailSketch<'_>,
+    (largest, factor): (f64, f64),
+) -> Svg {
     let mut out = "<title>Influence line with the governing wheels</title>\n".to_owned();
     let top = sketch.draw(&mut out, 4.0) + SPACE;
     let points = line.points(rail);
@@ -121,7 +140,9 @@ fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest,
     let [low, high] = points
         .iter()
         .map(|point| sign * point[1] / largest)
-        .fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
+        .fold([0.0_f64; 2], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        });
     let scale = HEIGHT / (high - low).max(0.2);
     let zero = top - low * scale;
     let y = |value: f64| FINE * (zero + sign * value / largest * scale);
@@ -130,7 +151,8 @@ fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest,
     for [place, value] in &points {
         let _ = write!(path, " L {:.0} {:.0}", x(*place), y(*value));
     }
-    let [first, last] = [points.first(), points.last()].map(|point| point.map_or(0.0, |point| x(point[0])));
+    let [first, last] =
+        [points.first(), points.last()].map(|point| point.map_or(0.0, |point| x(point[0])));
     let _ = writeln!(
         out,
         "<path d=\"M {first:.0} {0:.0}{path} L {last:.0} {0:.0} z\" fill=\"#DCE9F5\" stroke=\"{INK}\" \
@@ -142,7 +164,14 @@ fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest,
         .wheels
         .iter()
         .filter(|wheel| wheel.rail == rail)
-        .map(|wheel| [sketch.at(wheel.x), y(wheel.ordinate) / FINE, wheel.ordinate, factor * wheel.ordinate])
+        .map(|wheel| {
+            [
+                sketch.at(wheel.x),
+                y(wheel.ordinate) / FINE,
+                wheel.ordinate,
+                factor * wheel.ordinate,
+            ]
+        })
         .collect();
     write_ordinates(&mut out, &wheels, zero, SMALL * largest);
     if let Some(place) = sketch.section {
@@ -171,17 +200,29 @@ fn write_ordinates(out: &mut String, wheels: &[[f64; 4]], zero: f64, small: f64)
             FINE * y
         );
     }
-    let mut shown: Vec<[f64; 4]> = wheels.iter().filter(|wheel| wheel[2].abs() > small).copied().collect();
+    let mut shown: Vec<[f64; 4]> = wheels
+        .iter()
+        .filter(|wheel| wheel[2].abs() > small)
+        .copied()
+        .collect();
     shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
     for is_below in [false, true] {
         let own = || shown.iter().filter(|[_, y, ..]| (*y > zero) == is_below);
         let labels = own().map(|[x, _, _, value]| (*x, digits(*value, 4)));
         for label in placed_texts(labels.collect(), 2) {
             // neighbours share the height of the farthest one, which keeps the labels off the line
-            let near = own().filter(|[x, ..]| (x - label.x).abs() < NEAR).map(|[_, y, ..]| *y);
-            let edge = near.reduce(if is_below { f64::max } else { f64::min }).unwrap_or(zero);
+            let near = own()
+                .filter(|[x, ..]| (x - label.x).abs() < NEAR)
+                .map(|[_, y, ..]| *y);
+            let edge = near
+                .reduce(if is_below { f64::max } else { f64::min })
+                .unwrap_or(zero);
             let level = LINE * label.level as f64;
-            let y = if is_below { edge + 14.0 + level } else { edge - 5.0 - level };
+            let y = if is_below {
+                edge + 14.0 + level
+            } else {
+                edge - 5.0 - level
+            };
             write_text(out, &label.text, [label.x, y], WHEEL);
         }
     }

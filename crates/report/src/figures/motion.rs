@@ -22,13 +22,24 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     let length = scene.units.label(Dimension::LENGTH);
     let mut figures = Vec::new();
     for body in scene.bodies.iter().filter(|body| !body.in_space) {
-        let values = runs.iter().flat_map(|run| run.record.part(&body.name, "deflection"));
+        let values = runs
+            .iter()
+            .flat_map(|run| run.record.part(&body.name, "deflection"));
         let largest = values.fold(0.0_f64, |most, value| most.max(value.abs()));
         let (unit, factor) = column_unit(scene.units, Dimension::LENGTH, largest);
-        let stays =
-            |run: &LabelledRun| run.record.part(&body.name, "x").windows(2).all(|pair| pair[0] == pair[1]);
+        let stays = |run: &LabelledRun| {
+            run.record
+                .part(&body.name, "x")
+                .windows(2)
+                .all(|pair| pair[0] == pair[1])
+        };
         let (abscissa, title, x, over) = if runs.iter().all(stays) {
-            ("time".to_owned(), format!("Deflection of {}", body.name), ChartAxis::new("time", "s"), "time")
+            (
+                "time".to_owned(),
+                format!("Deflection of {}", body.name),
+                ChartAxis::new("time", "s"),
+                "time",
+            )
         } else {
             let axis = ChartAxis::new("position along the rail", &length);
             (
@@ -40,12 +51,25 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
         };
         let mut chart = Chart::new(title, x, ChartAxis::new("deflection", &unit).downwards());
         for (index, run) in runs.iter().enumerate() {
-            let points = run.record.points(&abscissa, &format!("{}.deflection", body.name));
-            let style = if index == 0 { Style::Line } else { Style::Dashed };
+            let points = run
+                .record
+                .points(&abscissa, &format!("{}.deflection", body.name));
+            let style = if index == 0 {
+                Style::Line
+            } else {
+                Style::Dashed
+            };
             chart = chart.with(Series::new(&run.label, style, scaled(points, factor)));
         }
-        let caption = format!("Deflection of {} below the unloaded rail, over {over}.", body.name);
-        figures.push(RunFigure::chart(format!("path-{}", body.name), caption, chart));
+        let caption = format!(
+            "Deflection of {} below the unloaded rail, over {over}.",
+            body.name
+        );
+        figures.push(RunFigure::chart(
+            format!("path-{}", body.name),
+            caption,
+            chart,
+        ));
     }
     figures
 }
@@ -55,7 +79,11 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
 #[must_use]
 pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     let (scene, record) = (run.scene, run.record);
-    if !scene.bodies.iter().any(|body| !body.in_space && body.motion.is_free()) {
+    if !scene
+        .bodies
+        .iter()
+        .any(|body| !body.in_space && body.motion.is_free())
+    {
         return Vec::new();
     }
     let moves = |body: &&Body| {
@@ -64,7 +92,12 @@ pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     };
     let moving: Vec<&Body> = scene.bodies.iter().filter(moves).collect();
     let each = [
-        ("positions", "x", "position along its rails", Dimension::LENGTH),
+        (
+            "positions",
+            "x",
+            "position along its rails",
+            Dimension::LENGTH,
+        ),
         ("speeds", "speed", "speed", Dimension::SPEED),
     ];
     let figure = |(name, part, label, dimension): (&str, &str, &str, Dimension)| {
@@ -81,19 +114,41 @@ pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
         for (time, what) in events {
             chart = chart.mark(*time, *what);
         }
-        let caption = format!("{} of the bodies along their rails ({}).", chart.title, run.label);
+        let caption = format!(
+            "{} of the bodies along their rails ({}).",
+            chart.title, run.label
+        );
         RunFigure::chart(name, caption, chart)
     };
-    if moving.is_empty() { Vec::new() } else { each.into_iter().map(figure).collect() }
+    if moving.is_empty() {
+        Vec::new()
+    } else {
+        each.into_iter().map(figure).collect()
+    }
 }
 
 /// Charts of the wheel forces, and of sliding and rolling of the wheels that spin.
 #[must_use]
 pub fn wheels(run: &LabelledRun, input: &SimulationInput) -> Vec<RunFigure> {
     let mut figures = Vec::new();
-    figures.extend(forces(run, input, "vertical", ["Wheel forces", "vertical force"]));
-    figures.extend(forces(run, input, "lateral", ["Lateral forces of the wheels", "lateral force"]));
-    figures.extend(forces(run, input, "traction", ["Traction of the wheels", "traction"]));
+    figures.extend(forces(
+        run,
+        input,
+        "vertical",
+        ["Wheel forces", "vertical force"],
+    ));
+    figures.extend(forces(
+        run,
+        input,
+        "lateral",
+        ["Lateral forces of the wheels", "lateral force"],
+    ));
+    figures.extend(forces(
+        run,
+        input,
+        "traction",
+        ["Traction of the wheels", "traction"],
+    ));
     for wheel in input.wheels.iter().filter(|wheel| wheel.spins) {
         figures.extend(rolling(run, wheel));
     }
@@ -109,11 +164,17 @@ fn forces(
     [title, quantity]: [&str; 2],
 ) -> Option<RunFigure> {
     let values = |wheel: &NamedWheel| run.record.part(&wheel.name, part);
-    let largest =
-        |wheel: &NamedWheel| values(wheel).iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let largest = |wheel: &NamedWheel| {
+        values(wheel)
+            .iter()
+            .fold(0.0_f64, |most, force| most.max(force.abs()))
+    };
     let is_vertical = part == "vertical";
-    let acting: Vec<&NamedWheel> =
-        input.wheels.iter().filter(|wheel| is_vertical || largest(wheel) > 0.0).collect();
+    let acting: Vec<&NamedWheel> = input
+        .wheels
+        .iter()
+        .filter(|wheel| is_vertical || largest(wheel) > 0.0)
+        .collect();
     let mut own: Vec<(usize, f64)> = Vec::new();
     for (w, wheel) in acting.iter().enumerate() {
         let most = largest(wheel);
@@ -131,7 +192,11 @@ fn forces(
     own.truncate(count);
     own.sort_by_key(|(w, _)| *w);
     let (unit, factor) = reading_unit(run.scene.units, Dimension::FORCE);
-    let mut chart = Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(quantity, unit));
+    let mut chart = Chart::new(
+        title,
+        ChartAxis::new("time", "s"),
+        ChartAxis::new(quantity, unit),
+    );
     for (index, (w, _)) in own.iter().enumerate() {
         let name = &acting[*w].name;
         let style = Style::alternating(index);
@@ -143,22 +208,38 @@ fn forces(
         (true, false) => ", one of those with equal forces".to_owned(),
         (false, false) => String::new(),
     };
-    let what = if is_vertical { "Vertical forces of the wheels" } else { title };
+    let what = if is_vertical {
+        "Vertical forces of the wheels"
+    } else {
+        title
+    };
     let caption = format!("{what} on their rails{few} ({}).", run.label);
-    let name = if is_vertical { "wheel-forces".to_owned() } else { format!("wheel-{part}") };
+    let name = if is_vertical {
+        "wheel-forces".to_owned()
+    } else {
+        format!("wheel-{part}")
+    };
     (!acting.is_empty()).then(|| RunFigure::chart(name, caption, chart))
 }
 
 /// Charts of the speeds of hub and rim, and of the path of a point on the rim.
 fn rolling(run: &LabelledRun, wheel: &NamedWheel) -> Vec<RunFigure> {
     let (units, record, name) = (run.scene.units, run.record, &wheel.name);
-    let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
+    let (speed, length) = (
+        units.label(Dimension::SPEED),
+        units.label(Dimension::LENGTH),
+    );
     let values = |part: &str| record.part(name, part);
     let radius = run.scene.wheels[wheel.kind].radius;
     let (time, x) = (record.values("time"), values("x"));
-    let (spin, angle, depth) = (values("spin_speed"), values("spin_angle"), values("penetration"));
+    let (spin, angle, depth) = (
+        values("spin_speed"),
+        values("spin_angle"),
+        values("penetration"),
+    );
     let hub = record.part(&run.scene.bodies[wheel.body].name, "speed");
-    let pairs = |f: &dyn Fn(usize) -> f64| (0..time.len()).map(|i| [time[i], f(i)]).collect::<Vec<_>>();
+    let pairs =
+        |f: &dyn Fn(usize) -> f64| (0..time.len()).map(|i| [time[i], f(i)]).collect::<Vec<_>>();
     let rim = |i: usize| -spin[i] * (radius - depth[i]);
     let speeds = Chart::new(
         format!("{name}: from sliding to rolling"),
@@ -166,16 +247,33 @@ fn rolling(run: &LabelledRun, wheel: &NamedWheel) -> Vec<RunFigure> {
         ChartAxis::new("speed", &speed),
     )
     .with(Series::new("hub", Style::Line, pairs(&|i| hub[i])))
-    .with(Series::new("rim at the rail, backwards", Style::Dashed, pairs(&rim)))
-    .with(Series::new("sliding speed", Style::Line, pairs(&|i| hub[i] - rim(i))));
+    .with(Series::new(
+        "rim at the rail, backwards",
+        Style::Dashed,
+        pairs(&rim),
+    ))
+    .with(Series::new(
+        "sliding speed",
+        Style::Line,
+        pairs(&|i| hub[i] - rim(i)),
+    ));
     let deepest = depth.first().copied().unwrap_or(0.0);
-    let point = |i: usize| [x[i] + radius * angle[i].sin(), radius - deepest - radius * angle[i].cos()];
+    let point = |i: usize| {
+        [
+            x[i] + radius * angle[i].sin(),
+            radius - deepest - radius * angle[i].cos(),
+        ]
+    };
     let mut trochoid = Chart::new(
         format!("{name}: path of a point on the rim"),
         ChartAxis::new("position along the rail", &length),
         ChartAxis::new("height above the rail", &length),
     )
-    .with(Series::new("point on the rim", Style::Line, (0..time.len()).map(point).collect()))
+    .with(Series::new(
+        "point on the rim",
+        Style::Line,
+        (0..time.len()).map(point).collect(),
+    ))
     .with(Series::new(
         "hub",
         Style::Dashed,

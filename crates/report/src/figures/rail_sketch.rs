@@ -88,14 +88,26 @@ impl RailSketch<'_> {
     pub(super) fn draw(&self, out: &mut String, top: f64) -> f64 {
         let mut wheels = self.wheels.clone();
         wheels.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let texts = wheels
-            .iter()
-            .map(|(x, force)| (self.at(*x), format!("{} at {}", digits(*force, 4), digits(*x, 4))));
+        let texts = wheels.iter().map(|(x, force)| {
+            (
+                self.at(*x),
+                format!("{} at {}", digits(*force, 4), digits(*x, 4)),
+            )
+        });
         let labels = placed_texts(texts.collect(), LEVELS);
-        let levels = labels.iter().map(|label| label.level + 1).max().unwrap_or_default();
+        let levels = labels
+            .iter()
+            .map(|label| label.level + 1)
+            .max()
+            .unwrap_or_default();
         let head = top + LINE * levels as f64;
         for label in &labels {
-            write_text(out, &label.text, [label.x, head - 4.0 - LINE * label.level as f64], WHEEL);
+            write_text(
+                out,
+                &label.text,
+                [label.x, head - 4.0 - LINE * label.level as f64],
+                WHEEL,
+            );
         }
         let axis = head + 46.0;
         self.draw_girder(out, axis);
@@ -120,7 +132,12 @@ impl RailSketch<'_> {
                 FINE * (axis - 11.0),
                 FINE * (axis + 15.0),
             );
-            write_text(out, &format!("x = {}", digits(x, 4)), [self.at(x), axis + 44.0], SECTION);
+            write_text(
+                out,
+                &format!("x = {}", digits(x, 4)),
+                [self.at(x), axis + 44.0],
+                SECTION,
+            );
         }
         axis + 50.0
     }
@@ -146,7 +163,10 @@ impl RailSketch<'_> {
             texts.push((self.at(x), digits(x, 4)));
             if let Some(next) = self.supports.get(index + 1) {
                 let middle = self.at(0.5 * (x + next));
-                texts.push((middle, format!("L = {} {}", digits(next - x, 4), self.length_unit)));
+                texts.push((
+                    middle,
+                    format!("L = {} {}", digits(next - x, 4), self.length_unit),
+                ));
             }
         }
         for label in placed_texts(texts, 1) {

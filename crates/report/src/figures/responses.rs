@@ -33,7 +33,9 @@ pub fn response_charts(
     lines: &[Option<ColumnInfluence>],
     girders: &GirderExtremes,
 ) -> Vec<RunFigure> {
-    let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
+    let Some((run, response)) = runs.first().zip(responses.first()) else {
+        return Vec::new();
+    };
     let mut figures = reactions(runs, run, response);
     figures.extend(moments(run, girders));
     figures.extend(influences(run.scene, response, lines));
@@ -49,15 +51,23 @@ pub(crate) fn ground_reactions(scene: &Scene) -> impl Fn(&Column) -> bool {
         .map(|structure| format!("{}.", structure.name))
         .collect();
     move |column| {
-        column.kind == Kind::Reaction && !carried.iter().any(|structure| column.name.starts_with(structure))
+        column.kind == Kind::Reaction
+            && !carried
+                .iter()
+                .any(|structure| column.name.starts_with(structure))
     }
 }
 
 /// Coordinates of the supports of a rail; none for a structure of tables, or one whose model cannot be made.
 pub(crate) fn supports(scene: &Scene, rail: usize) -> Vec<f64> {
     let rail = &scene.rails[rail];
-    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return Vec::new() };
-    spec.model().map_or_else(|_| Vec::new(), |(model, rails)| spec.spans(&model, &rails, rail.rail))
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else {
+        return Vec::new();
+    };
+    spec.model().map_or_else(
+        |_| Vec::new(),
+        |(model, rails)| spec.spans(&model, &rails, rail.rail),
+    )
 }
 
 /// Reactions of the ground in each direction over time: the largest ones of the first run, and a few in all runs.
@@ -70,7 +80,9 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
         .iter()
         .filter(|column| is_ground(column))
         .filter(|column| column.direction.is_some());
-    let most = forces.map(|column| largest_magnitude(run.record.values(&column.name))).fold(0.0, f64::max);
+    let most = forces
+        .map(|column| largest_magnitude(run.record.values(&column.name)))
+        .fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
@@ -94,8 +106,10 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
             figures.push(largest_reactions(run, &shown, word, &few));
         }
         if runs.len() > 1 {
-            let compared_columns =
-                own.iter().filter(|(magnitude, _)| *magnitude > COMPARED * largest).take(SHOWN);
+            let compared_columns = own
+                .iter()
+                .filter(|(magnitude, _)| *magnitude > COMPARED * largest)
+                .take(SHOWN);
             figures.extend(compared_columns.map(|(_, column)| compared(runs, scene, column)));
         }
     }
@@ -111,19 +125,30 @@ fn largest_reactions(run: &LabelledRun, shown: &[&Column], word: &str, few: &str
         let points = scaled(run.record.points("time", &column.name), factor);
         chart = chart.with(Series::new(&column.name, style, points));
     }
-    let caption = format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
+    let caption = format!(
+        "Reactions over time, {word}{few} ({}); positive along their axes.",
+        run.label
+    );
     RunFigure::chart(format!("reactions-{word}"), caption, chart)
 }
 
 /// One reaction over time in every run.
 fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
-    let (mut chart, factor) = over_time(scene, &format!("{} in all runs", column.name), column.dimension);
+    let (mut chart, factor) = over_time(
+        scene,
+        &format!("{} in all runs", column.name),
+        column.dimension,
+    );
     for (index, other) in runs.iter().enumerate() {
         let points = other.record.points("time", &column.name);
         if points.is_empty() {
             continue;
         }
-        let style = if index == 0 { Style::Line } else { Style::Dashed };
+        let style = if index == 0 {
+            Style::Line
+        } else {
+            Style::Dashed
+        };
         chart = chart.with(Series::new(&other.label, style, scaled(points, factor)));
     }
     let caption = format!("The reaction {} over time in every run.", column.name);
@@ -131,29 +156,54 @@ fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
 }
 
 /// Influence lines of the named sections for every rail whose loads affect them.
-fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluence>]) -> Vec<RunFigure> {
+fn influences(
+    scene: &Scene,
+    response: &Response,
+    lines: &[Option<ColumnInfluence>],
+) -> Vec<RunFigure> {
     let mut figures = Vec::new();
     for (structure, lines) in scene.structures.iter().zip(lines) {
-        let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
-        let Ok((model, rails)) = spec.model() else { continue };
+        let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else {
+            continue;
+        };
+        let Ok((model, rails)) = spec.model() else {
+            continue;
+        };
         for (rail, outline) in structure.rails.iter().enumerate() {
             let supports = spec.spans(&model, &rails, rail);
-            for (index, column) in
-                lines.columns().iter().enumerate().filter(|(_, column)| column.kind == Kind::Section)
+            for (index, column) in lines
+                .columns()
+                .iter()
+                .enumerate()
+                .filter(|(_, column)| column.kind == Kind::Section)
             {
                 let [from, to] = outline.range;
                 let point = |x: f64| {
-                    let value = lines.unit(Probe { rail, x, axis: Direction::Vertical })?;
+                    let value = lines.unit(Probe {
+                        rail,
+                        x,
+                        axis: Direction::Vertical,
+                    })?;
                     // a wheel load acts downward
                     Some([x, 0.0 - value[index]])
                 };
                 let place = |i: usize| from + (to - from) * i as f64 / (SAMPLES - 1) as f64;
-                let points = with_jumps((0..SAMPLES).map(place).filter_map(point).collect(), &point);
-                let largest = points.iter().fold(0.0_f64, |most, point| most.max(point[1].abs()));
+                let points =
+                    with_jumps((0..SAMPLES).map(place).filter_map(point).collect(), &point);
+                let largest = points
+                    .iter()
+                    .fold(0.0_f64, |most, point| most.max(point[1].abs()));
                 if largest < 1e-9 {
                     continue;
                 }
-                figures.push(influence(scene, response, column, &outline.name, points, &supports));
+                figures.push(influence(
+                    scene,
+                    response,
+                    column,
+                    &outline.name,
+                    points,
+                    &supports,
+                ));
             }
         }
     }
@@ -175,7 +225,9 @@ fn moments(run: &LabelledRun, girders: &GirderExtremes) -> Vec<RunFigure> {
             continue;
         }
         let supports = supports(run.scene, index);
-        figures.push(moment_envelope(run, &rail.name, largest, smallest, &supports));
+        figures.push(moment_envelope(
+            run, &rail.name, largest, smallest, &supports,
+        ));
     }
     figures
 }
@@ -190,17 +242,30 @@ fn moment_envelope(
 ) -> RunFigure {
     let units = run.scene.units;
     let (unit, factor) = reading_unit(units, Dimension::MOMENT);
-    let ends = [largest.first(), largest.last()].map(|point| point.map_or([0.0; 2], |point| [point[0], 0.0]));
+    let ends = [largest.first(), largest.last()]
+        .map(|point| point.map_or([0.0; 2], |point| [point[0], 0.0]));
     let chart = Chart::new(
         format!("Bending moments under {rail}"),
         ChartAxis::new("position along the rail", units.label(Dimension::LENGTH)),
         ChartAxis::new("moment, sagging positive", unit).downwards(),
     )
     .with(Series::new("largest", Style::Line, scaled(largest, factor)))
-    .with(Series::new("smallest", Style::Line, scaled(smallest, factor)))
-    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()))
+    .with(Series::new(
+        "smallest",
+        Style::Line,
+        scaled(smallest, factor),
+    ))
+    .with(Series::new(
+        "supports",
+        Style::Points,
+        supports.iter().map(|x| [*x, 0.0]).collect(),
+    ))
     .with(Series::new("girder", Style::Limit, ends.to_vec()));
-    let dead = if run.scene.output.dead_load { "with" } else { "without" };
+    let dead = if run.scene.output.dead_load {
+        "with"
+    } else {
+        "without"
+    };
     let caption = format!(
         "Envelope of the bending moments of the members under {rail} over the run, {dead} dead load ({}).",
         run.label
@@ -228,7 +293,12 @@ fn with_jumps(points: Vec<[f64; 2]>, point: &dyn Fn(f64) -> Option<[f64; 2]>) ->
     let mut all = Vec::with_capacity(points.len() + 2);
     for (index, own) in points.iter().enumerate() {
         let ends = index.checked_sub(1).map(|before| [points[before], *own]);
-        all.extend(ends.filter(|ends| is_large(*ends)).and_then(jump).into_iter().flatten());
+        all.extend(
+            ends.filter(|ends| is_large(*ends))
+                .and_then(jump)
+                .into_iter()
+                .flatten(),
+        );
         all.push(*own);
     }
     all
@@ -251,22 +321,39 @@ fn influence(
     let ends = [points.first(), points.last()].map(|point| point.map_or([0.0; 2], |p| [p[0], 0.0]));
     let mut chart = Chart::new(
         format!("Influence line of {} for wheels on {rail}", column.name),
-        ChartAxis::new("position of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
+        ChartAxis::new(
+            "position of the wheel along the rail",
+            scene.units.label(Dimension::LENGTH),
+        ),
         ChartAxis::new("per unit wheel load", own).downwards(),
     )
     .with(Series::new("influence line", Style::Line, points))
     .with(Series::new("girder", Style::Limit, ends.to_vec()))
-    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
-    let mut caption =
-        format!("{} per unit load of a wheel on {rail}, over the position of the wheel.", column.name);
-    if let Some(envelope) = response.envelopes.iter().find(|envelope| envelope.column == column.name) {
+    .with(Series::new(
+        "supports",
+        Style::Points,
+        supports.iter().map(|x| [*x, 0.0]).collect(),
+    ));
+    let mut caption = format!(
+        "{} per unit load of a wheel on {rail}, over the position of the wheel.",
+        column.name
+    );
+    if let Some(envelope) = response
+        .envelopes
+        .iter()
+        .find(|envelope| envelope.column == column.name)
+    {
         let most = envelope.max.value.abs().max(envelope.min.value.abs());
         let (unit, factor) = column_unit(scene.units, column.dimension, most);
         let text = |extreme: &results::response::ColumnExtreme| {
             let value = with_unit(&digits(factor * extreme.value, DIGITS), &unit);
             format!("{value} at t = {} s", digits(extreme.time, DIGITS))
         };
-        chart.note = format!("In this run: max {}; min {}.", text(&envelope.max), text(&envelope.min));
+        chart.note = format!(
+            "In this run: max {}; min {}.",
+            text(&envelope.max),
+            text(&envelope.min)
+        );
         caption.push_str(" The extremes of the run are stated below the chart.");
     }
     RunFigure::chart(format!("influence-{}-{rail}", column.name), caption, chart)
@@ -274,13 +361,26 @@ fn influence(
 
 /// An empty chart over time, and the factor of its values from the units of the scene.
 fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> (Chart, f64) {
-    let what = if dimension == Dimension::MOMENT { "moment" } else { "force" };
+    let what = if dimension == Dimension::MOMENT {
+        "moment"
+    } else {
+        "force"
+    };
     let (unit, factor) = reading_unit(scene.units, dimension);
-    (Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(what, unit)), factor)
+    (
+        Chart::new(
+            title,
+            ChartAxis::new("time", "s"),
+            ChartAxis::new(what, unit),
+        ),
+        factor,
+    )
 }
 
 fn largest_magnitude(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
+    values
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()))
 }
 
 #[cfg(test)]
@@ -298,8 +398,14 @@ mod tests {
         let found = with_jumps(points(&shear), &shear);
         assert_eq!(found.len(), 10);
         let [before, behind] = [found[3], found[4]];
-        assert!((before[0] - 0.3).abs() < 1e-9 && (before[1] + 0.3).abs() < 1e-9, "{before:?}");
-        assert!((behind[0] - 0.3).abs() < 1e-9 && (behind[1] - 0.7).abs() < 1e-9, "{behind:?}");
+        assert!(
+            (before[0] - 0.3).abs() < 1e-9 && (before[1] + 0.3).abs() < 1e-9,
+            "{before:?}"
+        );
+        assert!(
+            (behind[0] - 0.3).abs() < 1e-9 && (behind[1] - 0.7).abs() < 1e-9,
+            "{behind:?}"
+        );
         assert_eq!(with_jumps(points(&moment), &moment), points(&moment));
     }
 }

@@ -40,7 +40,10 @@ impl RunFigures {
     ) {
         match figures {
             Ok(figures) => self.figures.extend(figures),
-            Err(error) => self.omitted.push(OmittedFigure { name: group.into(), why: error.to_string() }),
+            Err(error) => self.omitted.push(OmittedFigure {
+                name: group.into(),
+                why: error.to_string(),
+            }),
         }
     }
 
@@ -62,7 +65,10 @@ impl RunFigures {
                     self.figures.push(figure);
                 }
                 Err(error) => {
-                    self.omitted.push(OmittedFigure { name: figure.name, why: error.to_string() });
+                    self.omitted.push(OmittedFigure {
+                        name: figure.name,
+                        why: error.to_string(),
+                    });
                 }
             }
         }
@@ -102,7 +108,8 @@ pub fn figures(
     let mut all = RunFigures::default();
     all.add("animation", animation::animation_figure(run, input, known));
     all.figures.extend(motion::travel(run, &fired));
-    all.figures.extend(rails::rail_sum_charts(&labelled, comparison));
+    all.figures
+        .extend(rails::rail_sum_charts(&labelled, comparison));
     all.figures.extend(motion::paths(&labelled));
     all.figures.extend(motion::wheels(run, input));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
@@ -113,10 +120,18 @@ pub fn figures(
         outcomes[0].girders(),
     ));
     for (index, structure) in scene.structures.iter().enumerate() {
-        let Some(solved) = solution_of(known, &structure.origin) else { continue };
+        let Some(solved) = solution_of(known, &structure.origin) else {
+            continue;
+        };
         let name = &structure.name;
-        all.add(format!("girder-{name}"), structures::girder(name, index, run, input, solved));
-        all.add(format!("influence-{name}"), structures::influence(name, scene.units, solved, threads));
+        all.add(
+            format!("girder-{name}"),
+            structures::girder(name, index, run, input, solved),
+        );
+        all.add(
+            format!("influence-{name}"),
+            structures::influence(name, scene.units, solved, threads),
+        );
     }
     all
 }

@@ -18,12 +18,24 @@ pub struct RunFigure {
 impl RunFigure {
     /// A chart.
     pub fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> RunFigure {
-        RunFigure { name: name.into(), caption: caption.into(), picture: chart.into() }
+        RunFigure {
+            name: name.into(),
+            caption: caption.into(),
+            picture: chart.into(),
+        }
     }
 
     /// A drawing that is finished.
-    pub(super) fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: Svg) -> RunFigure {
-        RunFigure { name: name.into(), caption: caption.into(), picture: svg.into() }
+    pub(super) fn drawing(
+        name: impl Into<String>,
+        caption: impl Into<String>,
+        svg: Svg,
+    ) -> RunFigure {
+        RunFigure {
+            name: name.into(),
+            caption: caption.into(),
+            picture: svg.into(),
+        }
     }
 
     /// As SVG.

@@ -28,13 +28,19 @@ pub fn influence(
 ) -> Result<Vec<RunFigure>, FigureError> {
     let mut plots = Vec::new();
     let length = units.label(Dimension::LENGTH);
-    let supports: Vec<f64> =
-        solved.model.supports.iter().map(|support| solved.model.points[support.point][0]).collect();
+    let supports: Vec<f64> = solved
+        .model
+        .supports
+        .iter()
+        .map(|support| solved.model.points[support.point][0])
+        .collect();
     for (quantity, axis, word) in [
         (GridBlock::Vertical, Direction::Vertical, "vertical"),
         (GridBlock::Lateral, Direction::Lateral, "lateral"),
     ] {
-        let (Some(grid), true) = (solved.grid.block(quantity), solved.rails.len() == 1) else { continue };
+        let (Some(grid), true) = (solved.grid.block(quantity), solved.rails.len() == 1) else {
+            continue;
+        };
         let stations = &solved.rails[0].stations;
         let table = SurfacePlot {
             title: format!("{name}: {word} influence coefficients"),
@@ -43,7 +49,9 @@ pub fn influence(
             length_unit: length.clone(),
             at: stations.clone(),
             loads: stations.clone(),
-            values: (0..grid.nrows()).map(|i| grid.row(i).iter().copied().collect()).collect(),
+            values: (0..grid.nrows())
+                .map(|i| grid.row(i).iter().copied().collect())
+                .collect(),
             supports: supports.clone(),
             note: String::new(),
         };
@@ -52,8 +60,12 @@ pub fn influence(
              the column."
         );
         plots.push((format!("grid-{name}-{word}"), caption, table.clone()));
-        let Some(surface) = &solved.surface else { continue };
-        let Some([from, to]) = surface.range(0) else { continue };
+        let Some(surface) = &solved.surface else {
+            continue;
+        };
+        let Some([from, to]) = surface.range(0) else {
+            continue;
+        };
         let even = (0..SAMPLES).map(|i| from + (to - from) * i as f64 / (SAMPLES - 1) as f64);
         // the surface is zero along supports, where its contours are to end
         let mut places: Vec<f64> = even.chain(supports.iter().copied()).collect();
@@ -75,15 +87,23 @@ pub fn influence(
     }
     let drawn = parallel_map(&plots, threads, |_, (.., plot)| plot.svg());
     let figures = plots.into_iter().zip(drawn);
-    figures.map(|((name, caption, _), svg)| Ok(RunFigure::drawing(name, caption, svg?))).collect()
+    figures
+        .map(|((name, caption, _), svg)| Ok(RunFigure::drawing(name, caption, svg?)))
+        .collect()
 }
 
 /// Direct influence coefficients between all pairs of `places` on rail 0.
-fn dense(surface: &ExactSurface, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f64>>, splines::Error> {
+fn dense(
+    surface: &ExactSurface,
+    axis: Direction,
+    places: &[f64],
+) -> Result<Vec<Vec<f64>>, splines::Error> {
     let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail: 0, x, axis }).collect();
     let mut influence = Influence::zeros(probes.len());
     surface.fill(&probes, &mut influence)?;
-    Ok((0..probes.len()).map(|i| influence.value.row(i).iter().copied().collect()).collect())
+    Ok((0..probes.len())
+        .map(|i| influence.value.row(i).iter().copied().collect())
+        .collect())
 }
 
 /// The girder with its rail, deflected under the wheels at the time of the largest rail deflection under a wheel.
@@ -98,8 +118,12 @@ pub fn girder(
     input: &SimulationInput,
     solved: &SolvedModel,
 ) -> Result<Option<RunFigure>, FigureError> {
-    let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
-    let Some(range) = surface.range(0) else { return Ok(None) };
+    let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else {
+        return Ok(None);
+    };
+    let Some(range) = surface.range(0) else {
+        return Ok(None);
+    };
     let on: Vec<&String> = input
         .wheels
         .iter()
@@ -110,19 +134,35 @@ pub fn girder(
         .iter()
         .filter_map(|name| peak(run.record.part(name, "rail_deflection")))
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((instant, _)) = deepest else { return Ok(None) };
+    let Some((instant, _)) = deepest else {
+        return Ok(None);
+    };
     let value = |wheel: &str, part: &str| run.record.part(wheel, part)[instant];
-    let loads: Vec<(f64, f64)> =
-        on.iter().map(|wheel| (value(wheel, "x"), value(wheel, "vertical"))).collect();
+    let loads: Vec<(f64, f64)> = on
+        .iter()
+        .map(|wheel| (value(wheel, "x"), value(wheel, "vertical")))
+        .collect();
     let shape = deflected_rail(surface, range, &loads)?;
     let length_unit = run.scene.units.label(Dimension::LENGTH);
-    let plot = girder_plot(name, length_unit, solved, short.rail_height, range, &loads, &shape);
+    let plot = girder_plot(
+        name,
+        length_unit,
+        solved,
+        short.rail_height,
+        range,
+        &loads,
+        &shape,
+    );
     let caption = format!(
         "The girder and its rail at the time of the largest rail deflection under a wheel, t = {:.3} s ({}).",
         run.record.values("time")[instant],
         run.label
     );
-    Ok(Some(RunFigure::drawing(format!("girder-{name}"), caption, plot.svg()?)))
+    Ok(Some(RunFigure::drawing(
+        format!("girder-{name}"),
+        caption,
+        plot.svg()?,
+    )))
 }
 
 /// Deflection of rail 0 under vertical `loads` (position, force) at equally spaced points of `range`: (position,
@@ -132,14 +172,23 @@ fn deflected_rail(
     [from, to]: [f64; 2],
     loads: &[(f64, f64)],
 ) -> Result<Vec<[f64; 2]>, splines::Error> {
-    let places: Vec<f64> =
-        (0..=4 * SAMPLES).map(|i| from + (to - from) * i as f64 / (4 * SAMPLES) as f64).collect();
-    let probe = |x: f64| Probe { rail: 0, x, axis: Direction::Vertical };
+    let places: Vec<f64> = (0..=4 * SAMPLES)
+        .map(|i| from + (to - from) * i as f64 / (4 * SAMPLES) as f64)
+        .collect();
+    let probe = |x: f64| Probe {
+        rail: 0,
+        x,
+        axis: Direction::Vertical,
+    };
     let at: Vec<Probe> = places.iter().map(|&x| probe(x)).collect();
     let loads: Vec<(Probe, f64)> = loads.iter().map(|&(x, force)| (probe(x), force)).collect();
     let mut down = vec![0.0; at.len()];
     surface.displacements(&at, &loads, &mut down)?;
-    Ok(places.into_iter().zip(down).map(|(x, down)| [x, down]).collect())
+    Ok(places
+        .into_iter()
+        .zip(down)
+        .map(|(x, down)| [x, down])
+        .collect())
 }
 
 /// Side view of the girder under `loads` (position, force), with the deflected `shape` of its rail.
@@ -162,7 +211,11 @@ fn girder_plot(
         members: vec![vec![[from, 0.0], [to, 0.0]]],
         rail: vec![[from, height], [to, height]],
         supports: solved.model.supports.iter().map(support_mark).collect(),
-        stations: solved.rails[0].stations.iter().map(|&x| [x, height]).collect(),
+        stations: solved.rails[0]
+            .stations
+            .iter()
+            .map(|&x| [x, height])
+            .collect(),
         loads: loads.iter().map(|&(x, _)| [x, height]).collect(),
         deflected: Some(Deflected {
             label: "deflected rail".to_owned(),

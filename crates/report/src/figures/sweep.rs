@@ -59,17 +59,25 @@ impl<'t> SweptResult<'t> {
     /// The results of a table that have values; results of codes beside a measured value are not results of their own.
     pub fn all(info: &SweepInfo, table: &'t ResultTable) -> Vec<SweptResult<'t>> {
         let parent = |name: &str| {
-            table
-                .columns
-                .iter()
-                .find(|one| name.strip_prefix(one.as_str()).is_some_and(|end| end.starts_with('.')))
+            table.columns.iter().find(|one| {
+                name.strip_prefix(one.as_str())
+                    .is_some_and(|end| end.starts_with('.'))
+            })
         };
-        let own = table.columns.iter().enumerate().filter(|(_, name)| parent(name).is_none());
+        let own = table
+            .columns
+            .iter()
+            .enumerate()
+            .filter(|(_, name)| parent(name).is_none());
         let mut all: Vec<SweptResult<'t>> = own
             .filter_map(|(column, name)| {
                 let statistics = ResultDistribution::new(&table.column(column))?;
                 let written = info.as_written.iter().find(|(known, ..)| known == name);
-                let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
+                let beside = table
+                    .columns
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, one)| parent(one) == Some(name));
                 let codes = beside.filter_map(|(index, one)| {
                     let found = ResultDistribution::new(&table.column(index))?;
                     let code = one[name.len() + 1..].to_owned();
@@ -91,15 +99,28 @@ impl<'t> SweptResult<'t> {
                 })
             })
             .collect();
-        let sizes: Vec<f64> = all.iter().map(|result: &SweptResult<'_>| result.size_of_unit(&all)).collect();
-        all.iter_mut().zip(sizes).for_each(|(result, size)| result.size = size);
+        let sizes: Vec<f64> = all
+            .iter()
+            .map(|result: &SweptResult<'_>| result.size_of_unit(&all))
+            .collect();
+        all.iter_mut()
+            .zip(sizes)
+            .for_each(|(result, size)| result.size = size);
         all
     }
 
     /// Largest magnitude of the results that have the unit of this one.
     fn size_of_unit(&self, all: &[SweptResult<'_>]) -> f64 {
         let own = all.iter().filter(|other| other.unit == self.unit);
-        own.map(|other| other.statistics.most.0.abs().max(other.statistics.least.0.abs())).fold(0.0, f64::max)
+        own.map(|other| {
+            other
+                .statistics
+                .most
+                .0
+                .abs()
+                .max(other.statistics.least.0.abs())
+        })
+        .fold(0.0, f64::max)
     }
 
     /// Whether the runs differ in this result by more than rounding.
@@ -126,7 +147,9 @@ impl<'t> SweptResult<'t> {
     /// The axis on which the result depends most, by the rank correlation or the first-order index; its index.
     pub fn strongest(&self) -> Option<usize> {
         let strength = |one: &Sensitivity| {
-            one.rank_correlation.map_or(0.0, f64::abs).max(one.first_order.map_or(0.0, f64::sqrt))
+            one.rank_correlation
+                .map_or(0.0, f64::abs)
+                .max(one.first_order.map_or(0.0, f64::sqrt))
         };
         let ordered = self.sensitivities.iter().enumerate();
         ordered
@@ -152,14 +175,19 @@ impl<'t> SweepFigures<'t> {
     pub fn new(info: &SweepInfo, table: &'t ResultTable) -> SweepFigures<'t> {
         let all = SweptResult::all(info, table);
         let count = all.len();
-        let mut varying: Vec<SweptResult<'t>> = all.into_iter().filter(SweptResult::varies).collect();
+        let mut varying: Vec<SweptResult<'t>> =
+            all.into_iter().filter(SweptResult::varies).collect();
         varying.sort_by_key(SweptResult::order);
         let constant = count - varying.len();
         let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.runs.len() >= LINE;
         let mut figures = Vec::new();
         for (index, result) in shown(&varying).into_iter().enumerate() {
             let mut add = |kind: &str, (chart, caption): (Chart, String)| {
-                figures.push(RunFigure::chart(format!("{kind}-{}", index + 1), caption, chart));
+                figures.push(RunFigure::chart(
+                    format!("{kind}-{}", index + 1),
+                    caption,
+                    chart,
+                ));
             };
             if !is_line {
                 add("distribution", histogram(table, result));
@@ -173,7 +201,11 @@ impl<'t> SweepFigures<'t> {
                 add("dependence", chart);
             }
         }
-        SweepFigures { varying, constant, figures }
+        SweepFigures {
+            varying,
+            constant,
+            figures,
+        }
     }
 }
 
@@ -182,7 +214,11 @@ fn shown<'a, 't>(varying: &'a [SweptResult<'t>]) -> Vec<&'a SweptResult<'t>> {
     let mut rank = std::collections::BTreeMap::new();
     let mut ordered: Vec<(bool, usize)> = Vec::with_capacity(varying.len());
     for (index, result) in varying.iter().enumerate() {
-        let kind = if result.codes.is_empty() && result.is_damage() { 1 } else { result.order() };
+        let kind = if result.codes.is_empty() && result.is_damage() {
+            1
+        } else {
+            result.order()
+        };
         let before = rank.entry(kind).or_insert(0_usize);
         ordered.push((*before >= OF_A_KIND, index));
         *before += 1;
@@ -210,14 +246,29 @@ fn histogram(table: &ResultTable, result: &SweptResult<'_>) -> (Chart, String) {
     let share = |count: usize| 100.0 * count as f64 / found.count as f64;
     // values by codes near the runs are shown as well
     let near = |value: &f64| (2.0 * low - high..=2.0 * high - low).contains(value);
-    let marked = || result.codes.iter().map(|(_, value)| *value).chain(result.as_written).filter(near);
+    let marked = || {
+        result
+            .codes
+            .iter()
+            .map(|(_, value)| *value)
+            .chain(result.as_written)
+            .filter(near)
+    };
     let margin = MARGIN * (high - low);
     let begin = marked().map(|value| value - margin).fold(low, f64::min);
     let end = marked().map(|value| value + margin).fold(high, f64::max);
     let mut points = vec![[begin, 0.0], [low, 0.0]];
-    points.extend(counts.iter().enumerate().map(|(k, count)| [low + width * k as f64, share(*count)]));
+    points.extend(
+        counts
+            .iter()
+            .enumerate()
+            .map(|(k, count)| [low + width * k as f64, share(*count)]),
+    );
     points.extend([[high, 0.0], [end, 0.0]]);
-    let axes = [ChartAxis::new(result.name, &result.unit), ChartAxis::new("runs in the class", "%")];
+    let axes = [
+        ChartAxis::new(result.name, &result.unit),
+        ChartAxis::new("runs in the class", "%"),
+    ];
     let [x, y] = axes;
     let mut chart = Chart::new(format!("Distribution of {}", result.name), x, y)
         .with(Series::new("runs", Style::Step, points))
@@ -251,20 +302,32 @@ fn over_axis(
     is_line: bool,
 ) -> Option<(Chart, String)> {
     let values = &table.axis_values[axis];
-    let point = |row| Some((values.value(row).number()?, table.result(result.column, row)?));
+    let point = |row| {
+        Some((
+            values.value(row).number()?,
+            table.result(result.column, row)?,
+        ))
+    };
     let rows = (0..table.runs.len()).filter_map(point);
     let mut points: Vec<[f64; 2]> = rows.take(POINTS).map(|(x, y)| [x, y]).collect();
     if points.is_empty() {
         return None;
     }
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let style = if is_line { Style::Marked } else { Style::Points };
+    let style = if is_line {
+        Style::Marked
+    } else {
+        Style::Points
+    };
     let name = &table.axes[axis];
-    let axes = [ChartAxis::new(name, ""), ChartAxis::new(result.name, &result.unit)];
+    let axes = [
+        ChartAxis::new(name, ""),
+        ChartAxis::new(result.name, &result.unit),
+    ];
     let [x, y] = axes;
     let count = points.len();
-    let chart =
-        Chart::new(format!("{} over {name}", result.name), x, y).with(Series::new("runs", style, points));
+    let chart = Chart::new(format!("{} over {name}", result.name), x, y)
+        .with(Series::new("runs", style, points));
     let all = table.runs.len();
     let caption = if count < all {
         format!("The first {count} of {all} runs; the axis in the units of its file.")
@@ -281,15 +344,32 @@ fn mean_over_runs(table: &ResultTable, result: &SweptResult<'_>) -> (Chart, Stri
     let count = values.len();
     let step = count.div_ceil(MEANS);
     let numbers = (FEWEST..=count).filter(|n| (count - n).is_multiple_of(step));
-    let found: Vec<ResultDistribution> =
-        numbers.filter_map(|n| ResultDistribution::new(&values[..n])).collect();
+    let found: Vec<ResultDistribution> = numbers
+        .filter_map(|n| ResultDistribution::new(&values[..n]))
+        .collect();
     let at = |one: &ResultDistribution, value: f64| [one.count as f64, value];
-    let curve = |of: fn(&ResultDistribution) -> f64| found.iter().map(|one| at(one, of(one))).collect();
-    let [x, y] = [ChartAxis::new("runs", ""), ChartAxis::new(result.name, &result.unit)];
+    let curve =
+        |of: fn(&ResultDistribution) -> f64| found.iter().map(|one| at(one, of(one))).collect();
+    let [x, y] = [
+        ChartAxis::new("runs", ""),
+        ChartAxis::new(result.name, &result.unit),
+    ];
     let chart = Chart::new(format!("Mean of {} with its confidence", result.name), x, y)
-        .with(Series::new("mean of the first runs", Style::Line, curve(|one| one.mean)))
-        .with(Series::new("95 % confidence, upper end", Style::Limit, curve(|one| one.mean_interval.high)))
-        .with(Series::new("lower end", Style::Limit, curve(|one| one.mean_interval.low)));
+        .with(Series::new(
+            "mean of the first runs",
+            Style::Line,
+            curve(|one| one.mean),
+        ))
+        .with(Series::new(
+            "95 % confidence, upper end",
+            Style::Limit,
+            curve(|one| one.mean_interval.high),
+        ))
+        .with(Series::new(
+            "lower end",
+            Style::Limit,
+            curve(|one| one.mean_interval.low),
+        ));
     let all = &result.statistics;
     let caption = format!(
         "Damages add up, so that the mean {} of {count} runs is the damage where crossings scatter like the runs; \

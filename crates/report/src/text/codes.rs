@@ -15,8 +15,10 @@ const DIGITS: usize = 4;
 /// them.
 #[must_use]
 pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<ReportSection> {
-    let all: Vec<(&str, &CodeCheck)> =
-        runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
+    let all: Vec<(&str, &CodeCheck)> = runs
+        .iter()
+        .filter_map(|(label, codes)| Some((*label, (*codes)?)))
+        .collect();
     let (_, first) = *all.first()?;
     let mut section = ReportSection::new("Comparison with design codes").paragraph(
         "Quantities of the runs compared with values of design codes for the same crane. The forces of the runs are \
@@ -34,7 +36,9 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
             "The approach of the hook is the smallest in the run, because practice.approach is not set in the scene.",
         );
     }
-    section = section.table(comparisons(scene, &all, first)).table(factors(scene, first));
+    section = section
+        .table(comparisons(scene, &all, first))
+        .table(factors(scene, first));
     if !first.limits.is_empty() {
         section = section
             .paragraph(
@@ -64,7 +68,9 @@ fn clause_cells(clause: &CodeClause) -> [TableCell; 3] {
 
 /// Name of a code, with its edition where the name does not have it.
 pub(super) fn code_with_edition(clause: &CodeClause) -> String {
-    let CodeClause { standard, edition, .. } = clause;
+    let CodeClause {
+        standard, edition, ..
+    } = clause;
     if standard.contains(edition) || edition.is_empty() {
         (*standard).to_owned()
     } else {
@@ -74,7 +80,10 @@ pub(super) fn code_with_edition(clause: &CodeClause) -> String {
 
 /// Quantities of the runs, each with the values of codes: one line for each value.
 fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> ReportTable {
-    let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
+    let mut columns = vec![
+        TableColumn::new("quantity", ""),
+        TableColumn::new("unit", ""),
+    ];
     columns.extend(all.iter().map(|(label, _)| TableColumn::new(*label, "")));
     columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
     columns.extend(["formula", "value"].map(|name| TableColumn::new(name, "")));
@@ -87,20 +96,32 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
                 .find(|other| other.name == row.name)
                 .map(|other: &CodeComparison| other.measured.value)
         };
-        let most = row.values.iter().fold(0.0_f64, |most, value| most.max(value.value.abs()));
+        let most = row
+            .values
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.value.abs()));
         let (unit, factor) = column_unit(scene.units, row.dimension, most);
         let mut head = vec![TableCell::from(row.what), TableCell::from(unit)];
         head.extend(all.iter().map(|(_, codes)| {
-            found(codes).map_or(TableCell::Empty, |value| TableCell::from(rounded(factor * value, DIGITS)))
+            found(codes).map_or(TableCell::Empty, |value| {
+                TableCell::from(rounded(factor * value, DIGITS))
+            })
         }));
         for value in &row.values {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
             line.extend(clause_cells(&value.clause));
-            line.extend([formula(&value.formula), TableCell::from(rounded(factor * value.value, DIGITS))]);
+            line.extend([
+                formula(&value.formula),
+                TableCell::from(rounded(factor * value.value, DIGITS)),
+            ]);
             rows.push(line);
         }
     }
-    ReportTable { caption: "Values of the runs and values of codes.".to_owned(), columns, rows }
+    ReportTable {
+        caption: "Values of the runs and values of codes.".to_owned(),
+        columns,
+        rows,
+    }
 }
 
 /// The formula of a code, with the unit of its acceleration raised.
@@ -110,7 +131,9 @@ fn formula(given: &str) -> TableCell {
 
 /// Factors of the codes, and their loads of one wheel.
 fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
-    let mut columns = ["factor", "value", "unit"].map(|name| TableColumn::new(name, "")).to_vec();
+    let mut columns = ["factor", "value", "unit"]
+        .map(|name| TableColumn::new(name, ""))
+        .to_vec();
     columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
     columns.push(TableColumn::new("formula", ""));
     let factors = first.factors.iter().map(|given| {
@@ -126,7 +149,11 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
         line
     });
     let rows = factors.collect();
-    ReportTable { caption: "Factors of the codes, and their loads of one wheel.".to_owned(), columns, rows }
+    ReportTable {
+        caption: "Factors of the codes, and their loads of one wheel.".to_owned(),
+        columns,
+        rows,
+    }
 }
 
 /// Deflections under static wheel loads, one line for each limit.
@@ -153,13 +180,19 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
             TableCell::from(found.span[0]),
             TableCell::from(found.span[1]),
             TableCell::from(rounded(factor * found.value, DIGITS)),
-            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
+            found
+                .ratio()
+                .map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
         ];
         for limit in &found.limits {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
             line.push(TableCell::from(limit.limit.formula()));
             line.push(TableCell::from(rounded(factor * limit.value, DIGITS)));
-            line.push(TableCell::from(if found.value <= limit.value { "yes" } else { "no" }));
+            line.push(TableCell::from(if found.value <= limit.value {
+                "yes"
+            } else {
+                "no"
+            }));
             line.extend(clause_cells(&limit.limit.clause));
             rows.push(line);
         }
@@ -188,13 +221,22 @@ fn sum_of_loads(factors: &[(&str, f64)]) -> String {
 
 /// Groups of loads with the factors of this crane.
 fn groups(first: &CodeCheck) -> ReportTable {
-    let mut columns = ["group", "loads and factors"].map(|name| TableColumn::new(name, "")).to_vec();
+    let mut columns = ["group", "loads and factors"]
+        .map(|name| TableColumn::new(name, ""))
+        .to_vec();
     columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
     let rows = first.groups.iter().map(|group| {
-        let mut line = vec![TableCell::from(group.group.name), TableCell::from(sum_of_loads(&group.factors))];
+        let mut line = vec![
+            TableCell::from(group.group.name),
+            TableCell::from(sum_of_loads(&group.factors)),
+        ];
         line.extend(clause_cells(&group.group.clause));
         line
     });
     let rows = rows.collect();
-    ReportTable { caption: "Groups of crane loads with their factors.".to_owned(), columns, rows }
+    ReportTable {
+        caption: "Groups of crane loads with their factors.".to_owned(),
+        columns,
+        rows,
+    }
 }

@@ -16,12 +16,18 @@ const DIGITS: usize = 4;
 /// The inputs in brief; the section on inputs has all of them.
 pub(super) fn basis(design: &Design, result: &DesignResult) -> ReportSection {
     let mut section = ReportSection::new("Basis");
-    for (name, text) in structure_facts(&design.spec, &design.spec_file, design.units, &design.spans) {
+    for (name, text) in
+        structure_facts(&design.spec, &design.spec_file, design.units, &design.spans)
+    {
         section = section.fact(name, text, "");
     }
     section = section.fact("dead load", dead_words(design), "");
     for train in design.trains.iter().take(MOST) {
-        section = section.fact(format!("train {}", train.name), train_words(design, train), "");
+        section = section.fact(
+            format!("train {}", train.name),
+            train_words(design, train),
+            "",
+        );
     }
     if design.trains.len() > MOST {
         section = section.fact("further trains", design.trains.len() - MOST, "");
@@ -32,7 +38,9 @@ pub(super) fn basis(design: &Design, result: &DesignResult) -> ReportSection {
     if design.cases.len() > MOST {
         section = section.fact("further cases", design.cases.len() - MOST, "");
     }
-    section.fact("codes", codes(design, result), "").ending_page()
+    section
+        .fact("codes", codes(design, result), "")
+        .ending_page()
 }
 
 fn dead_words(design: &Design) -> String {
@@ -50,12 +58,20 @@ fn dead_words(design: &Design) -> String {
 fn train_words(design: &Design, train: &DesignTrain) -> String {
     let (force, factor) = reading_unit(design.units, Dimension::FORCE);
     let length = design.units.label(Dimension::LENGTH);
-    let vertical: Vec<f64> = train.wheels.iter().map(DesignWheel::whole_vertical).collect();
+    let vertical: Vec<f64> = train
+        .wheels
+        .iter()
+        .map(DesignWheel::whole_vertical)
+        .collect();
     let range = |values: &[f64], factor: f64| {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let [low, high] = [low, high].map(|value| digits(factor * value, DIGITS));
-        if low == high { high } else { format!("{low} to {high}") }
+        if low == high {
+            high
+        } else {
+            format!("{low} to {high}")
+        }
     };
     let places: Vec<f64> = train.wheels.iter().map(|wheel| wheel.x).collect();
     let mut text = match train.wheels.len() {
@@ -67,8 +83,22 @@ fn train_words(design: &Design, train: &DesignTrain) -> String {
         ),
     };
     for (name, values) in [
-        ("lateral", train.wheels.iter().map(|wheel| wheel.lateral).collect::<Vec<f64>>()),
-        ("longitudinal", train.wheels.iter().map(|wheel| wheel.longitudinal).collect()),
+        (
+            "lateral",
+            train
+                .wheels
+                .iter()
+                .map(|wheel| wheel.lateral)
+                .collect::<Vec<f64>>(),
+        ),
+        (
+            "longitudinal",
+            train
+                .wheels
+                .iter()
+                .map(|wheel| wheel.longitudinal)
+                .collect(),
+        ),
     ] {
         if values.iter().any(|value| *value != 0.0) {
             text.push_str(&format!(", {name} {} {force} each", range(&values, factor)));
@@ -82,7 +112,11 @@ fn train_words(design: &Design, train: &DesignTrain) -> String {
 
 /// Trains and factors of a case.
 fn case_words(design: &Design, case: &DesignCase) -> String {
-    let names: Vec<&str> = case.trains.iter().map(|&train| design.trains[train].name.as_str()).collect();
+    let names: Vec<&str> = case
+        .trains
+        .iter()
+        .map(|&train| design.trains[train].name.as_str())
+        .collect();
     let mut text = format!("{}: {}", case.name, names.join(" + "));
     if names.len() > 1 {
         text.push_str(&format!(
@@ -91,8 +125,11 @@ fn case_words(design: &Design, case: &DesignCase) -> String {
             design.units.label(Dimension::LENGTH)
         ));
     }
-    let factors: Vec<String> =
-        case.factors.iter().map(|(name, factor)| format!("{name} {}", digits(*factor, DIGITS))).collect();
+    let factors: Vec<String> = case
+        .factors
+        .iter()
+        .map(|(name, factor)| format!("{name} {}", digits(*factor, DIGITS)))
+        .collect();
     match factors.is_empty() {
         true => text.push_str(", no factors"),
         false => text.push_str(&format!(", factors {}", factors.join(", "))),
@@ -110,5 +147,9 @@ fn codes(design: &Design, result: &DesignResult) -> String {
             all.push(name);
         }
     }
-    if all.is_empty() { "none named".to_owned() } else { all.join("; ") }
+    if all.is_empty() {
+        "none named".to_owned()
+    } else {
+        all.join("; ")
+    }
 }

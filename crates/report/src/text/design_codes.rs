@@ -25,8 +25,12 @@ pub(super) fn limits(design: &Design, checks: &[LimitCheck]) -> ReportTable {
         ("", ""),
     ];
     let mut table = ReportTable {
-        caption: "Deflections under wheel loads without factors, and the limits of the code".to_owned(),
-        columns: columns.iter().map(|(name, unit)| TableColumn::new(*name, *unit)).collect(),
+        caption: "Deflections under wheel loads without factors, and the limits of the code"
+            .to_owned(),
+        columns: columns
+            .iter()
+            .map(|(name, unit)| TableColumn::new(*name, *unit))
+            .collect(),
         rows: Vec::new(),
     };
     for check in checks {
@@ -76,7 +80,9 @@ fn code(check: &LimitCheck) -> String {
 
 fn capital(text: &str) -> String {
     let mut all = text.chars();
-    all.next().map_or_else(String::new, |first| first.to_uppercase().chain(all).collect())
+    all.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(all).collect()
+    })
 }
 
 /// Loads for fatigue and what is left out; nothing for a design without a code.

@@ -16,8 +16,11 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     let rails = design.spec.rails();
     for (rail, spans) in rails.iter().zip(&design.spans) {
         let text: Vec<String> = spans.iter().map(|x| digits(*x, DIGITS)).collect();
-        section =
-            section.fact(format!("{}: spans between", rail_phrase(&rail.name)), text.join(", "), &length);
+        section = section.fact(
+            format!("{}: spans between", rail_phrase(&rail.name)),
+            text.join(", "),
+            &length,
+        );
     }
     let gravity = design.dead.gravity;
     let weight = if gravity > 0.0 {
@@ -26,25 +29,47 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
         "does not act".to_owned()
     };
     section = section.fact("weight of the structure", weight, "");
-    for (rail, line) in rails.iter().zip(&design.dead.lines).filter(|(_, line)| **line != 0.0) {
+    for (rail, line) in rails
+        .iter()
+        .zip(&design.dead.lines)
+        .filter(|(_, line)| **line != 0.0)
+    {
         let unit = design.units.label(Dimension::STIFFNESS);
-        section = section.fact(format!("dead load along {}", rail_phrase(&rail.name)), *line, unit);
+        section = section.fact(
+            format!("dead load along {}", rail_phrase(&rail.name)),
+            *line,
+            unit,
+        );
     }
     for train in &design.trains {
         section = section.table(train_table(design, train, [&length, &force]));
     }
     let mut cases = ReportTable {
-        caption: "Load cases; factors not listed are 1, those of skewing, buffer and tilting forces 0"
-            .to_owned(),
-        columns: [("case", ""), ("name", ""), ("trains", ""), ("gap", &length), ("factors", "")]
-            .map(|(name, unit)| TableColumn::new(name, unit))
-            .to_vec(),
+        caption:
+            "Load cases; factors not listed are 1, those of skewing, buffer and tilting forces 0"
+                .to_owned(),
+        columns: [
+            ("case", ""),
+            ("name", ""),
+            ("trains", ""),
+            ("gap", &length),
+            ("factors", ""),
+        ]
+        .map(|(name, unit)| TableColumn::new(name, unit))
+        .to_vec(),
         rows: Vec::new(),
     };
     for (index, case) in design.cases.iter().enumerate() {
-        let names: Vec<&str> = case.trains.iter().map(|&train| design.trains[train].name.as_str()).collect();
-        let factors: Vec<String> =
-            case.factors.iter().map(|(name, factor)| format!("{name} {}", digits(*factor, DIGITS))).collect();
+        let names: Vec<&str> = case
+            .trains
+            .iter()
+            .map(|&train| design.trains[train].name.as_str())
+            .collect();
+        let factors: Vec<String> = case
+            .factors
+            .iter()
+            .map(|(name, factor)| format!("{name} {}", digits(*factor, DIGITS)))
+            .collect();
         cases.rows.push(vec![
             TableCell::from(index + 1),
             TableCell::from(case.name.clone()),
@@ -57,9 +82,16 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
 }
 
 fn train_table(design: &Design, train: &DesignTrain, [length, force]: [&str; 2]) -> ReportTable {
-    let turned = if train.turned { "tried both ways round" } else { "not turned" };
-    let signs =
-        if train.reverses { "horizontal forces with either sign" } else { "horizontal forces as given" };
+    let turned = if train.turned {
+        "tried both ways round"
+    } else {
+        "not turned"
+    };
+    let signs = if train.reverses {
+        "horizontal forces with either sign"
+    } else {
+        "horizontal forces as given"
+    };
     let mut table = ReportTable {
         caption: format!("Train {}: {turned}, {signs}", train.name),
         columns: vec![
@@ -77,7 +109,10 @@ fn train_table(design: &Design, train: &DesignTrain, [length, force]: [&str; 2])
     for (k, wheel) in train.wheels.iter().enumerate() {
         let parts: Vec<String> = match &wheel.vertical[..] {
             [(_, force)] => vec![digits(*force, DIGITS)],
-            parts => parts.iter().map(|(name, force)| format!("{name} {}", digits(*force, DIGITS))).collect(),
+            parts => parts
+                .iter()
+                .map(|(name, force)| format!("{name} {}", digits(*force, DIGITS)))
+                .collect(),
         };
         table.rows.push(vec![
             TableCell::from(k + 1),

@@ -1,7 +1,8 @@
 //! The report of a design: the verdict first, then envelopes, reactions and inputs.
 
 use crate::figures::design::{
-    deflection_unit, digits, envelope_charts, positions, quantity_phrase, side_phrase, unit_of, with_unit,
+    deflection_unit, digits, envelope_charts, positions, quantity_phrase, side_phrase, unit_of,
+    with_unit,
 };
 use crate::figures::influence_lines::influence_figure;
 use crate::text::design_basis::basis;
@@ -32,17 +33,25 @@ pub fn design_report(design: &Design, result: &DesignResult, lines: &[GoverningL
     sections.extend(codes(design, result));
     sections.push(inputs(design));
     sections.push(method(design, result));
-    let units = format!("{}, {}", design.units.length.word(), design.units.force.word());
+    let units = format!(
+        "{}, {}",
+        design.units.length.word(),
+        design.units.force.word()
+    );
     Report {
         title: format!("Design of {}", design.name),
-        subtitle: format!("Static envelopes of wheel trains; structure {}; units {units}", design.spec_file),
+        subtitle: format!(
+            "Static envelopes of wheel trains; structure {}; units {units}",
+            design.spec_file
+        ),
         sections,
     }
 }
 
 /// Deflections of all spans from their chords, and all limits of the code.
 fn serviceability(design: &Design, result: &DesignResult) -> ReportSection {
-    let mut section = ReportSection::new("Deflections and limits").table(deflections(design, result));
+    let mut section =
+        ReportSection::new("Deflections and limits").table(deflections(design, result));
     if !result.limits.is_empty() {
         section = section.table(limits(design, &result.limits));
         for line in sources(result) {
@@ -74,8 +83,9 @@ fn deflections(design: &Design, result: &DesignResult) -> ReportTable {
     let (unit, factor) = deflection_unit(design.units);
     let rails = design.spec.rails();
     let mut table = ReportTable {
-        caption: "Deflections from the chords of the spans under the trains alone, without dead load"
-            .to_owned(),
+        caption:
+            "Deflections from the chords of the spans under the trains alone, without dead load"
+                .to_owned(),
         columns: vec![
             TableColumn::new("case", ""),
             TableColumn::new("rail", ""),
@@ -123,8 +133,13 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
         ("position of the train", &length),
     ];
     let mut table = ReportTable {
-        caption: format!("Extremes of case {} over each span, dead load and factors included", index + 1),
-        columns: columns.map(|(name, unit)| TableColumn::new(name, unit)).to_vec(),
+        caption: format!(
+            "Extremes of case {} over each span, dead load and factors included",
+            index + 1
+        ),
+        columns: columns
+            .map(|(name, unit)| TableColumn::new(name, unit))
+            .to_vec(),
         rows: Vec::new(),
     };
     let rails = design.spec.rails();
@@ -183,7 +198,10 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
     );
     let unit = design.units.label(Dimension::FORCE);
     for (index, case) in result.cases.iter().enumerate() {
-        let mut columns = vec![TableColumn::new("support", ""), TableColumn::new("direction", "")];
+        let mut columns = vec![
+            TableColumn::new("support", ""),
+            TableColumn::new("direction", ""),
+        ];
         columns.push(TableColumn::new("dead", &unit));
         for (kind, _) in &case.by_load {
             let word = load_word(*kind);
@@ -192,7 +210,12 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
         }
         columns.push(TableColumn::new("all, largest", &unit));
         columns.push(TableColumn::new("smallest", &unit));
-        let size = case.reactions.iter().flat_map(|r| &r.extremes).map(|g| g.value.abs()).fold(0.0, f64::max);
+        let size = case
+            .reactions
+            .iter()
+            .flat_map(|r| &r.extremes)
+            .map(|g| g.value.abs())
+            .fold(0.0, f64::max);
         let shown = |value: f64| digits(cleared(value, size), DIGITS);
         let (mut rows, mut zero) = (Vec::new(), Vec::new());
         for (k, reaction) in case.reactions.iter().enumerate() {
@@ -201,24 +224,43 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
                 TableCell::from(reaction.name.direction.clone()),
                 TableCell::from(shown(reaction.extremes[0].dead)),
             ];
-            let values =
-                || case.by_load.iter().flat_map(|(_, all)| &all[k].extremes).chain(&reaction.extremes);
+            let values = || {
+                case.by_load
+                    .iter()
+                    .flat_map(|(_, all)| &all[k].extremes)
+                    .chain(&reaction.extremes)
+            };
             if values().all(|g| is_rounding(g.value, size) && is_rounding(g.dead, size)) {
-                zero.push(format!("{} {}", reaction.name.support, reaction.name.direction));
+                zero.push(format!(
+                    "{} {}",
+                    reaction.name.support, reaction.name.direction
+                ));
                 continue;
             }
             let alone = case.by_load.iter().flat_map(|(_, all)| &all[k].extremes);
-            row.extend(alone.chain(&reaction.extremes).map(|g| TableCell::from(shown(g.value))));
+            row.extend(
+                alone
+                    .chain(&reaction.extremes)
+                    .map(|g| TableCell::from(shown(g.value))),
+            );
             rows.push(row);
         }
-        let without = if zero.is_empty() { String::new() } else { format!("; zero: {}", zero.join(", ")) };
+        let without = if zero.is_empty() {
+            String::new()
+        } else {
+            format!("; zero: {}", zero.join(", "))
+        };
         let caption = format!(
             "Reactions in case {} ({}), with its factors; moments (rx, ry, rz) in {}{without}",
             index + 1,
             case.name,
             design.units.label(Dimension::MOMENT)
         );
-        section = section.table(ReportTable { caption, columns, rows });
+        section = section.table(ReportTable {
+            caption,
+            columns,
+            rows,
+        });
     }
     section
 }

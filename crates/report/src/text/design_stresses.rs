@@ -19,10 +19,17 @@ pub(super) fn stress_unit(units: Units) -> (String, f64) {
 
 /// The largest utilisation in words; nothing where no stress was checked.
 pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
-    let worst =
-        result.stresses.iter().reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a })?;
+    let worst = result.stresses.iter().reduce(|a, b| {
+        if b.utilisation() > a.utilisation() {
+            b
+        } else {
+            a
+        }
+    })?;
     let percent = 100.0 * worst.utilisation();
-    let lateral = worst.lateral_section.map_or_else(String::new, |own| format!(", {}", own.phrase()));
+    let lateral = worst
+        .lateral_section
+        .map_or_else(String::new, |own| format!(", {}", own.phrase()));
     Some(format!(
         "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, {}{lateral}.",
         worst.quantity,
@@ -46,12 +53,23 @@ pub(super) fn governing_stresses(design: &Design, result: &DesignResult) -> Opti
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
     ];
-    let mut out = table("Largest stresses of each rail, dead load and factors included", &columns);
+    let mut out = table(
+        "Largest stresses of each rail, dead load and factors included",
+        &columns,
+    );
     for rail in design.spec.rails() {
         for quantity in ["direct stress", "shear stress in the web"] {
-            let own =
-                result.stresses.iter().filter(|check| check.rail == rail.name && check.quantity == quantity);
-            let worst = own.reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a });
+            let own = result
+                .stresses
+                .iter()
+                .filter(|check| check.rail == rail.name && check.quantity == quantity);
+            let worst = own.reduce(|a, b| {
+                if b.utilisation() > a.utilisation() {
+                    b
+                } else {
+                    a
+                }
+            });
             out.rows.extend(worst.map(|check| {
                 vec![
                     TableCell::from(place(check)),
@@ -65,11 +83,16 @@ pub(super) fn governing_stresses(design: &Design, result: &DesignResult) -> Opti
                 ]
             }));
         }
-        let own = result.wheel_stresses.iter().filter(|found| found.rail == rail.name);
+        let own = result
+            .wheel_stresses
+            .iter()
+            .filter(|found| found.rail == rail.name);
         let worst = own.reduce(|a, b| if b.vertical > a.vertical { b } else { a });
         out.rows.extend(worst.map(|found| {
             let strength = |text: &dyn Fn(f64) -> String| {
-                found.yield_strength.map_or(TableCell::Empty, |fy| TableCell::from(text(fy)))
+                found
+                    .yield_strength
+                    .map_or(TableCell::Empty, |fy| TableCell::from(text(fy)))
             };
             vec![
                 TableCell::from("local stress in the web under a wheel"),
@@ -90,7 +113,9 @@ pub(super) fn governing_stresses(design: &Design, result: &DesignResult) -> Opti
 pub(super) fn details(design: &Design, result: &DesignResult) -> Option<ReportSection> {
     let mut section = ReportSection::new("Stresses, end stops and pairs of rails");
     if !result.stresses.is_empty() {
-        section = section.table(stresses(design, result)).paragraph(method(design));
+        section = section
+            .table(stresses(design, result))
+            .paragraph(method(design));
     }
     if !result.wheel_stresses.is_empty() {
         section = section.table(wheel_stresses(design, result));
@@ -110,7 +135,10 @@ pub(super) fn details(design: &Design, result: &DesignResult) -> Option<ReportSe
 fn table(caption: &str, columns: &[(&str, &str)]) -> ReportTable {
     ReportTable {
         caption: caption.to_owned(),
-        columns: columns.iter().map(|(name, unit)| TableColumn::new(*name, *unit)).collect(),
+        columns: columns
+            .iter()
+            .map(|(name, unit)| TableColumn::new(*name, *unit))
+            .collect(),
         rows: Vec::new(),
     }
 }
@@ -130,12 +158,20 @@ fn stresses(design: &Design, result: &DesignResult) -> ReportTable {
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
     ];
-    let mut out = table("Stresses and the yield strength, dead load and factors included", &columns);
+    let mut out = table(
+        "Stresses and the yield strength, dead load and factors included",
+        &columns,
+    );
     for check in &result.stresses {
-        let parts: Vec<String> = check.parts.iter().map(|(_, part)| digits(factor * part, 3)).collect();
+        let parts: Vec<String> = check
+            .parts
+            .iter()
+            .map(|(_, part)| digits(factor * part, 3))
+            .collect();
         let percent = 100.0 * check.utilisation();
-        let bound =
-            check.bound.map_or_else(String::new, |bound| format!(" (at most {:.0} %)", 100.0 * bound));
+        let bound = check.bound.map_or_else(String::new, |bound| {
+            format!(" (at most {:.0} %)", 100.0 * bound)
+        });
         out.rows.push(vec![
             TableCell::from(check.case),
             TableCell::from(check.rail.clone()),
@@ -166,7 +202,9 @@ pub(super) fn lateral_words(lateral: LateralSection) -> &'static str {
         LateralSection::Whole => {
             "the whole section resists lateral moments, and warping by torsion is not included"
         }
-        LateralSection::TopFlange => "the top flange alone resists lateral moments, M/(t b\u{b2}/6)",
+        LateralSection::TopFlange => {
+            "the top flange alone resists lateral moments, M/(t b\u{b2}/6)"
+        }
     }
 }
 
@@ -197,12 +235,21 @@ fn wheel_stresses(design: &Design, result: &DesignResult) -> ReportTable {
         ("with the girder's shear", unit.as_str()),
         ("cycles of a passage: vertical, shear", unit.as_str()),
     ];
-    let mut out = table("Local stresses in the web under a wheel, with the factors of the case", &columns);
+    let mut out = table(
+        "Local stresses in the web under a wheel, with the factors of the case",
+        &columns,
+    );
     for found in &result.wheel_stresses {
         let cycle = |range: &::design::WheelCycle| {
-            format!("{}, {}", digits(factor * range.vertical, 3), digits(factor * range.shear, 3))
+            format!(
+                "{}, {}",
+                digits(factor * range.vertical, 3),
+                digits(factor * range.shear, 3)
+            )
         };
-        let used = found.yield_strength.map(|fy| format!("{:.0} %", 100.0 * found.vertical / fy));
+        let used = found
+            .yield_strength
+            .map(|fy| format!("{:.0} %", 100.0 * found.vertical / fy));
         out.rows.push(vec![
             TableCell::from(found.case),
             TableCell::from(found.rail.clone()),
@@ -213,7 +260,14 @@ fn wheel_stresses(design: &Design, result: &DesignResult) -> ReportTable {
             used.map_or(TableCell::Empty, TableCell::from),
             TableCell::from(digits(factor * found.shear, DIGITS)),
             TableCell::from(digits(factor * found.total_shear(), DIGITS)),
-            TableCell::from(found.cycles.iter().map(cycle).collect::<Vec<_>>().join("; ")),
+            TableCell::from(
+                found
+                    .cycles
+                    .iter()
+                    .map(cycle)
+                    .collect::<Vec<_>>()
+                    .join("; "),
+            ),
         ]);
     }
     out
@@ -229,7 +283,11 @@ fn wheel_sources(result: &DesignResult) -> Vec<String> {
             "pad" => "a rail on an elastic pad",
             _ => "a loose rail",
         };
-        let assumed = if is_assumed { ", which is assumed: give `rail_fastening`" } else { "" };
+        let assumed = if is_assumed {
+            ", which is assumed: give `rail_fastening`"
+        } else {
+            ""
+        };
         let clause = &found.clause;
         format!(
             "Effective length: {}, {}, for {rail}{assumed} ({}).",
@@ -248,7 +306,10 @@ fn wheel_sources(result: &DesignResult) -> Vec<String> {
 }
 
 fn end_stops(design: &Design, result: &DesignResult) -> ReportTable {
-    let (force, length) = (design.units.label(Dimension::FORCE), design.units.label(Dimension::LENGTH));
+    let (force, length) = (
+        design.units.label(Dimension::FORCE),
+        design.units.label(Dimension::LENGTH),
+    );
     let columns = [
         ("case", ""),
         ("train", ""),
@@ -257,7 +318,10 @@ fn end_stops(design: &Design, result: &DesignResult) -> ReportTable {
         ("factor", ""),
         ("force along the rail", force.as_str()),
     ];
-    let mut out = table("Forces of buffers on the end stops, at the height of the rail", &columns);
+    let mut out = table(
+        "Forces of buffers on the end stops, at the height of the rail",
+        &columns,
+    );
     for found in &result.end_stops {
         out.rows.push(vec![
             TableCell::from(found.case),

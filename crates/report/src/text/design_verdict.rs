@@ -9,7 +9,8 @@ use crate::text::design_codes::limits;
 use crate::text::design_stresses::{governing_stresses, utilisation};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{
-    DesignResult, GoverningLine, LimitCheck, LineSubject, ReactionExtremes, governing_reaction, plane_word,
+    DesignResult, GoverningLine, LimitCheck, LineSubject, ReactionExtremes, governing_reaction,
+    plane_word,
 };
 use formats::design::Design;
 use formats::units::Dimension;
@@ -22,28 +23,59 @@ const MOST: usize = 5;
 
 /// Which governing values stand on the first page, with their words.
 const GOVERNING: [(GirderResponse, bool, &str); 7] = [
-    (GirderResponse::VerticalMoment, true, "largest sagging moment"),
-    (GirderResponse::VerticalMoment, false, "largest hogging moment"),
+    (
+        GirderResponse::VerticalMoment,
+        true,
+        "largest sagging moment",
+    ),
+    (
+        GirderResponse::VerticalMoment,
+        false,
+        "largest hogging moment",
+    ),
     (GirderResponse::VerticalShear, true, "largest shear force"),
     (GirderResponse::VerticalShear, false, "smallest shear force"),
-    (GirderResponse::LateralMoment, true, "largest lateral moment"),
+    (
+        GirderResponse::LateralMoment,
+        true,
+        "largest lateral moment",
+    ),
     (GirderResponse::Torsion, true, "largest torsion"),
-    (GirderResponse::VerticalDeflection, true, "largest deflection downwards"),
+    (
+        GirderResponse::VerticalDeflection,
+        true,
+        "largest deflection downwards",
+    ),
 ];
 
 /// What governs, whether limits are kept, and the position that causes the largest sagging moment.
-pub(super) fn verdict(design: &Design, result: &DesignResult, lines: &[GoverningLine]) -> ReportSection {
+pub(super) fn verdict(
+    design: &Design,
+    result: &DesignResult,
+    lines: &[GoverningLine],
+) -> ReportSection {
     let mut section = ReportSection::new("Verdict").paragraph(sentence(result));
     section.paragraphs.extend(utilisation(result));
     section.paragraphs.extend(fatigue_sentence(design, result));
-    let notes = result.warnings.iter().map(|text| format!("Warning: {text}."));
-    let notes: Vec<String> =
-        notes.chain(design.spec.notes.iter().map(|text| format!("Note: {text}."))).collect();
+    let notes = result
+        .warnings
+        .iter()
+        .map(|text| format!("Warning: {text}."));
+    let notes: Vec<String> = notes
+        .chain(
+            design
+                .spec
+                .notes
+                .iter()
+                .map(|text| format!("Note: {text}.")),
+        )
+        .collect();
     let more = notes.len().saturating_sub(MOST);
     section.paragraphs.extend(notes.into_iter().take(MOST));
     if more > 0 {
-        section =
-            section.paragraph(format!("{more} more warnings and notes are in the section on the method."));
+        section = section.paragraph(format!(
+            "{more} more warnings and notes are in the section on the method."
+        ));
     }
     section = section.table(governing_table(design, result));
     if let Some(table) = governing_stresses(design, result) {
@@ -87,27 +119,38 @@ pub(super) fn verdict(design: &Design, result: &DesignResult, lines: &[Governing
 /// The line of the largest sagging moment of all rails, with its rail.
 fn largest_sagging(lines: &[GoverningLine]) -> Option<(&GoverningLine, usize)> {
     let own = lines.iter().filter_map(|line| match line.subject {
-        LineSubject::Girder { rail, quantity: GirderResponse::VerticalMoment, .. } if line.is_max => {
-            Some((line, rail))
-        }
+        LineSubject::Girder {
+            rail,
+            quantity: GirderResponse::VerticalMoment,
+            ..
+        } if line.is_max => Some((line, rail)),
         _ => None,
     });
-    own.reduce(|best, next| if next.0.governing.value > best.0.governing.value { next } else { best })
+    own.reduce(|best, next| {
+        if next.0.governing.value > best.0.governing.value {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// One sentence that says whether all limits are kept, and which is used most.
 fn sentence(result: &DesignResult) -> String {
     let failed = result.limits.iter().filter(|limit| !limit.within()).count();
-    let most = worst_limits(result).into_iter().next().map_or_else(String::new, |check| {
-        format!(
-            " The highest utilisation is {:.0} %: {} of {}, span {}, case {}.",
-            100.0 * used(&check),
-            check.quantity,
-            rail_phrase(&check.rail),
-            check.span,
-            check.case
-        )
-    });
+    let most = worst_limits(result)
+        .into_iter()
+        .next()
+        .map_or_else(String::new, |check| {
+            format!(
+                " The highest utilisation is {:.0} %: {} of {}, span {}, case {}.",
+                100.0 * used(&check),
+                check.quantity,
+                rail_phrase(&check.rail),
+                check.span,
+                check.case
+            )
+        });
     match (result.limits.len(), failed) {
         (0, _) => "No limits of a code were checked: the design names no code.".to_owned(),
         (count, 0) => format!("All {count} limits of the code are kept.{most}"),
@@ -117,8 +160,12 @@ fn sentence(result: &DesignResult) -> String {
 
 /// The largest damage-equivalent wheel load.
 fn fatigue_sentence(design: &Design, result: &DesignResult) -> Option<String> {
-    let all = result.fatigue.iter().flat_map(|loads| loads.wheels.iter().map(move |wheel| (loads, wheel)));
-    let (loads, wheel) = all.reduce(|best, next| if next.1[0] > best.1[0] { next } else { best })?;
+    let all = result
+        .fatigue
+        .iter()
+        .flat_map(|loads| loads.wheels.iter().map(move |wheel| (loads, wheel)));
+    let (loads, wheel) =
+        all.reduce(|best, next| if next.1[0] > best.1[0] { next } else { best })?;
     let (unit, factor) = reading_unit(design.units, Dimension::FORCE);
     let [normal, shear] = wheel.map(|force| with_unit(&digits(factor * force, DIGITS), &unit));
     Some(format!(
@@ -137,7 +184,10 @@ fn used(check: &LimitCheck) -> f64 {
 fn worst_limits(result: &DesignResult) -> Vec<LimitCheck> {
     let mut out: Vec<LimitCheck> = Vec::new();
     for check in &result.limits {
-        match out.iter_mut().find(|own| own.quantity == check.quantity && own.clause == check.clause) {
+        match out
+            .iter_mut()
+            .find(|own| own.quantity == check.quantity && own.clause == check.clause)
+        {
             Some(own) if used(check) > used(own) => *own = check.clone(),
             Some(_) => {}
             None => out.push(check.clone()),
@@ -149,7 +199,16 @@ fn worst_limits(result: &DesignResult) -> Vec<LimitCheck> {
 
 /// The values that govern over all cases, rails and spans.
 fn governing_table(design: &Design, result: &DesignResult) -> ReportTable {
-    let columns = ["", "value", "dead load", "case", "rail or support", "span", "x", "position of the train"];
+    let columns = [
+        "",
+        "value",
+        "dead load",
+        "case",
+        "rail or support",
+        "span",
+        "x",
+        "position of the train",
+    ];
     let mut table = ReportTable {
         caption: "Governing values, dead load and factors included; deflections from the chord are those of the trains \
                   alone"
@@ -162,28 +221,57 @@ fn governing_table(design: &Design, result: &DesignResult) -> ReportTable {
     table.columns[7].unit = length;
     let rails = design.spec.rails();
     for (quantity, is_max, words) in GOVERNING {
-        let Some((case, found)) = largest(result, quantity, is_max) else { continue };
+        let Some((case, found)) = largest(result, quantity, is_max) else {
+            continue;
+        };
         let (unit, factor) = unit_of(design.units, quantity);
         let g = &found.governing;
         let place = Some((found.span, g.x));
-        table.rows.push(row(words, (g, factor, &unit), case, &rails[found.rail].name, place));
+        table.rows.push(row(
+            words,
+            (g, factor, &unit),
+            case,
+            &rails[found.rail].name,
+            place,
+        ));
     }
     for plane in ["vertical", "lateral"] {
-        let Some((case, found)) = largest_from_chord(result, plane) else { continue };
+        let Some((case, found)) = largest_from_chord(result, plane) else {
+            continue;
+        };
         let (unit, factor) = deflection_unit(design.units);
         let ratio = ((found.ends[1] - found.ends[0]) / found.governing.value).abs();
         let words = format!("{plane} deflection from the chord");
         let g = &found.governing;
         let place = Some((found.span, g.x));
-        let mut cells = row(&words, (g, factor, unit), case, &rails[found.rail].name, place);
-        cells[1] =
-            TableCell::from(format!("{} = L/{ratio:.0}", with_unit(&digits(factor * g.value, DIGITS), unit)));
+        let mut cells = row(
+            &words,
+            (g, factor, unit),
+            case,
+            &rails[found.rail].name,
+            place,
+        );
+        cells[1] = TableCell::from(format!(
+            "{} = L/{ratio:.0}",
+            with_unit(&digits(factor * g.value, DIGITS), unit)
+        ));
         table.rows.push(cells);
     }
     let (unit, factor) = reading_unit(design.units, Dimension::FORCE);
-    for (words, is_max) in [("largest vertical reaction", true), ("smallest vertical reaction", false)] {
-        let Some((case, reaction, g)) = governing_reaction(design, result, is_max) else { continue };
-        table.rows.push(row(words, (g, factor, &unit), case, &reaction.name.support, None));
+    for (words, is_max) in [
+        ("largest vertical reaction", true),
+        ("smallest vertical reaction", false),
+    ] {
+        let Some((case, reaction, g)) = governing_reaction(design, result, is_max) else {
+            continue;
+        };
+        table.rows.push(row(
+            words,
+            (g, factor, &unit),
+            case,
+            &reaction.name.support,
+            None,
+        ));
     }
     for direction in ["ux", "uy", "uz"] {
         let is_vertical = governing_reaction(design, result, true)
@@ -191,9 +279,17 @@ fn governing_table(design: &Design, result: &DesignResult) -> ReportTable {
         if is_vertical {
             continue;
         }
-        let Some((case, reaction, g)) = largest_horizontal(result, direction) else { continue };
+        let Some((case, reaction, g)) = largest_horizontal(result, direction) else {
+            continue;
+        };
         let words = format!("largest horizontal reaction, {direction}");
-        table.rows.push(row(&words, (g, factor, &unit), case, &reaction.name.support, None));
+        table.rows.push(row(
+            &words,
+            (g, factor, &unit),
+            case,
+            &reaction.name.support,
+            None,
+        ));
     }
     table
 }
@@ -222,29 +318,55 @@ fn row(
 }
 
 /// The extreme of largest size over all cases, rails and spans.
-fn largest(result: &DesignResult, quantity: GirderResponse, is_max: bool) -> Option<(usize, &SpanExtreme)> {
+fn largest(
+    result: &DesignResult,
+    quantity: GirderResponse,
+    is_max: bool,
+) -> Option<(usize, &SpanExtreme)> {
     let sign = if is_max { 1.0 } else { -1.0 };
-    let all = result
-        .cases
-        .iter()
-        .enumerate()
-        .flat_map(|(case, solved)| solved.envelopes.extremes.iter().map(move |extreme| (case, extreme)));
-    let own =
-        all.filter(|(_, e)| e.quantity == quantity && e.is_max == is_max && sign * e.governing.value > 0.0);
-    own.reduce(
-        |best, next| if sign * next.1.governing.value > sign * best.1.governing.value { next } else { best },
-    )
+    let all = result.cases.iter().enumerate().flat_map(|(case, solved)| {
+        solved
+            .envelopes
+            .extremes
+            .iter()
+            .map(move |extreme| (case, extreme))
+    });
+    let own = all.filter(|(_, e)| {
+        e.quantity == quantity && e.is_max == is_max && sign * e.governing.value > 0.0
+    });
+    own.reduce(|best, next| {
+        if sign * next.1.governing.value > sign * best.1.governing.value {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// The deflection from the chord of a span that is the largest part of the span, over all cases.
-fn largest_from_chord<'r>(result: &'r DesignResult, plane: &str) -> Option<(usize, &'r SpanDeflection)> {
-    let part = |found: &SpanDeflection| found.governing.value.abs() / (found.ends[1] - found.ends[0]);
+fn largest_from_chord<'r>(
+    result: &'r DesignResult,
+    plane: &str,
+) -> Option<(usize, &'r SpanDeflection)> {
+    let part =
+        |found: &SpanDeflection| found.governing.value.abs() / (found.ends[1] - found.ends[0]);
     let all = result.cases.iter().enumerate();
-    let all = all.flat_map(|(case, own)| own.envelopes.deflections.iter().map(move |found| (case, found)));
+    let all = all.flat_map(|(case, own)| {
+        own.envelopes
+            .deflections
+            .iter()
+            .map(move |found| (case, found))
+    });
     let own = all.filter(|(_, found)| {
         plane_word(found.quantity) == plane && part(found) > 0.0 && (1.0 / part(found)).is_finite()
     });
-    own.reduce(|best, next| if part(next.1) > part(best.1) { next } else { best })
+    own.reduce(|best, next| {
+        if part(next.1) > part(best.1) {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// The reaction of the largest size in a direction, over all cases.
@@ -253,9 +375,17 @@ fn largest_horizontal<'r>(
     direction: &str,
 ) -> Option<(usize, &'r ReactionExtremes, &'r Governing)> {
     let all = result.cases.iter().enumerate().flat_map(|(case, own)| {
-        let own = own.reactions.iter().filter(|reaction| reaction.name.direction == direction);
+        let own = own
+            .reactions
+            .iter()
+            .filter(|reaction| reaction.name.direction == direction);
         own.flat_map(move |reaction| reaction.extremes.iter().map(move |g| (case, reaction, g)))
     });
-    all.filter(|(.., g)| g.value != 0.0)
-        .reduce(|best, next| if next.2.value.abs() > best.2.value.abs() { next } else { best })
+    all.filter(|(.., g)| g.value != 0.0).reduce(|best, next| {
+        if next.2.value.abs() > best.2.value.abs() {
+            next
+        } else {
+            best
+        }
+    })
 }

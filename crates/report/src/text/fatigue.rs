@@ -30,25 +30,43 @@ pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<Repor
 /// The stress points, each with one row for each run.
 fn points(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> ReportTable {
     let with_life = scene.output.fatigue.crossings.is_some();
-    let columns =
-        ["point", "run", "detail", "cycles", "range", "limit", "unit", "damage", "equivalent", "runs"];
+    let columns = [
+        "point",
+        "run",
+        "detail",
+        "cycles",
+        "range",
+        "limit",
+        "unit",
+        "damage",
+        "equivalent",
+        "runs",
+    ];
     let mut columns: Vec<TableColumn> = columns.map(|name| TableColumn::new(name, "")).into();
     if with_life {
         columns.push(TableColumn::new("life", ""));
     }
-    let names = runs.iter().map(|(_, verdicts)| verdicts.iter().map(|verdict| &verdict.column));
-    let names: Vec<&String> = names.max_by_key(ExactSizeIterator::len).into_iter().flatten().collect();
+    let names = runs
+        .iter()
+        .map(|(_, verdicts)| verdicts.iter().map(|verdict| &verdict.column));
+    let names: Vec<&String> = names
+        .max_by_key(ExactSizeIterator::len)
+        .into_iter()
+        .flatten()
+        .collect();
     let mut rows = Vec::new();
     for name in names {
         let mut head = TableCell::from(name.clone());
         for (label, verdicts) in runs {
-            let Some(verdict) = verdicts.iter().find(|verdict| verdict.column == *name) else { continue };
+            let Some(verdict) = verdicts.iter().find(|verdict| verdict.column == *name) else {
+                continue;
+            };
             let mut row = vec![std::mem::take(&mut head), TableCell::from(*label)];
             row.extend(result(scene, verdict));
             if with_life {
-                row.push(
-                    verdict.life.map_or(TableCell::Empty, |life| TableCell::from(rounded(life, DIGITS))),
-                );
+                row.push(verdict.life.map_or(TableCell::Empty, |life| {
+                    TableCell::from(rounded(life, DIGITS))
+                }));
             }
             rows.push(row);
         }
@@ -56,7 +74,11 @@ fn points(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> ReportTable {
     let caption = "Stress points: detail category, number of cycles, largest range and fatigue limit, damage of the \
                    run, range of one cycle of equal damage, runs to failure, and damage of a life where its \
                    crossings are given. All cycles are in cycles.csv.";
-    ReportTable { caption: caption.to_owned(), columns, rows }
+    ReportTable {
+        caption: caption.to_owned(),
+        columns,
+        rows,
+    }
 }
 
 /// Cells of one stress point in one run, from its detail category to the number of runs to failure.
@@ -65,7 +87,11 @@ fn result(scene: &Scene, verdict: &FatigueResult) -> [TableCell; 8] {
         Detail::Eurocode(_) => ("N/mm\u{b2}", Length::Millimetre, Force::Newton),
         Detail::Aisc(_) => ("ksi", Length::Inch, Force::Kip),
     };
-    let scale = Scale { from: scene.units, to: Units { length, force } }.factor(Dimension::STRESS);
+    let scale = Scale {
+        from: scene.units,
+        to: Units { length, force },
+    }
+    .factor(Dimension::STRESS);
     let stress = |value: f64| TableCell::from(rounded(value * scale, DIGITS));
     let count = verdict.count();
     let runs = verdict.damage.repeats();
@@ -77,6 +103,8 @@ fn result(scene: &Scene, verdict: &FatigueResult) -> [TableCell; 8] {
         TableCell::from(unit),
         TableCell::from(rounded(verdict.damage.sum, DIGITS)),
         stress(verdict.equivalent),
-        runs.map_or(TableCell::from("never"), |runs| TableCell::from(rounded(runs, DIGITS))),
+        runs.map_or(TableCell::from("never"), |runs| {
+            TableCell::from(rounded(runs, DIGITS))
+        }),
     ]
 }

@@ -56,8 +56,16 @@ pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Opti
 fn used(found: &GirderStress, text: &dyn Fn(f64) -> String) -> String {
     match found.utilisation().zip(found.yield_strength) {
         Some((used, strength)) => {
-            let beyond = if used > 1.0 { ", which is exceeded" } else { "" };
-            format!("{:.0} % of the yield strength of {}{beyond}", 100.0 * used, text(strength))
+            let beyond = if used > 1.0 {
+                ", which is exceeded"
+            } else {
+                ""
+            };
+            format!(
+                "{:.0} % of the yield strength of {}{beyond}",
+                100.0 * used,
+                text(strength)
+            )
         }
         None => "the spec gives no yield strength `fy`".to_owned(),
     }
@@ -86,12 +94,22 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
     let mut models: Vec<LateralSection> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         for found in &outcome.girders().stresses.rows {
-            table.rows.push(row(&case.scene, run_name(&outcome.label), found, factor));
-            models.extend(case.scene.lateral_section.filter(|own| !models.contains(own)));
+            table
+                .rows
+                .push(row(&case.scene, run_name(&outcome.label), found, factor));
+            models.extend(
+                case.scene
+                    .lateral_section
+                    .filter(|own| !models.contains(own)),
+            );
         }
     }
     let words: Vec<&str> = models.iter().map(|own| lateral_words(*own)).collect();
-    let dead = if scene.output.dead_load { "with" } else { "without" };
+    let dead = if scene.output.dead_load {
+        "with"
+    } else {
+        "without"
+    };
     let method = format!(
         "Direct stress is N/A + M z/I + M y/I at the edges of the flanges, {dead} the dead load of the structure, from normal \
          force and moments that act at once. It is the largest at the times and sections that are evaluated. Here {}. Shear, \
@@ -102,8 +120,14 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
 }
 
 fn row(scene: &Scene, label: &str, found: &GirderStress, factor: f64) -> Vec<TableCell> {
-    let parts: Vec<String> = found.parts.iter().map(|part| digits(factor * part, 3)).collect();
-    let percent = found.utilisation().map(|used| TableCell::from(format!("{:.0} %", 100.0 * used)));
+    let parts: Vec<String> = found
+        .parts
+        .iter()
+        .map(|part| digits(factor * part, 3))
+        .collect();
+    let percent = found
+        .utilisation()
+        .map(|used| TableCell::from(format!("{:.0} %", 100.0 * used)));
     vec![
         TableCell::from(label.to_owned()),
         TableCell::from(scene.rails[found.rail].name.clone()),

@@ -1,6 +1,8 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, quantity_phrase, reading_unit, side_phrase, unit_of, with_unit};
+use crate::figures::design::{
+    digits, quantity_phrase, reading_unit, side_phrase, unit_of, with_unit,
+};
 use crate::figures::run_name::run_name;
 use crate::text::girder_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn, cleared};
@@ -17,26 +19,56 @@ const ROWS: usize = 80;
 
 /// Which values stand in the first table, with their words.
 pub(super) const GOVERNING: [(GirderResponse, bool, &str); 9] = [
-    (GirderResponse::VerticalMoment, true, "largest sagging moment"),
-    (GirderResponse::VerticalMoment, false, "largest hogging moment"),
+    (
+        GirderResponse::VerticalMoment,
+        true,
+        "largest sagging moment",
+    ),
+    (
+        GirderResponse::VerticalMoment,
+        false,
+        "largest hogging moment",
+    ),
     (GirderResponse::VerticalShear, true, "largest shear force"),
     (GirderResponse::VerticalShear, false, "smallest shear force"),
-    (GirderResponse::LateralMoment, true, "largest lateral moment"),
-    (GirderResponse::LateralMoment, false, "smallest lateral moment"),
+    (
+        GirderResponse::LateralMoment,
+        true,
+        "largest lateral moment",
+    ),
+    (
+        GirderResponse::LateralMoment,
+        false,
+        "smallest lateral moment",
+    ),
     (GirderResponse::Torsion, true, "largest torsion"),
-    (GirderResponse::VerticalDeflection, true, "largest deflection downwards"),
-    (GirderResponse::LateralDeflection, true, "largest deflection along +z"),
+    (
+        GirderResponse::VerticalDeflection,
+        true,
+        "largest deflection downwards",
+    ),
+    (
+        GirderResponse::LateralDeflection,
+        true,
+        "largest deflection along +z",
+    ),
 ];
 
 /// The governing values of every run, and all extremes of the first; `None` where no structure has girders.
 #[must_use]
 pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
-    if outcomes.iter().all(|outcome| outcome.girders().extremes.is_empty()) {
+    if outcomes
+        .iter()
+        .all(|outcome| outcome.girders().extremes.is_empty())
+    {
         return None;
     }
     let scene = document.scene();
     let (weight, deflections) = if scene.output.dead_load {
-        ("with the dead load of the structure", "; deflections are those due to the wheels")
+        (
+            "with the dead load of the structure",
+            "; deflections are those due to the wheels",
+        )
     } else {
         ("without the dead load of the structure", "")
     };
@@ -55,7 +87,9 @@ pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSec
     if let Some((table, method)) = girder_stresses::table(document, outcomes) {
         section = section.table(table).paragraph(method);
     }
-    section.paragraph("Envelopes along the rails are in envelope.csv, all extremes in summary.json.").into()
+    section
+        .paragraph("Envelopes along the rails are in envelope.csv, all extremes in summary.json.")
+        .into()
 }
 
 /// The largest values of each run over all rails and spans.
@@ -77,8 +111,13 @@ fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
     };
     for (quantity, is_max, words) in GOVERNING {
         for (case, outcome) in document.cases.iter().zip(outcomes) {
-            let Some(found) = largest(outcome, quantity, is_max) else { continue };
-            let mut row = vec![TableCell::from(words), TableCell::from(run_name(&outcome.label))];
+            let Some(found) = largest(outcome, quantity, is_max) else {
+                continue;
+            };
+            let mut row = vec![
+                TableCell::from(words),
+                TableCell::from(run_name(&outcome.label)),
+            ];
             row.extend(cells(&case.scene, found));
             table.rows.push(row);
         }
@@ -95,15 +134,28 @@ pub(super) fn largest(
     let sign = if is_max { 1.0 } else { -1.0 };
     let own = outcome.girders().extremes.iter();
     let own = own.filter(|e| e.quantity == quantity && e.is_max == is_max && sign * e.value > 0.0);
-    own.reduce(|best, next| if sign * next.value > sign * best.value { next } else { best })
+    own.reduce(|best, next| {
+        if sign * next.value > sign * best.value {
+            next
+        } else {
+            best
+        }
+    })
 }
 
 /// All extremes of one run.
 fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     let all = &outcome.girders().extremes;
-    let shown = if all.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
+    let shown = if all.len() > ROWS {
+        ", the first of them; summary.json has all"
+    } else {
+        ""
+    };
     let mut table = ReportTable {
-        caption: format!("Extremes of every span in the run \"{}\"{shown}", run_name(&outcome.label)),
+        caption: format!(
+            "Extremes of every span in the run \"{}\"{shown}",
+            run_name(&outcome.label)
+        ),
         columns: vec![
             TableColumn::new("quantity", ""),
             TableColumn::new("", ""),
@@ -118,7 +170,10 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     };
     for found in all.iter().filter(|found| found.value != 0.0).take(ROWS) {
         let kind = if found.is_max { "largest" } else { "smallest" };
-        let mut row = vec![TableCell::from(quantity_phrase(found.quantity)), TableCell::from(kind)];
+        let mut row = vec![
+            TableCell::from(quantity_phrase(found.quantity)),
+            TableCell::from(kind),
+        ];
         row.extend(cells(scene, found));
         table.rows.push(row);
     }
@@ -145,13 +200,22 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     // forces and moments are of different kinds
     let is_moment = |found: &&GirderReaction| found.direction.to_string().starts_with('r');
     let most = |is_wanted: bool| {
-        let sizes = all.iter().filter(|found| is_moment(found) == is_wanted).map(|found| found.value.abs());
+        let sizes = all
+            .iter()
+            .filter(|found| is_moment(found) == is_wanted)
+            .map(|found| found.value.abs());
         sizes.fold(0.0, f64::max)
     };
     // a moment is rounding beside the largest force at the farthest place
-    let length = outcome.girders().extremes.iter().map(|found| found.x.abs()).fold(0.0, f64::max);
+    let length = outcome
+        .girders()
+        .extremes
+        .iter()
+        .map(|found| found.x.abs())
+        .fold(0.0, f64::max);
     let largest_of = [most(false), most(true).max(length * most(false))];
-    let shown = |found: &GirderReaction| cleared(found.value, largest_of[usize::from(is_moment(&found))]);
+    let shown =
+        |found: &GirderReaction| cleared(found.value, largest_of[usize::from(is_moment(&found))]);
     let (mut rows, mut zero) = (Vec::new(), Vec::new());
     for pair in all.chunks_exact(2) {
         let [largest, smallest] = [&pair[0], &pair[1]];
@@ -160,8 +224,15 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
             continue;
         }
         let direction = largest.direction.to_string();
-        let factor = if direction.starts_with('r') { by_moment } else { by_force };
-        let mut row = vec![TableCell::from(largest.support.clone()), TableCell::from(direction)];
+        let factor = if direction.starts_with('r') {
+            by_moment
+        } else {
+            by_force
+        };
+        let mut row = vec![
+            TableCell::from(largest.support.clone()),
+            TableCell::from(direction),
+        ];
         row.extend(has_dead.then(|| TableCell::from(digits(factor * largest.dead, DIGITS))));
         row.extend(
             pair.iter()
@@ -170,7 +241,11 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         );
         rows.push(row);
     }
-    let more = if rows.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
+    let more = if rows.len() > ROWS {
+        ", the first of them; summary.json has all"
+    } else {
+        ""
+    };
     rows.truncate(ROWS);
     let without = if zero.is_empty() || zero.len() > ROWS {
         String::new()
@@ -183,7 +258,11 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         run_name(&outcome.label),
         moment_unit
     );
-    ReportTable { caption, columns, rows }
+    ReportTable {
+        caption,
+        columns,
+        rows,
+    }
 }
 
 /// Value, rail, span, place, side and time.

@@ -17,7 +17,11 @@ const ROWS: usize = 60;
 pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection {
     let mut section = ReportSection::new("Reactions, deflections and uplift");
     if !response.columns.is_empty() {
-        let weight = if scene.output.dead_load { "with" } else { "without" };
+        let weight = if scene.output.dead_load {
+            "with"
+        } else {
+            "without"
+        };
         section = section
             .paragraph(format!(
                 "Reactions of the ground on the structures, positive along the global axes, and internal forces at \
@@ -54,7 +58,11 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
     for sway in &response.sways {
         let unit = scene.units.label(Dimension::LENGTH);
         for (axis, [least, most]) in ["X", "Y", "Z"].into_iter().zip(sway.range) {
-            section = section.fact(format!("{}: range of {axis}", sway.body), most - least, &unit);
+            section = section.fact(
+                format!("{}: range of {axis}", sway.body),
+                most - least,
+                &unit,
+            );
         }
     }
     for note in &response.notes {
@@ -75,12 +83,15 @@ pub fn comparison(
 ) -> Option<ReportSection> {
     let of = |name: &str| record.columns.iter().find(|column| column.name == name);
     let most = |figures: &[&ColumnStatistics]| {
-        figures.iter().fold(0.0_f64, |most, found| most.max(size(found.peak.value, found.least.value)))
+        figures.iter().fold(0.0_f64, |most, found| {
+            most.max(size(found.peak.value, found.least.value))
+        })
     };
     // the largest value of the same dimension in any run
     let largest = |dimension: Dimension| {
-        let same =
-            comparison.columns().filter(|(name, _)| of(name).is_some_and(|own| own.dimension == dimension));
+        let same = comparison
+            .columns()
+            .filter(|(name, _)| of(name).is_some_and(|own| own.dimension == dimension));
         same.map(|(_, figures)| most(&figures)).fold(0.0, f64::max)
     };
     let (zero, all): (Vec<_>, Vec<_>) = comparison.columns().partition(|(name, figures)| {
@@ -90,10 +101,17 @@ pub fn comparison(
         return None;
     }
     let zero: Vec<&str> = zero.into_iter().map(|(name, _)| name).collect();
-    let without =
-        if zero.is_empty() { String::new() } else { format!(" Zero throughout: {}.", zero.join(", ")) };
+    let without = if zero.is_empty() {
+        String::new()
+    } else {
+        format!(" Zero throughout: {}.", zero.join(", "))
+    };
     let more = all.len().saturating_sub(ROWS);
-    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let rest = if more > 0 {
+        format!(" {more} more are in summary.json.")
+    } else {
+        String::new()
+    };
     let mut rows = Vec::new();
     for (name, figures) in all.into_iter().take(ROWS) {
         let (unit, factor) = of(name).map_or_else(
@@ -107,7 +125,13 @@ pub fn comparison(
             let range = found.peak.value - found.least.value;
             let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
                 .map(|value| short(factor * cleared(value, range)));
-            row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
+            row.extend([
+                settled,
+                peak,
+                short(found.peak.time),
+                least,
+                short(found.least.time),
+            ]);
             row.push(TableCell::from(found.excursions));
             row.push(found.hertz().map_or(TableCell::Empty, short));
             rows.push(row);
@@ -129,61 +153,114 @@ pub fn comparison(
         "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this \
          mean, and the frequency of largest amplitude in that quarter.{rest}{without}"
     );
-    let columns = columns.map(|(name, unit)| TableColumn::new(name, unit)).into();
-    Some(ReportSection::new("Comparison of the runs").table(ReportTable { caption, columns, rows }))
+    let columns = columns
+        .map(|(name, unit)| TableColumn::new(name, unit))
+        .into();
+    Some(
+        ReportSection::new("Comparison of the runs").table(ReportTable {
+            caption,
+            columns,
+            rows,
+        }),
+    )
 }
 
 /// Extremes of reactions and internal forces.
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let more = (response.envelopes.len() - zero_columns(response).len()).saturating_sub(ROWS);
-    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let rest = if more > 0 {
+        format!(" {more} more are in summary.json.")
+    } else {
+        String::new()
+    };
     let length = scene.units.label(Dimension::LENGTH);
-    let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
-        .map(|(n, u)| TableColumn::new(n, u))
-        .to_vec();
-    columns.extend(scene.bodies.iter().map(|body| TableColumn::new(body.name.as_str(), &length)));
+    let mut columns = [
+        ("quantity", ""),
+        ("unit", ""),
+        ("", ""),
+        ("value", ""),
+        ("at time", "s"),
+    ]
+    .map(|(n, u)| TableColumn::new(n, u))
+    .to_vec();
+    columns.extend(
+        scene
+            .bodies
+            .iter()
+            .map(|body| TableColumn::new(body.name.as_str(), &length)),
+    );
     columns.push(TableColumn::new("dead load", ""));
     let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead_load);
     let zero = zero_columns(response);
-    let shown =
-        response.envelopes.iter().zip(own).filter(|(envelope, _)| !zero.contains(&envelope.column.as_str()));
+    let shown = response
+        .envelopes
+        .iter()
+        .zip(own)
+        .filter(|(envelope, _)| !zero.contains(&envelope.column.as_str()));
     for (envelope, (column, dead)) in shown.take(ROWS) {
         let most = size(envelope.max.value, envelope.min.value).max(dead.abs());
         let (unit, factor) = column_unit(scene.units, column.dimension, most);
         let range = envelope.max.value - envelope.min.value;
-        let mut head = vec![TableCell::from(envelope.column.clone()), TableCell::from(unit)];
+        let mut head = vec![
+            TableCell::from(envelope.column.clone()),
+            TableCell::from(unit),
+        ];
         let mut weight = TableCell::from(factor * cleared(*dead, most));
         for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
             let value = TableCell::from(factor * cleared(extreme.value, range));
             row.extend([TableCell::from(word), value, TableCell::from(extreme.time)]);
-            row.extend(extreme.bodies.iter().map(|(_, at)| TableCell::from(place(at))));
+            row.extend(
+                extreme
+                    .bodies
+                    .iter()
+                    .map(|(_, at)| TableCell::from(place(at))),
+            );
             row.push(std::mem::take(&mut weight));
             rows.push(row);
         }
     }
-    let without =
-        if zero.is_empty() { String::new() } else { format!(" Zero throughout: {}.", zero.join(", ")) };
+    let without = if zero.is_empty() {
+        String::new()
+    } else {
+        format!(" Zero throughout: {}.", zero.join(", "))
+    };
     let caption = format!(
         "Envelopes of the run \"{label}\", with the governing times and positions of the bodies.{rest}{without}"
     );
-    ReportTable { caption, columns, rows }
+    ReportTable {
+        caption,
+        columns,
+        rows,
+    }
 }
 
 /// Names of the columns that are zero throughout, dead load included, up to rounding of the largest value of their
 /// dimension.
 fn zero_columns(response: &Response) -> Vec<&str> {
-    let all = || response.envelopes.iter().zip(response.columns.iter().zip(&response.dead_load));
+    let all = || {
+        response
+            .envelopes
+            .iter()
+            .zip(response.columns.iter().zip(&response.dead_load))
+    };
     let magnitude = |max: f64, min: f64, dead: f64| size(max, min).max(dead.abs());
     let largest = |dimension: Dimension| {
         let same = all().filter(|(_, (column, _))| column.dimension == dimension);
-        same.map(|(e, (_, dead))| magnitude(e.max.value, e.min.value, *dead)).fold(0.0, f64::max)
+        same.map(|(e, (_, dead))| magnitude(e.max.value, e.min.value, *dead))
+            .fold(0.0, f64::max)
     };
     let is_zero = |(e, (column, dead)): &(&ColumnEnvelope, (&Column, &f64))| {
-        is_rounding(magnitude(e.max.value, e.min.value, **dead), largest(column.dimension))
+        is_rounding(
+            magnitude(e.max.value, e.min.value, **dead),
+            largest(column.dimension),
+        )
     };
-    all().filter(is_zero).map(|(envelope, _)| envelope.column.as_str()).collect()
+    all()
+        .filter(is_zero)
+        .map(|(envelope, _)| envelope.column.as_str())
+        .collect()
 }
 
 /// The larger magnitude.
@@ -198,7 +275,10 @@ fn short(value: f64) -> TableCell {
 
 /// Coordinates of a body.
 fn place(at: &[f64]) -> String {
-    at.iter().map(|x| crate::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
+    at.iter()
+        .map(|x| crate::number(*x, 4).unwrap_or_default())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// Lateral displacements of rails at columns, with the limits of codes.
@@ -232,20 +312,33 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableCell::from(found.height),
             TableCell::from(factor * found.value),
             TableCell::from(found.time),
-            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
+            found
+                .ratio()
+                .map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
         ];
         for (clause, formula, most) in &found.limits {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
-            row.push(TableCell::from(format!("{}, {}: {formula}", clause.standard, clause.clause)));
+            row.push(TableCell::from(format!(
+                "{}, {}: {formula}",
+                clause.standard, clause.clause
+            )));
             row.extend([clause.edition, clause.evidence.words()].map(TableCell::from));
             row.push(TableCell::from(factor * *most));
-            row.push(TableCell::from(if found.value <= *most { "yes" } else { "no" }));
+            row.push(TableCell::from(if found.value <= *most {
+                "yes"
+            } else {
+                "no"
+            }));
             rows.push(row);
         }
     }
     ReportTable {
-        caption: format!("Largest lateral displacement of each rail at a column in the run \"{label}\"."),
-        columns: columns.map(|name| TableColumn::new(name, unit_of(name))).into(),
+        caption: format!(
+            "Largest lateral displacement of each rail at a column in the run \"{label}\"."
+        ),
+        columns: columns
+            .map(|name| TableColumn::new(name, unit_of(name)))
+            .into(),
         rows,
     }
 }
@@ -287,7 +380,9 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableCell::from(factor * found.value),
             TableCell::from(found.x),
             TableCell::from(found.time),
-            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
+            found
+                .ratio()
+                .map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
             TableCell::from(kept.to_owned()),
         ]);
     }

@@ -31,7 +31,11 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
                     },
                 );
                 for (name, text) in structure_facts(spec, file, scene.units, &spans) {
-                    let text = if name == "structure" { format!("{text}; {foundation}") } else { text };
+                    let text = if name == "structure" {
+                        format!("{text}; {foundation}")
+                    } else {
+                        text
+                    };
                     section = section.fact(format!("{}: {name}", structure.name), text, "");
                 }
             }
@@ -44,9 +48,16 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
     if scene.structures.len() > MOST[0] {
         section = section.fact("further structures", scene.structures.len() - MOST[0], "");
     }
-    let labels: Vec<&str> = outcomes.iter().map(|outcome| run_name(&outcome.label)).collect();
+    let labels: Vec<&str> = outcomes
+        .iter()
+        .map(|outcome| run_name(&outcome.label))
+        .collect();
     section
-        .fact("moving loads", bodies(scene, outcomes[0].input.wheels.len()), "")
+        .fact(
+            "moving loads",
+            bodies(scene, outcomes[0].input.wheels.len()),
+            "",
+        )
         .fact("analysis", analysis(scene, outcomes[0].run.method), "")
         .fact("runs", labels.join(", "), "")
         .fact("codes", codes(&outcomes[0]), "")
@@ -60,10 +71,24 @@ fn bodies(scene: &Scene, wheels: usize) -> String {
         .bodies
         .iter()
         .filter(|body| body.mass > 0.0)
-        .map(|body| format!("{} {}", body.name, digits(factor * body.mass * scene.gravity, DIGITS)))
+        .map(|body| {
+            format!(
+                "{} {}",
+                body.name,
+                digits(factor * body.mass * scene.gravity, DIGITS)
+            )
+        })
         .collect();
-    let count = if wheels == 1 { "1 wheel".to_owned() } else { format!("{wheels} wheels") };
-    if weights.is_empty() { count } else { format!("{count}; weights {} {unit}", weights.join(", ")) }
+    let count = if wheels == 1 {
+        "1 wheel".to_owned()
+    } else {
+        format!("{wheels} wheels")
+    };
+    if weights.is_empty() {
+        count
+    } else {
+        format!("{count}; weights {} {unit}", weights.join(", "))
+    }
 }
 
 fn analysis(scene: &Scene, method: Option<Method>) -> String {
@@ -82,9 +107,17 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
 
 /// Codes and editions whose values the report compares.
 fn codes(outcome: &CaseResult) -> String {
-    let Some(codes) = &outcome.codes else { return "none named".to_owned() };
-    let values = codes.rows.iter().flat_map(|row| row.values.iter().map(|value| &value.clause));
-    let limits = codes.limits.iter().flat_map(|found| found.limits.iter().map(|limit| &limit.limit.clause));
+    let Some(codes) = &outcome.codes else {
+        return "none named".to_owned();
+    };
+    let values = codes
+        .rows
+        .iter()
+        .flat_map(|row| row.values.iter().map(|value| &value.clause));
+    let limits = codes
+        .limits
+        .iter()
+        .flat_map(|found| found.limits.iter().map(|limit| &limit.limit.clause));
     let mut all: Vec<String> = Vec::new();
     for clause in values.chain(limits) {
         let name = code_with_edition(clause);
@@ -94,6 +127,14 @@ fn codes(outcome: &CaseResult) -> String {
     }
     let more = all.len().saturating_sub(MOST[1]);
     all.truncate(MOST[1]);
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    if all.is_empty() { "none named".to_owned() } else { format!("{}{rest}", all.join("; ")) }
+    let rest = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
+    if all.is_empty() {
+        "none named".to_owned()
+    } else {
+        format!("{}{rest}", all.join("; "))
+    }
 }

@@ -35,7 +35,13 @@ struct GoverningRow {
 
 impl GoverningRow {
     /// A row without place, text behind the value and other runs.
-    fn new(words: &str, (unit, factor): (&str, f64), value: f64, name: &str, time: f64) -> GoverningRow {
+    fn new(
+        words: &str,
+        (unit, factor): (&str, f64),
+        value: f64,
+        name: &str,
+        time: f64,
+    ) -> GoverningRow {
         GoverningRow {
             words: words.to_owned(),
             unit: unit.to_owned(),
@@ -62,7 +68,11 @@ impl GoverningRow {
         };
         vec![
             TableCell::from(self.words),
-            TableCell::from(format!("{}{}", with_unit(&text(self.value), &self.unit), self.more)),
+            TableCell::from(format!(
+                "{}{}",
+                with_unit(&text(self.value), &self.unit),
+                self.more
+            )),
             TableCell::from(self.name),
             self.span,
             self.x,
@@ -95,20 +105,34 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
         columns.pop();
         rows.iter_mut().for_each(|row| row.truncate(columns.len()));
     }
-    let dead = if scene.output.dead_load { "with" } else { "without" };
-    let stress = if scene.lateral_section.is_some() { ", stresses" } else { "" };
+    let dead = if scene.output.dead_load {
+        "with"
+    } else {
+        "without"
+    };
+    let stress = if scene.lateral_section.is_some() {
+        ", stresses"
+    } else {
+        ""
+    };
     let caption = format!(
         "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure",
         run_name(&first.label)
     );
-    ReportTable { caption, columns, rows }
+    ReportTable {
+        caption,
+        columns,
+        rows,
+    }
 }
 
 fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
     let row = |(quantity, is_max, words): &(GirderResponse, bool, &str)| {
         let found = largest(first, *quantity, *is_max)?;
         let (unit, factor) = unit_of(scene.units, *quantity);
-        let same = others.iter().filter_map(|other| largest(other, *quantity, *is_max));
+        let same = others
+            .iter()
+            .filter_map(|other| largest(other, *quantity, *is_max));
         let name = &scene.rails[found.rail].name;
         Some(GoverningRow {
             span: TableCell::from(found.span),
@@ -124,8 +148,12 @@ fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<
 fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Option<GoverningRow> {
     let found = first.girders().stresses.governing()?;
     let (unit, factor) = stress_unit(scene.units);
-    let more = found.utilisation().map_or_else(String::new, |used| format!(" = {:.0} % of fy", 100.0 * used));
-    let same = others.iter().filter_map(|other| other.girders().stresses.governing());
+    let more = found.utilisation().map_or_else(String::new, |used| {
+        format!(" = {:.0} % of fy", 100.0 * used)
+    });
+    let same = others
+        .iter()
+        .filter_map(|other| other.girders().stresses.governing());
     Some(GoverningRow {
         more,
         span: TableCell::from(found.span),
@@ -144,7 +172,11 @@ fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Optio
 /// The deflection from the chord that is the largest part of its span, in each direction.
 fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
     let worst = |outcome: &CaseResult, direction: &str| {
-        let own = outcome.response.deflections.iter().filter(|found| found.direction == direction);
+        let own = outcome
+            .response
+            .deflections
+            .iter()
+            .filter(|found| found.direction == direction);
         let known = own.filter_map(|found| Some((found.ratio()?, found.clone())));
         known.min_by(|a, b| a.0.total_cmp(&b.0))
     };
@@ -160,7 +192,10 @@ fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> 
             ..GoverningRow::new(&words, (unit, factor), found.value, &found.rail, found.time)
         })
     };
-    ["vertical", "lateral"].into_iter().filter_map(row).collect()
+    ["vertical", "lateral"]
+        .into_iter()
+        .filter_map(row)
+        .collect()
 }
 
 /// Largest and smallest vertical wheel force, and the largest lateral one of either sign.
@@ -168,7 +203,13 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     // sign times value is sought; 0 stands for the magnitude
     let worst = |outcome: &CaseResult, part: &str, sign: f64| {
-        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let size = |value: f64| {
+            if sign == 0.0 {
+                value.abs()
+            } else {
+                sign * value
+            }
+        };
         let mut best: Option<(f64, usize, usize)> = None;
         for (wheel, own) in outcome.input.wheels.iter().enumerate() {
             for (row, value) in outcome.columns.part(&own.name, part).iter().enumerate() {
@@ -190,10 +231,19 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
             .filter(|(value, ..)| part == "vertical" || !is_rounding(*value, size))?;
         let name = &first.input.wheels[wheel].name;
         let x = first.columns.part(name, "x").get(row).copied();
-        let time = first.columns.values("time").get(row).copied().unwrap_or_default();
+        let time = first
+            .columns
+            .values("time")
+            .get(row)
+            .copied()
+            .unwrap_or_default();
         Some(GoverningRow {
             x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
-            others: others.iter().filter_map(|other| worst(other, part, sign)).map(|found| found.0).collect(),
+            others: others
+                .iter()
+                .filter_map(|other| worst(other, part, sign))
+                .map(|found| found.0)
+                .collect(),
             size,
             ..GoverningRow::new(words, (&unit, factor), value, name, time)
         })
@@ -210,21 +260,39 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     // sign times value is sought; 0 stands for the magnitude
     let worst = |outcome: &CaseResult, direction: Option<Direction>, sign: f64| {
-        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let size = |value: f64| {
+            if sign == 0.0 {
+                value.abs()
+            } else {
+                sign * value
+            }
+        };
         let all = ground_forces(scene, outcome, direction).into_iter();
-        all.reduce(|best, next| if size(next.0) > size(best.0) { next } else { best })
+        all.reduce(|best, next| {
+            if size(next.0) > size(best.0) {
+                next
+            } else {
+                best
+            }
+        })
     };
     let size = worst(first, Some(Direction::Vertical), 0.0).map_or(0.0, |(value, ..)| value.abs());
     let kinds = [
         ("largest vertical reaction", Some(Direction::Vertical), 1.0),
-        ("smallest vertical reaction", Some(Direction::Vertical), -1.0),
+        (
+            "smallest vertical reaction",
+            Some(Direction::Vertical),
+            -1.0,
+        ),
         ("largest lateral reaction", Some(Direction::Lateral), 0.0),
         ("largest longitudinal reaction", None, 0.0),
     ];
     let row = |(words, direction, sign): (&str, Option<Direction>, f64)| {
         let (value, time, name) =
             worst(first, direction, sign).filter(|(value, ..)| !is_rounding(*value, size))?;
-        let same = others.iter().filter_map(|other| worst(other, direction, sign));
+        let same = others
+            .iter()
+            .filter_map(|other| worst(other, direction, sign));
         Some(GoverningRow {
             others: same.map(|found| found.0).collect(),
             size,
@@ -236,17 +304,35 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
 
 /// The extremes of the forces of the ground in a direction (`None`: along the rails); those of the history's columns for
 /// structures whose girders have no extremes.
-fn ground_forces(scene: &Scene, outcome: &CaseResult, direction: Option<Direction>) -> Vec<NamedReaction> {
+fn ground_forces(
+    scene: &Scene,
+    outcome: &CaseResult,
+    direction: Option<Direction>,
+) -> Vec<NamedReaction> {
     let mut out = Vec::new();
     let known = &outcome.girders().reactions;
-    for own in known.iter().filter(|own| scene.structures[own.structure].carrier.is_none()) {
+    for own in known
+        .iter()
+        .filter(|own| scene.structures[own.structure].carrier.is_none())
+    {
         if own.relative == direction && own.direction < Dof::Rx {
-            out.push((own.value, own.time, format!("{} {}", own.support, own.direction)));
+            out.push((
+                own.value,
+                own.time,
+                format!("{} {}", own.support, own.direction),
+            ));
         }
     }
     let is_ground = ground_reactions(scene);
-    for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
-        let is_known = known.iter().any(|own| column.name.starts_with(&format!("{}.", own.support)));
+    for (column, envelope) in outcome
+        .response
+        .columns
+        .iter()
+        .zip(&outcome.response.envelopes)
+    {
+        let is_known = known
+            .iter()
+            .any(|own| column.name.starts_with(&format!("{}.", own.support)));
         if direction.is_some() && column.direction == direction && is_ground(column) && !is_known {
             let extremes = [&envelope.max, &envelope.min];
             out.extend(extremes.map(|extreme| (extreme.value, extreme.time, column.name.clone())));

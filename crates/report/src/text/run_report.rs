@@ -30,13 +30,23 @@ pub fn report(
     figures: Vec<RunFigure>,
 ) -> Report {
     let scene = document.scene();
-    let mut sections = vec![results(document, outcomes), structures(scene, solved, &outcomes[0].choices)];
-    let (mut motion, mut influence) =
-        (ReportSection::new("Figures of the motion"), ReportSection::new("Figures of the structures"));
+    let mut sections = vec![
+        results(document, outcomes),
+        structures(scene, solved, &outcomes[0].choices),
+    ];
+    let (mut motion, mut influence) = (
+        ReportSection::new("Figures of the motion"),
+        ReportSection::new("Figures of the structures"),
+    );
     for figure in figures {
-        let of_structure =
-            ["grid-", "influence-", "girder-"].iter().any(|start| figure.name.starts_with(start));
-        let target = if of_structure { &mut influence } else { &mut motion };
+        let of_structure = ["grid-", "influence-", "girder-"]
+            .iter()
+            .any(|start| figure.name.starts_with(start));
+        let target = if of_structure {
+            &mut influence
+        } else {
+            &mut motion
+        };
         let section = std::mem::take(target);
         *target = section.figure(figure.picture, figure.caption);
     }
@@ -44,23 +54,46 @@ pub fn report(
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
-    sections.push(responses::section(scene, run_name(&outcomes[0].label), &outcomes[0].response));
-    let labels: Vec<&str> = outcomes.iter().map(|outcome| run_name(&outcome.label)).collect();
-    sections.extend(responses::comparison(scene, &labels, &outcomes[0].columns, comparison));
-    let checks: Vec<_> =
-        outcomes.iter().map(|outcome| (run_name(&outcome.label), outcome.codes.as_ref())).collect();
+    sections.push(responses::section(
+        scene,
+        run_name(&outcomes[0].label),
+        &outcomes[0].response,
+    ));
+    let labels: Vec<&str> = outcomes
+        .iter()
+        .map(|outcome| run_name(&outcome.label))
+        .collect();
+    sections.extend(responses::comparison(
+        scene,
+        &labels,
+        &outcomes[0].columns,
+        comparison,
+    ));
+    let checks: Vec<_> = outcomes
+        .iter()
+        .map(|outcome| (run_name(&outcome.label), outcome.codes.as_ref()))
+        .collect();
     sections.extend(codes::section(scene, &checks));
-    let damages: Vec<_> =
-        outcomes.iter().map(|outcome| (run_name(&outcome.label), outcome.fatigue.as_slice())).collect();
+    let damages: Vec<_> = outcomes
+        .iter()
+        .map(|outcome| (run_name(&outcome.label), outcome.fatigue.as_slice()))
+        .collect();
     sections.extend(fatigue::section(scene, &damages));
     sections.extend(warnings(document, outcomes));
     sections.push(audit(document, outcomes));
     let extremes = girders::section(document, outcomes);
-    sections
-        .splice(0..0, [verdict(document, outcomes), basis(document, outcomes)].into_iter().chain(extremes));
+    sections.splice(
+        0..0,
+        [verdict(document, outcomes), basis(document, outcomes)]
+            .into_iter()
+            .chain(extremes),
+    );
     Report {
         title: scene.name.clone(),
-        subtitle: format!("girderway {}: wheels on flexible rails", env!("CARGO_PKG_VERSION")),
+        subtitle: format!(
+            "girderway {}: wheels on flexible rails",
+            env!("CARGO_PKG_VERSION")
+        ),
         sections,
     }
 }
@@ -90,7 +123,11 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
                 continue;
             };
             let base = *first.get_or_insert(deepest);
-            let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
+            let change = if base == 0.0 {
+                0.0
+            } else {
+                100.0 * (deepest / base - 1.0)
+            };
             let (status, _) = run_error::status(&outcome.run.status);
             table.rows.push(vec![
                 TableCell::from(run_name(&outcome.label)),
@@ -108,16 +145,24 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         section = section.paragraph(text);
     }
     section
-        .paragraph("Deflections are positive downwards; forces on the rail are positive in compression.")
+        .paragraph(
+            "Deflections are positive downwards; forces on the rail are positive in compression.",
+        )
         .table(table)
 }
 
 /// How the runs were computed: one sentence for all runs that were computed alike.
 fn analyses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     let cases = document.cases.iter().zip(outcomes);
-    let all: Vec<String> = cases.map(|(case, outcome)| analysis(&case.scene, outcome.run.method)).collect();
+    let all: Vec<String> = cases
+        .map(|(case, outcome)| analysis(&case.scene, outcome.run.method))
+        .collect();
     if all.windows(2).all(|pair| pair[0] == pair[1]) {
-        return all.first().map(|how| format!("The scene was computed {how}.")).into_iter().collect();
+        return all
+            .first()
+            .map(|how| format!("The scene was computed {how}."))
+            .into_iter()
+            .collect();
     }
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for (outcome, how) in outcomes.iter().zip(all) {
@@ -128,7 +173,11 @@ fn analyses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
         }
     }
     let sentence = |(how, labels): (String, Vec<String>)| {
-        let (runs, were) = if labels.len() == 1 { ("run", "was") } else { ("runs", "were") };
+        let (runs, were) = if labels.len() == 1 {
+            ("run", "was")
+        } else {
+            ("runs", "were")
+        };
         format!("The {runs} {} {were} computed {how}.", labels.join(", "))
     };
     groups.into_iter().map(sentence).collect()
@@ -150,7 +199,11 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
         Method::Gauss3 => "Gauss collocation, a method of order 6,",
         Method::Series => "power series in time, whose order increases with the accuracy,",
     };
-    let steps = if scene.stepping.step.is_some() { "equal steps" } else { "adaptive steps" };
+    let steps = if scene.stepping.step.is_some() {
+        "equal steps"
+    } else {
+        "adaptive steps"
+    };
     format!(
         "from the equations of motion in contact-force form, integrated by {method} with {steps}; the times at which \
          wheels leave or meet the rail are located"
@@ -158,7 +211,11 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
 }
 
 /// The foundation of every structure, the reason of its choice, and properties of the structure.
-fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Choice]) -> ReportSection {
+fn structures(
+    scene: &Scene,
+    solved: &[Option<&SolvedModel>],
+    choices: &[sim::Choice],
+) -> ReportSection {
     let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);
@@ -173,7 +230,10 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
             "",
         );
         if let Some(choice) = choice {
-            section = section.paragraph(format!("{name}: {}.", foundations::selection_reason(choice)));
+            section = section.paragraph(format!(
+                "{name}: {}.",
+                foundations::selection_reason(choice)
+            ));
         }
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
@@ -189,9 +249,17 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
                     "",
                 );
         }
-        if let Some(girder) = solved.girder.as_ref().filter(|girder| girder.spans.len() == 1) {
+        if let Some(girder) = solved
+            .girder
+            .as_ref()
+            .filter(|girder| girder.spans.len() == 1)
+        {
             let span = girder.spans[0];
-            let weight: f64 = scene.bodies.iter().map(|body| body.mass * scene.gravity).sum();
+            let weight: f64 = scene
+                .bodies
+                .iter()
+                .map(|body| body.mass * scene.gravity)
+                .sum();
             let classical = weight * span.powi(3) / (48.0 * girder.e * girder.i_vertical);
             let (unit, factor) = deflection_unit(scene.units);
             section = section.fact(
@@ -214,7 +282,10 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
 fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let mut table = ReportTable {
-        caption: format!("Wheel forces of the run \"{}\".", run_name(&outcomes[0].label)),
+        caption: format!(
+            "Wheel forces of the run \"{}\".",
+            run_name(&outcomes[0].label)
+        ),
         columns: vec![
             TableColumn::new("wheel", ""),
             TableColumn::new("largest vertical", &unit),
@@ -227,8 +298,15 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     for wheel in &outcomes[0].input.wheels {
         let name = &wheel.name;
         let values = |part: &str| outcomes[0].columns.part(name, part);
-        let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
-        let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = |part: &str| {
+            values(part)
+                .iter()
+                .fold(0.0_f64, |max, value| max.max(value.abs()))
+        };
+        let least = values("vertical")
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
         table.rows.push(vec![
             TableCell::from(name.clone()),
             TableCell::from(factor * largest("vertical")),
@@ -244,11 +322,23 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
 fn warnings(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
     let mut section = ReportSection::new("Warnings and notes");
     for message in warning::messages(outcomes, document) {
-        let kind = if message.is_warning { "Warning" } else { "Note" };
+        let kind = if message.is_warning {
+            "Warning"
+        } else {
+            "Note"
+        };
         let runs = if message.runs.is_empty() {
             String::new()
         } else {
-            format!(", {}", message.runs.iter().map(|label| run_name(label)).collect::<Vec<_>>().join(", "))
+            format!(
+                ", {}",
+                message
+                    .runs
+                    .iter()
+                    .map(|label| run_name(label))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
         };
         section = section.paragraph(format!("{kind}{runs}: {}.", message.text));
     }

@@ -25,8 +25,12 @@ const WARNINGS: usize = 4;
 pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let mut section = ReportSection::new("Verdict");
     section.paragraphs.extend(statuses(document, outcomes));
-    section.paragraphs.extend(checks(document.scene(), &outcomes[0]));
-    section.paragraphs.extend(girder_stresses::verdict_line(document, outcomes));
+    section
+        .paragraphs
+        .extend(checks(document.scene(), &outcomes[0]));
+    section
+        .paragraphs
+        .extend(girder_stresses::verdict_line(document, outcomes));
     let mut all: Vec<String> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         let own = warning::case_warnings(&case.scene, outcome).into_iter();
@@ -35,8 +39,9 @@ pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSec
     let more = all.len().saturating_sub(WARNINGS);
     section.paragraphs.extend(all.into_iter().take(WARNINGS));
     if more > 0 {
-        section =
-            section.paragraph(format!("{more} more warnings are in the section on warnings and notes."));
+        section = section.paragraph(format!(
+            "{more} more warnings are in the section on warnings and notes."
+        ));
     }
     let table = governing(document, outcomes);
     if !table.rows.is_empty() {
@@ -54,7 +59,10 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     let mut out = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         if let Some(why) = run_error::reason_incomplete(&outcome.run.status, &case.scene) {
-            out.push(format!("The run \"{}\" is incomplete: {why}.", run_name(&outcome.label)));
+            out.push(format!(
+                "The run \"{}\" is incomplete: {why}.",
+                run_name(&outcome.label)
+            ));
         }
     }
     if out.is_empty() {
@@ -64,10 +72,16 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
             count => format!("All {count} runs reached their ends."),
         });
     }
-    let dynamic = document.cases.iter().zip(outcomes).filter(|(case, outcome)| {
-        case.scene.analysis == Analysis::Dynamic && outcome.run.status.is_complete()
-    });
-    let residual = dynamic.map(|(_, outcome)| outcome.run.audit.residual().abs()).reduce(f64::max);
+    let dynamic = document
+        .cases
+        .iter()
+        .zip(outcomes)
+        .filter(|(case, outcome)| {
+            case.scene.analysis == Analysis::Dynamic && outcome.run.status.is_complete()
+        });
+    let residual = dynamic
+        .map(|(_, outcome)| outcome.run.audit.residual().abs())
+        .reduce(f64::max);
     if let Some((residual, first)) = residual.zip(out.first_mut()) {
         first.push_str(&format!(
             " The energy balance closes to {} of the largest stored energy.",
@@ -92,14 +106,24 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let limits = outcome.codes.iter().flat_map(|codes| &codes.limits);
     let all: Vec<(f64, String)> = limits
         .flat_map(|found| {
-            let name = format!("{} of {}", found.displacement.word().replace('_', " "), found.rail);
-            found.limits.iter().map(move |limit| (found.value / limit.value, name.clone()))
+            let name = format!(
+                "{} of {}",
+                found.displacement.word().replace('_', " "),
+                found.rail
+            );
+            found
+                .limits
+                .iter()
+                .map(move |limit| (found.value / limit.value, name.clone()))
         })
         .collect();
     if let Some((most, name)) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
         let failed = all.iter().filter(|(used, _)| *used > 1.0).count();
-        let verdict =
-            if failed == 0 { "are kept".to_owned() } else { format!("are exceeded in {failed} cases") };
+        let verdict = if failed == 0 {
+            "are kept".to_owned()
+        } else {
+            format!("are exceeded in {failed} cases")
+        };
         out.push(format!(
             "The limits of codes on deflections under static wheel loads, {} in all, {verdict}; the highest utilisation \
              is {:.0} % ({name}).",
@@ -107,8 +131,14 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
             100.0 * most
         ));
     }
-    if let Some(worst) = outcome.fatigue.iter().max_by(|a, b| a.damage.sum.total_cmp(&b.damage.sum)) {
-        let life = worst.life.map_or_else(String::new, |life| format!(", {} of a life", digits(life, 3)));
+    if let Some(worst) = outcome
+        .fatigue
+        .iter()
+        .max_by(|a, b| a.damage.sum.total_cmp(&b.damage.sum))
+    {
+        let life = worst.life.map_or_else(String::new, |life| {
+            format!(", {} of a life", digits(life, 3))
+        });
         out.push(format!(
             "Fatigue: the largest damage of the run is {}{life} at {} (detail {}), gamma_Mf = {}.",
             digits(worst.damage.sum, 3),
@@ -121,17 +151,25 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
 }
 
 /// The rail of an extreme with the wheels at its instant, and the caption.
-fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<(crate::chart::Svg, String)> {
+fn sketch(
+    scene: &Scene,
+    outcome: &CaseResult,
+    found: &GirderExtreme,
+) -> Option<(crate::chart::Svg, String)> {
     let rail = scene.rails.get(found.rail)?;
     let supports = supports(scene, found.rail);
     let times = outcome.columns.values("time");
     let distance = |row: &usize| (times[*row] - found.time).abs();
     let row = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let (force, factor) = reading_unit(scene.units, Dimension::FORCE);
-    let on_rail = outcome.input.wheels.iter().filter(|wheel| wheel.rail == found.rail);
+    let on_rail = outcome
+        .input
+        .wheels
+        .iter()
+        .filter(|wheel| wheel.rail == found.rail);
     let at = |name: &str, part: &str| outcome.columns.part(name, part).get(row).copied();
-    let wheels =
-        on_rail.filter_map(|wheel| Some((at(&wheel.name, "x")?, factor * at(&wheel.name, "vertical")?)));
+    let wheels = on_rail
+        .filter_map(|wheel| Some((at(&wheel.name, "x")?, factor * at(&wheel.name, "vertical")?)));
     let [from, to] = rail.range;
     let length = scene.units.label(Dimension::LENGTH);
     let sketch = RailSketch {

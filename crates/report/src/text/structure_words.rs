@@ -25,10 +25,18 @@ pub(super) fn structure_facts(
         Form::Girder(_) => "straight girder".to_owned(),
         Form::Frame(frame) => {
             let model = &frame.model;
-            format!("frame of {} members and {} supports", model.members.len(), model.supports.len())
+            format!(
+                "frame of {} members and {} supports",
+                model.members.len(),
+                model.supports.len()
+            )
         }
     };
-    let source = if file.is_empty() { String::new() } else { format!("{file}: ") };
+    let source = if file.is_empty() {
+        String::new()
+    } else {
+        format!("{file}: ")
+    };
     let mut out = vec![("structure", format!("{source}{form}, {theory}"))];
     let length = units.label(Dimension::LENGTH);
     let rails = spec.rails();
@@ -43,15 +51,27 @@ pub(super) fn structure_facts(
     out.push(if named.is_empty() {
         ("material", material)
     } else {
-        ("spans, material", format!("{} {length}; {material}", named.join("; ")))
+        (
+            "spans, material",
+            format!("{} {length}; {material}", named.join("; ")),
+        )
     });
     if let Form::Girder(girder) = &spec.form {
         let (area, by_area) = reading_unit(units, Dimension::AREA);
         let (inertia, by_inertia) = reading_unit(units, Dimension::of(4, 0, 0));
-        let mut text = format!("I_vertical {} {inertia}", digits(by_inertia * girder.i_vertical, DIGITS));
+        let mut text = format!(
+            "I_vertical {} {inertia}",
+            digits(by_inertia * girder.i_vertical, DIGITS)
+        );
         let others = [("I_lateral", girder.i_lateral), ("J", girder.j)];
-        for (name, value) in others.into_iter().filter_map(|(name, value)| Some((name, value?))) {
-            text.push_str(&format!(", {name} {} {inertia}", digits(by_inertia * value, DIGITS)));
+        for (name, value) in others
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, value?)))
+        {
+            text.push_str(&format!(
+                ", {name} {} {inertia}",
+                digits(by_inertia * value, DIGITS)
+            ));
         }
         if let Some(value) = girder.area {
             text.push_str(&format!(", A {} {area}", digits(by_area * value, DIGITS)));
@@ -65,12 +85,21 @@ pub(super) fn structure_facts(
 fn materials(spec: &Spec, units: Units) -> String {
     let mut all: Vec<f64> = match &spec.form {
         Form::Girder(girder) => vec![girder.e],
-        Form::Frame(frame) => frame.model.sections.iter().map(|section| section.e).collect(),
+        Form::Frame(frame) => frame
+            .model
+            .sections
+            .iter()
+            .map(|section| section.e)
+            .collect(),
     };
     all.sort_by(f64::total_cmp);
     all.dedup();
     let (unit, factor) = reading_unit(units, Dimension::STRESS);
-    let texts: Vec<String> = all.iter().take(MOST).map(|e| digits(factor * e, DIGITS)).collect();
+    let texts: Vec<String> = all
+        .iter()
+        .take(MOST)
+        .map(|e| digits(factor * e, DIGITS))
+        .collect();
     let more = if all.len() > MOST { " and others" } else { "" };
     format!("E = {}{more} {unit}, linear elastic", texts.join("; "))
 }
@@ -98,7 +127,10 @@ mod tests {
 
     #[test]
     fn equal_spans_are_counted() {
-        assert_eq!(span_words(&[0.0, 6.0, 13.5, 21.0, 27.0]), "6 + 2 \u{d7} 7.5 + 6");
+        assert_eq!(
+            span_words(&[0.0, 6.0, 13.5, 21.0, 27.0]),
+            "6 + 2 \u{d7} 7.5 + 6"
+        );
         assert_eq!(span_words(&[0.0, 24.0, 48.0, 72.0]), "3 \u{d7} 24");
     }
 }

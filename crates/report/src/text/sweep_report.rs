@@ -19,7 +19,11 @@ const FAILURES: usize = 10;
 /// The report of a sweep from its description, its table and its figures.
 #[must_use]
 pub fn sweep_report(info: &SweepInfo, table: &ResultTable, figures: SweepFigures<'_>) -> Report {
-    let SweepFigures { varying, constant, figures } = figures;
+    let SweepFigures {
+        varying,
+        constant,
+        figures,
+    } = figures;
     let mut sections = vec![overview(info, table)];
     sections.push(distributions(&varying, constant, figures));
     sections.push(governing(info, &varying));
@@ -49,24 +53,38 @@ fn overview(info: &SweepInfo, table: &ResultTable) -> ReportSection {
         table.failures.len()
     ));
     if made < info.runs {
-        section =
-            section.paragraph(format!("This is a part of the sweep: {made} of its {} runs.", info.runs));
+        section = section.paragraph(format!(
+            "This is a part of the sweep: {made} of its {} runs.",
+            info.runs
+        ));
     }
-    let rows = info
-        .axes
-        .iter()
-        .map(|[pointer, values]| vec![TableCell::from(pointer.clone()), TableCell::from(values.clone())]);
+    let rows = info.axes.iter().map(|[pointer, values]| {
+        vec![
+            TableCell::from(pointer.clone()),
+            TableCell::from(values.clone()),
+        ]
+    });
     section.table(ReportTable {
         caption: "What is varied, in the units of its file".to_owned(),
-        columns: vec![TableColumn::new("value in the files", ""), TableColumn::new("values", "")],
+        columns: vec![
+            TableColumn::new("value in the files", ""),
+            TableColumn::new("values", ""),
+        ],
         rows: rows.collect(),
     })
 }
 
 /// Distributions of all results, and pictures of the first that vary.
-fn distributions(varying: &[SweptResult<'_>], constant: usize, figures: Vec<RunFigure>) -> ReportSection {
+fn distributions(
+    varying: &[SweptResult<'_>],
+    constant: usize,
+    figures: Vec<RunFigure>,
+) -> ReportSection {
     let mut section = ReportSection::new("Distributions");
-    for RunFigure { picture, caption, .. } in figures {
+    for RunFigure {
+        picture, caption, ..
+    } in figures
+    {
         section = section.figure(picture, caption);
     }
     let columns = [
@@ -84,15 +102,37 @@ fn distributions(varying: &[SweptResult<'_>], constant: usize, figures: Vec<RunF
     let row = |result: &SweptResult<'_>| {
         let found = &result.statistics;
         let [_, q50, q95, q99] = found.quantiles;
-        let mut row = vec![TableCell::from(result.name), TableCell::from(result.unit.clone())];
-        row.push(result.as_written.map_or(TableCell::Empty, |value| digits(value, DIGITS).into()));
-        let numbers = [found.mean, found.deviation, found.least.0, q50, q95, q99, found.most.0];
+        let mut row = vec![
+            TableCell::from(result.name),
+            TableCell::from(result.unit.clone()),
+        ];
+        row.push(
+            result
+                .as_written
+                .map_or(TableCell::Empty, |value| digits(value, DIGITS).into()),
+        );
+        let numbers = [
+            found.mean,
+            found.deviation,
+            found.least.0,
+            q50,
+            q95,
+            q99,
+            found.most.0,
+        ];
         row.extend(numbers.map(|value| TableCell::from(digits(value, DIGITS))));
         row
     };
-    let unchanged = if constant > 0 { format!("; {constant} results do not vary") } else { String::new() };
+    let unchanged = if constant > 0 {
+        format!("; {constant} results do not vary")
+    } else {
+        String::new()
+    };
     section.table(ReportTable {
-        caption: format!("Distributions of the results over the runs{}{unchanged}", more(varying.len())),
+        caption: format!(
+            "Distributions of the results over the runs{}{unchanged}",
+            more(varying.len())
+        ),
         columns: columns.map(|name| TableColumn::new(name, "")).to_vec(),
         rows: varying.iter().take(ROWS).map(row).collect(),
     })
@@ -128,7 +168,10 @@ fn governing(info: &SweepInfo, varying: &[SweptResult<'_>]) -> ReportSection {
 
 /// How much each axis has to do with each result; `None` with too few runs.
 fn dependence(table: &ResultTable, varying: &[SweptResult<'_>]) -> Option<ReportSection> {
-    let known: Vec<_> = varying.iter().filter(|result| !result.sensitivities.is_empty()).collect();
+    let known: Vec<_> = varying
+        .iter()
+        .filter(|result| !result.sensitivities.is_empty())
+        .collect();
     if known.is_empty() {
         return None;
     }
@@ -146,15 +189,26 @@ fn dependence(table: &ResultTable, varying: &[SweptResult<'_>]) -> Option<Report
             .map(|result| {
                 let cells = result.sensitivities.iter();
                 let cells = cells.map(|one| cell(one).map_or(TableCell::Empty, TableCell::from));
-                [TableCell::from(result.name)].into_iter().chain(cells).collect()
+                [TableCell::from(result.name)]
+                    .into_iter()
+                    .chain(cells)
+                    .collect()
             })
             .collect(),
     };
     let rank = |one: &Sensitivity| {
-        let mark = if one.chance.is_some_and(|chance| chance < 0.01) { "" } else { " (chance)" };
-        one.rank_correlation.map(|value| format!("{value:.2}{mark}"))
+        let mark = if one.chance.is_some_and(|chance| chance < 0.01) {
+            ""
+        } else {
+            " (chance)"
+        };
+        one.rank_correlation
+            .map(|value| format!("{value:.2}{mark}"))
     };
-    let first = |one: &Sensitivity| one.first_order.map(|value| format!("{:.0} %", 100.0 * value));
+    let first = |one: &Sensitivity| {
+        one.first_order
+            .map(|value| format!("{:.0} %", 100.0 * value))
+    };
     let cut = more(known.len());
     Some(
         ReportSection::new("What the results depend on")
@@ -175,18 +229,22 @@ fn failures(table: &ResultTable) -> Option<ReportSection> {
         return None;
     }
     let rows = table.failures.iter().take(FAILURES);
-    let rows = rows.map(|(run, _, why)| vec![TableCell::from(*run), TableCell::from(why.clone())]).collect();
+    let rows = rows
+        .map(|(run, _, why)| vec![TableCell::from(*run), TableCell::from(why.clone())])
+        .collect();
     let count = table.failures.len();
     let cut = if count > FAILURES {
         format!("; the first {FAILURES} of {count}, all are in failures.csv")
     } else {
         String::new()
     };
-    Some(ReportSection::new("Runs without results").table(ReportTable {
-        caption: format!("Runs that have no results, with the reason{cut}"),
-        columns: vec![TableColumn::new("run", ""), TableColumn::new("reason", "")],
-        rows,
-    }))
+    Some(
+        ReportSection::new("Runs without results").table(ReportTable {
+            caption: format!("Runs that have no results, with the reason{cut}"),
+            columns: vec![TableColumn::new("run", ""), TableColumn::new("reason", "")],
+            rows,
+        }),
+    )
 }
 
 fn method(info: &SweepInfo) -> ReportSection {

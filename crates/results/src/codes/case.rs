@@ -59,7 +59,11 @@ impl<'c> CodeCase<'c> {
             gravity: scene.gravity,
             metre,
             phi2,
-            releases_load: scene.events.iter().flat_map(|event| &event.rule.actions).any(released),
+            releases_load: scene
+                .events
+                .iter()
+                .flat_map(|event| &event.rule.actions)
+                .any(released),
             full: crane.model.wheel_loads(1.0, 1.0).ok(),
         }
     }
@@ -100,7 +104,13 @@ impl<'c> CodeCase<'c> {
         let play = crane.flange_play[0].or(crane.flange_play[1]);
         let given = play.zip(self.practice.rail_head).and_then(|(play, head)| {
             let m = self.metre;
-            skew::angle(self.practice.guide, play * m, head * m, crane.wheel_base() * m).ok()
+            skew::angle(
+                self.practice.guide,
+                play * m,
+                head * m,
+                crane.wheel_base() * m,
+            )
+            .ok()
         });
         let angle = given.unwrap_or(skew::MAX_ANGLE);
         let full = self.full?;

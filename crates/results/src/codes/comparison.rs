@@ -36,14 +36,29 @@ impl CodeComparison {
 }
 
 /// Name, description, dimension, measured value and values by codes of a quantity.
-type ComparisonEntry = (&'static str, &'static str, Dimension, Option<TimedValue>, CodeValues);
+type ComparisonEntry = (
+    &'static str,
+    &'static str,
+    Dimension,
+    Option<TimedValue>,
+    CodeValues,
+);
 
 /// All quantities that were measured in the run, each with the values by codes.
 #[must_use]
 pub(super) fn comparisons(case: &CodeCase) -> Vec<CodeComparison> {
-    let list = dynamic_factors(case).into_iter().chain(forces(case)).chain(braking_distances(case));
+    let list = dynamic_factors(case)
+        .into_iter()
+        .chain(forces(case))
+        .chain(braking_distances(case));
     let measured = list.filter_map(|(name, what, dimension, measured, values)| {
-        Some(CodeComparison { name, what, dimension, measured: measured?, values: values.0 })
+        Some(CodeComparison {
+            name,
+            what,
+            dimension,
+            measured: measured?,
+            values: values.0,
+        })
     });
     measured.collect()
 }
@@ -58,8 +73,20 @@ fn dynamic_factors(case: &CodeCase) -> [ComparisonEntry; 4] {
     let dropped = "force of the lifted load on the trolley over its weight, smallest";
     [
         ("rail_factor", rail, number, measured.rail, case.vertical()),
-        ("wheel_factor", wheel, number, measured.wheel, case.vertical()),
-        ("load_factor", lifted, number, measured.load[0], case.lifting()),
+        (
+            "wheel_factor",
+            wheel,
+            number,
+            measured.wheel,
+            case.vertical(),
+        ),
+        (
+            "load_factor",
+            lifted,
+            number,
+            measured.load[0],
+            case.lifting(),
+        ),
         ("release_factor", dropped, number, released, case.release()),
     ]
 }
@@ -69,8 +96,20 @@ fn forces(case: &CodeCase) -> [ComparisonEntry; 5] {
     let (measured, force) = (case.measured, Dimension::FORCE);
     let collision = "force of the buffer between two cranes";
     [
-        ("lateral", "lateral force of all wheels together", force, measured.lateral, case.lateral()),
-        ("wheel_lateral", "lateral force of one wheel", force, measured.wheel_lateral, case.flange()),
+        (
+            "lateral",
+            "lateral force of all wheels together",
+            force,
+            measured.lateral,
+            case.lateral(),
+        ),
+        (
+            "wheel_lateral",
+            "lateral force of one wheel",
+            force,
+            measured.wheel_lateral,
+            case.flange(),
+        ),
         (
             "longitudinal",
             "force of the wheels along one rail",
@@ -78,8 +117,20 @@ fn forces(case: &CodeCase) -> [ComparisonEntry; 5] {
             measured.longitudinal,
             case.longitudinal(),
         ),
-        ("buffer", "force of the end stops together", force, measured.end_stops, case.buffer()),
-        ("collision", collision, force, measured.collision, case.collision()),
+        (
+            "buffer",
+            "force of the end stops together",
+            force,
+            measured.end_stops,
+            case.buffer(),
+        ),
+        (
+            "collision",
+            collision,
+            force,
+            measured.collision,
+            case.collision(),
+        ),
     ]
 }
 
@@ -90,7 +141,19 @@ fn braking_distances(case: &CodeCase) -> [ComparisonEntry; 2] {
     let bridge = "braking distance of the bridge to standstill";
     let trolley = "braking distance of the trolley to standstill";
     [
-        ("bridge_brake_way", bridge, length, measured(0), case.braking_distance(0)),
-        ("trolley_brake_way", trolley, length, measured(1), case.braking_distance(1)),
+        (
+            "bridge_brake_way",
+            bridge,
+            length,
+            measured(0),
+            case.braking_distance(0),
+        ),
+        (
+            "trolley_brake_way",
+            trolley,
+            length,
+            measured(1),
+            case.braking_distance(1),
+        ),
     ]
 }

@@ -57,7 +57,10 @@ pub struct CraneBuffer {
 /// Conversion factors from `units` to metres and newtons.
 #[must_use]
 pub(super) fn to_si(units: Units) -> Scale {
-    Scale { from: units, to: Units::SI }
+    Scale {
+        from: units,
+        to: Units::SI,
+    }
 }
 
 /// Root of each body of a scene, and the vector from the origin of the root to that of the body.
@@ -76,33 +79,57 @@ impl CraneData {
         record: &NamedColumns,
     ) -> Result<CraneData, Error> {
         let layout = ScenePositions::new(scene)?;
-        let roots: Vec<(usize, [f64; 3])> =
-            (0..scene.bodies.len()).map(|body| root_body(scene, body)).collect();
+        let roots: Vec<(usize, [f64; 3])> = (0..scene.bodies.len())
+            .map(|body| root_body(scene, body))
+            .collect();
         let fixed_weights = fixed_weights(scene, practice.crane, &layout, &roots);
-        let rail_positions = practice.rails.map(|rail| mean_lateral_position(scene, practice.crane, rail));
-        let trolley_line = practice.trolley.and_then(|trolley| trolley_line(scene, trolley, &layout));
+        let rail_positions = practice
+            .rails
+            .map(|rail| mean_lateral_position(scene, practice.crane, rail));
+        let trolley_line = practice
+            .trolley
+            .and_then(|trolley| trolley_line(scene, trolley, &layout));
         let wheels = practice.rails.map(|rail| {
             let wheels = input.wheels.iter().enumerate();
-            let own = wheels.filter(|(_, wheel)| roots[wheel.body].0 == practice.crane && wheel.rail == rail);
+            let own = wheels
+                .filter(|(_, wheel)| roots[wheel.body].0 == practice.crane && wheel.rail == rail);
             own.map(|(index, _)| index).collect::<Vec<usize>>()
         });
-        let kinds = wheels
+        let kinds = wheels.each_ref().map(|own| {
+            own.iter()
+                .map(|w| &scene.wheels[input.wheels[*w].kind])
+                .collect::<Vec<_>>()
+        });
+        let driven = kinds
             .each_ref()
-            .map(|own| own.iter().map(|w| &scene.wheels[input.wheels[*w].kind]).collect::<Vec<_>>());
-        let driven = kinds.each_ref().map(|own| own.iter().filter(|kind| kind.driven).count());
+            .map(|own| own.iter().filter(|kind| kind.driven).count());
         let frictions = kinds.iter().flatten().filter(|kind| kind.driven);
-        let friction = frictions.filter_map(|kind| Some(kind.friction.as_ref()?.mu)).reduce(f64::min);
+        let friction = frictions
+            .filter_map(|kind| Some(kind.friction.as_ref()?.mu))
+            .reduce(f64::min);
         let flange_play = kinds.each_ref().map(|own| {
-            let flanges = own.iter().filter_map(|kind| Some(2.0 * kind.lateral.as_ref()?.clearance));
+            let flanges = own
+                .iter()
+                .filter_map(|kind| Some(2.0 * kind.lateral.as_ref()?.clearance));
             flanges.reduce(f64::max)
         });
-        let nearest = practice.trolley.zip(trolley_line).map(|(trolley, [origin, slope])| {
-            let places = record.part(&scene.bodies[trolley].name, "x").iter().map(|x| origin + slope * x);
-            places.flat_map(|z| rail_positions.map(|rail| (z - rail).abs())).fold(f64::INFINITY, f64::min)
-        });
+        let nearest = practice
+            .trolley
+            .zip(trolley_line)
+            .map(|(trolley, [origin, slope])| {
+                let places = record
+                    .part(&scene.bodies[trolley].name, "x")
+                    .iter()
+                    .map(|x| origin + slope * x);
+                places
+                    .flat_map(|z| rail_positions.map(|rail| (z - rail).abs()))
+                    .fold(f64::INFINITY, f64::min)
+            });
         let weight = |counts: &dyn Fn(usize) -> bool| -> f64 {
             let bodies = (0..roots.len()).filter(|body| counts(*body));
-            bodies.map(|body| scene.bodies[body].mass * scene.gravity).sum()
+            bodies
+                .map(|body| scene.bodies[body].mass * scene.gravity)
+                .sum()
         };
         let span = (rail_positions[0] - rail_positions[1]).abs();
         let model = practice::Crane {
@@ -110,7 +137,11 @@ impl CraneData {
             trolley: weight(&|body| practice.trolley == Some(roots[body].0)),
             bridge: fixed_weights.iter().map(|[_, weight]| weight).sum(),
             span,
-            approach: practice.approach.or(nearest).unwrap_or(0.5 * span).min(span),
+            approach: practice
+                .approach
+                .or(nearest)
+                .unwrap_or(0.5 * span)
+                .min(span),
             wheels: u32::try_from(wheels[0].len().max(wheels[1].len())).unwrap_or(u32::MAX),
         };
         Ok(CraneData {
@@ -152,7 +183,12 @@ impl CraneData {
 }
 
 /// Weights at fixed positions on the bridge, with the structures that it carries: (lateral coordinate, weight).
-fn fixed_weights(scene: &Scene, crane: usize, layout: &ScenePositions, roots: &Roots) -> Vec<[f64; 2]> {
+fn fixed_weights(
+    scene: &Scene,
+    crane: usize,
+    layout: &ScenePositions,
+    roots: &Roots,
+) -> Vec<[f64; 2]> {
     let g = scene.gravity;
     let mut weights: Vec<[f64; 2]> = scene
         .bodies
@@ -186,47 +222,80 @@ fn wheel_distances(scene: &Scene, practice: &Practice, roots: &Roots) -> Vec<f64
         .iter()
         .filter(|truck| roots[truck.body].0 == practice.crane && truck.rail == practice.rails[0]);
     let mut places: Vec<f64> = trucks
-        .flat_map(|truck| truck.wheel_offsets().into_iter().map(|x| x + roots[truck.body].1[0]))
+        .flat_map(|truck| {
+            truck
+                .wheel_offsets()
+                .into_iter()
+                .map(|x| x + roots[truck.body].1[0])
+        })
         .collect();
     places.sort_by(|a, b| b.total_cmp(a));
     places.iter().map(|x| places[0] - x).collect()
 }
 
 /// The first buffer between the crane and another body.
-fn crane_buffer(scene: &Scene, practice: &Practice, layout: &ScenePositions) -> Option<CraneBuffer> {
+fn crane_buffer(
+    scene: &Scene,
+    practice: &Practice,
+    layout: &ScenePositions,
+) -> Option<CraneBuffer> {
     let met = scene.stops.iter().enumerate().find_map(|(index, stop)| {
         let meeting = stop.points.first()?;
         let pair = [stop.against?, meeting.body];
         let other = pair.into_iter().find(|body| *body != practice.crane)?;
-        pair.contains(&practice.crane).then_some((index, stop.stiffness, other))
+        pair.contains(&practice.crane)
+            .then_some((index, stop.stiffness, other))
     });
     let (stop, stiffness, other) = met?;
-    let own = scene.bodies.iter().enumerate().filter(|(body, _)| root_body(scene, *body).0 == other);
+    let own = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(body, _)| root_body(scene, *body).0 == other);
     let mass: f64 = own.map(|(_, body)| body.mass).sum();
     let carried: f64 = layout.carried(other).map(|mount| mount.mass[1][1]).sum();
     let speed = commanded_speed(scene, other).unwrap_or_default();
-    Some(CraneBuffer { stop, stiffness, weight: (mass + carried) * scene.gravity, speed })
+    Some(CraneBuffer {
+        stop,
+        stiffness,
+        weight: (mass + carried) * scene.gravity,
+        speed,
+    })
 }
 
 /// Largest commanded speed of the drive of a body.
 fn commanded_speed(scene: &Scene, body: usize) -> Option<f64> {
-    let BodyMotion::Driven(drive) = &scene.bodies[body].motion else { return None };
-    drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
+    let BodyMotion::Driven(drive) = &scene.bodies[body].motion else {
+        return None;
+    };
+    drive
+        .speed
+        .breaks()
+        .map(|t| drive.speed.at(t).abs())
+        .reduce(f64::max)
 }
 
 /// Rated speeds of bridge, trolley and hoist, or the largest speeds commanded to drives and hoists where none are
 /// specified.
 fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
-    let switched =
-        scene.events.iter().flat_map(|event| &event.rule.actions).filter_map(|action| match action {
+    let switched = scene
+        .events
+        .iter()
+        .flat_map(|event| &event.rule.actions)
+        .filter_map(|action| match action {
             Action::Hoist { speed, .. } => Some(speed.abs()),
             _ => None,
         });
-    let tables = scene.ropes.iter().flat_map(|rope| rope.speed.breaks().map(|t| rope.speed.at(t).abs()));
+    let tables = scene
+        .ropes
+        .iter()
+        .flat_map(|rope| rope.speed.breaks().map(|t| rope.speed.at(t).abs()));
     let hoist = tables.chain(switched).fold(0.0, f64::max);
     let commanded = [
         commanded_speed(scene, practice.crane),
-        practice.trolley.and_then(|body| commanded_speed(scene, body)),
+        practice
+            .trolley
+            .and_then(|body| commanded_speed(scene, body)),
         Some(hoist),
     ];
     std::array::from_fn(|k| practice.speeds[k].or(commanded[k].filter(|speed| *speed > 0.0)))
@@ -244,7 +313,11 @@ impl CraneData {
             ("approach", self.model.approach, Dimension::LENGTH),
             ("wheels", f64::from(self.model.wheels), Dimension::NUMBER),
             ("wheel_base", self.wheel_base(), Dimension::LENGTH),
-            ("driven_wheels", (self.driven[0] + self.driven[1]) as f64, Dimension::NUMBER),
+            (
+                "driven_wheels",
+                (self.driven[0] + self.driven[1]) as f64,
+                Dimension::NUMBER,
+            ),
         ];
         let words = ["bridge_speed", "trolley_speed", "hoist_speed"];
         let speeds = words.into_iter().zip(self.speeds);

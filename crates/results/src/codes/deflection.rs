@@ -8,8 +8,8 @@ use design::clause_json;
 use foundations::SolvedModel;
 use practice::aist::{BuildingClass, CraneKind};
 use practice::limits::{
-    CMAA_LIMITS, DeflectionLimit, EN_1993_6_LIMITS, GantryCrane, LimitedDisplacement, design_guide_limits,
-    is_800_limits, mill_limits,
+    CMAA_LIMITS, DeflectionLimit, EN_1993_6_LIMITS, GantryCrane, LimitedDisplacement,
+    design_guide_limits, is_800_limits, mill_limits,
 };
 use serde_json::{Value, json};
 use sim::History;
@@ -105,7 +105,8 @@ pub struct SpanResponse<'r> {
 
 /// All limits of the codes for a crane.
 fn all_limits(practice: &Practice, crane: &CraneData, units: Units) -> Vec<DeflectionLimit> {
-    let mut limits: Vec<DeflectionLimit> = EN_1993_6_LIMITS.into_iter().chain(CMAA_LIMITS).collect();
+    let mut limits: Vec<DeflectionLimit> =
+        EN_1993_6_LIMITS.into_iter().chain(CMAA_LIMITS).collect();
     limits.extend(practice.class.into_iter().flat_map(design_guide_limits));
     match practice.building_class {
         Some(building) => limits.extend(mill_limits(building)),
@@ -137,18 +138,31 @@ pub(super) fn static_deflections(
     let loads = StaticLoads::new(scene, practice, input, crane);
     let reader = WheelLoadReader::new(scene, input, run.history);
     let mut found = Vec::new();
-    for known in run.deflections.iter().filter(|known| known.direction == "vertical") {
-        let Some(rail) = scene.rails.iter().position(|rail| rail.name == known.rail) else { continue };
+    for known in run
+        .deflections
+        .iter()
+        .filter(|known| known.direction == "vertical")
+    {
+        let Some(rail) = scene.rails.iter().position(|rail| rail.name == known.rail) else {
+            continue;
+        };
         let carrier = scene.structures[scene.rails[rail].structure].carrier;
         let kinds: &[LimitedDisplacement] = if practice.rails.contains(&rail) {
-            &[LimitedDisplacement::RunwayVertical, LimitedDisplacement::RunwayLateral]
+            &[
+                LimitedDisplacement::RunwayVertical,
+                LimitedDisplacement::RunwayLateral,
+            ]
         } else if carrier.is_some_and(|carrier| carrier.body == practice.crane) {
             &[LimitedDisplacement::BridgeGirder]
         } else {
             &[]
         };
         for &displacement in kinds {
-            let span = Span { rail, ends: known.span, displacement };
+            let span = Span {
+                rail,
+                ends: known.span,
+                displacement,
+            };
             found.extend(span.largest(scene, &loads, &reader, run, &limits));
         }
     }
@@ -164,7 +178,12 @@ struct StaticLoads {
 }
 
 impl StaticLoads {
-    fn new(scene: &Scene, practice: &Practice, input: &SimulationInput, crane: &CraneData) -> StaticLoads {
+    fn new(
+        scene: &Scene,
+        practice: &Practice,
+        input: &SimulationInput,
+        crane: &CraneData,
+    ) -> StaticLoads {
         let on_trolley: Vec<usize> = (0..input.wheels.len())
             .filter(|w| practice.trolley == Some(root_body(scene, input.wheels[*w].body).0))
             .collect();
@@ -174,11 +193,16 @@ impl StaticLoads {
             on_trolley.iter().for_each(|w| loads[*w] = moving);
             if let Ok(full) = crane.model.wheel_loads(1.0, 1.0) {
                 crane.wheels[at].iter().for_each(|w| loads[*w] = full.near);
-                crane.wheels[1 - at].iter().for_each(|w| loads[*w] = full.far);
+                crane.wheels[1 - at]
+                    .iter()
+                    .for_each(|w| loads[*w] = full.far);
             }
             loads
         });
-        StaticLoads { near, rails: practice.rails }
+        StaticLoads {
+            near,
+            rails: practice.rails,
+        }
     }
 
     /// Loads of all wheels with the trolley at its nearest approach to `rail`.
@@ -213,8 +237,10 @@ impl Span {
         let metre = to_si(scene.units).factor(Dimension::LENGTH);
         let allowable = |limit: &DeflectionLimit| {
             let value = limit.allowable((to - from) * metre).ok()? / metre;
-            (limit.displacement == self.displacement)
-                .then_some(AllowableDisplacement { limit: *limit, value })
+            (limit.displacement == self.displacement).then_some(AllowableDisplacement {
+                limit: *limit,
+                value,
+            })
         };
         let mut largest = StaticDeflection {
             displacement: self.displacement,
@@ -237,7 +263,12 @@ impl Span {
                 .collect();
             let (x, value) = self.deflection(surface, rail.rail, &wheels)?;
             if value > largest.value {
-                largest = StaticDeflection { value, x, time: sample[0], ..largest };
+                largest = StaticDeflection {
+                    value,
+                    x,
+                    time: sample[0],
+                    ..largest
+                };
             }
         }
         Some(largest)
@@ -253,17 +284,40 @@ impl Span {
     ) -> Option<(f64, f64)> {
         let [from, to] = self.ends;
         let lateral = self.displacement == LimitedDisplacement::RunwayLateral;
-        let axis = if lateral { Axis::Lateral } else { Axis::Vertical };
+        let axis = if lateral {
+            Axis::Lateral
+        } else {
+            Axis::Vertical
+        };
         let is_inside = |load: &WheelLoad| load.rail == rail && load.x > from && load.x < to;
-        let mut places: Vec<f64> =
-            (0..=PLACES + 1).map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64).collect();
-        places.extend(wheels.iter().filter(|(load, _)| is_inside(load)).map(|(load, _)| load.x));
+        let mut places: Vec<f64> = (0..=PLACES + 1)
+            .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
+            .collect();
+        places.extend(
+            wheels
+                .iter()
+                .filter(|(load, _)| is_inside(load))
+                .map(|(load, _)| load.x),
+        );
         let at: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
-        let on = wheels.iter().filter(|(load, _)| !lateral || load.rail == rail);
+        let on = wheels
+            .iter()
+            .filter(|(load, _)| !lateral || load.rail == rail);
         let loads: Vec<(Probe, f64)> = on
             .map(|(load, force)| {
-                let force = if lateral { LATERAL_FRACTION * force } else { 0.0 - force };
-                (Probe { rail: load.rail, x: load.x, axis }, force)
+                let force = if lateral {
+                    LATERAL_FRACTION * force
+                } else {
+                    0.0 - force
+                };
+                (
+                    Probe {
+                        rail: load.rail,
+                        x: load.x,
+                        axis,
+                    },
+                    force,
+                )
             })
             .collect();
         let mut moved = vec![0.0; at.len()];

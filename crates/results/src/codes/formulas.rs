@@ -1,7 +1,8 @@
 //! Formulas of design codes for the quantities of a run, one method for each quantity.
 
 use practice::clause::{
-    Evidence, FEM_SKEW, aist_2021, asce_7, cmaa_1983, cmaa_2010, en_1991_3, mechanics, osha as osha_clause,
+    Evidence, FEM_SKEW, aist_2021, asce_7, cmaa_1983, cmaa_2010, en_1991_3, mechanics,
+    osha as osha_clause,
 };
 use practice::skew::Guide;
 use practice::{aist, asce, buffer, cmaa, factor, osha, skew};
@@ -13,7 +14,9 @@ use Evidence::{Memory, Quoted, Used};
 
 /// How the row of TR-13 for the kind of crane was checked.
 pub(super) fn aist_evidence(kind: aist::CraneKind) -> Evidence {
-    use aist::CraneKind::{Bucket, Ladle, Mill, MotorRoom, Pendant, SoakingPit, Stacker, Stripping};
+    use aist::CraneKind::{
+        Bucket, Ladle, Mill, MotorRoom, Pendant, SoakingPit, Stacker, Stripping,
+    };
     match kind {
         Mill | MotorRoom => Quoted,
         Bucket | Stacker | Pendant => Used,
@@ -25,8 +28,13 @@ impl CodeCase<'_> {
     /// Factors on the static vertical force of a wheel or rail.
     pub fn vertical(&self) -> CodeValues {
         let [hoist, dead] = [self.hoist_load_factor(), self.dead_load_factor()];
-        let least =
-            |speed: Option<f64>| if speed.is_none() { format!(" ({NO_SPEED})") } else { String::new() };
+        let least = |speed: Option<f64>| {
+            if speed.is_none() {
+                format!(" ({NO_SPEED})")
+            } else {
+                String::new()
+            }
+        };
         let [of_dead, of_hoist] = [least(self.crane.speeds[0]), least(self.crane.speeds[2])];
         let kind = self.practice.kind;
         let impact = self.operation().impact();
@@ -65,8 +73,16 @@ impl CodeCase<'_> {
     pub fn lifting(&self) -> CodeValues {
         let hoist = self.crane.speeds[2].map(|_| 1.0 + self.hoist_load_factor());
         CodeValues::default()
-            .add(en_1991_3("Tables 2.4, 2.5", Used), "phi2 = phi2,min + beta2 v", self.phi2)
-            .add(cmaa_2010("3.3.2.1.4.2", Quoted), "1 + HLF, 0.5 % per ft/min within 15 and 50 %", hoist)
+            .add(
+                en_1991_3("Tables 2.4, 2.5", Used),
+                "phi2 = phi2,min + beta2 v",
+                self.phi2,
+            )
+            .add(
+                cmaa_2010("3.3.2.1.4.2", Quoted),
+                "1 + HLF, 0.5 % per ft/min within 15 and 50 %",
+                hoist,
+            )
     }
 
     /// Factor on the load after it is released.
@@ -85,7 +101,9 @@ impl CodeCase<'_> {
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
         let fractions = self.practice.kind.fractions();
         let rule = match self.practice.kind {
-            aist::CraneKind::Pendant => format!("{} (Q + T + B), pendant-operated", fractions.crane),
+            aist::CraneKind::Pendant => {
+                format!("{} (Q + T + B), pendant-operated", fractions.crane)
+            }
             _ => format!(
                 "largest of {} Q, {} (Q + T), {} (Q + T + B)",
                 fractions.lifted, fractions.trolley, fractions.crane
@@ -102,7 +120,11 @@ impl CodeCase<'_> {
                 "0.1 (Q + T), the trolley accelerates or meets its buffers",
                 buffer::trolley_force(crane.lifted, crane.trolley).ok(),
             )
-            .add(asce_7("4.9.4", Used), "0.2 (Q + T)", asce::lateral_force(crane.lifted, crane.trolley).ok())
+            .add(
+                asce_7("4.9.4", Used),
+                "0.2 (Q + T)",
+                asce::lateral_force(crane.lifted, crane.trolley).ok(),
+            )
     }
 
     /// Lateral force of one wheel.
@@ -111,8 +133,9 @@ impl CodeCase<'_> {
         let near = self.full.map(|full| full.near);
         let of_near = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
         let forces = self.skewing();
-        let at_angle =
-            forces.as_ref().map_or_else(String::new, |found| format!(" at {:.4} rad", found.angle));
+        let at_angle = forces
+            .as_ref()
+            .map_or_else(String::new, |found| format!(" at {:.4} rad", found.angle));
         let on_rail = match self.practice.guide {
             Guide::Flanges => "net force on the rail at the front flange, S - H_S,1,1,T",
             Guide::Rollers => "H_S,1,1,T of the front wheel; the guide roller carries S",
@@ -125,7 +148,11 @@ impl CodeCase<'_> {
                 format!("guide force S = f lambda_S sum Q{at_angle}"),
                 forces.as_ref().map(|found| found.guide),
             )
-            .add(clause, format!("{on_rail}{at_angle}"), forces.as_ref().map(|found| found.rail))
+            .add(
+                clause,
+                format!("{on_rail}{at_angle}"),
+                forces.as_ref().map(|found| found.rail),
+            )
             .add(
                 clause,
                 format!("H_S,2,1,T of the front wheel on the other rail{at_angle}"),
@@ -162,13 +189,21 @@ impl CodeCase<'_> {
         let all = self.crane.wheels[0].len().max(self.crane.wheels[1].len());
         CodeValues::default()
             .add(
-                en_1991_3("2.7.2, 2.7.3, Table 2.6", if phi5 == 1.5 { Used } else { Memory }),
-                format!("H_L = phi5 K/n_r, phi5 = {phi5}, K by the least wheel loads of the empty crane"),
+                en_1991_3(
+                    "2.7.2, 2.7.3, Table 2.6",
+                    if phi5 == 1.5 { Used } else { Memory },
+                ),
+                format!(
+                    "H_L = phi5 K/n_r, phi5 = {phi5}, K by the least wheel loads of the empty crane"
+                ),
                 self.drives().map(|drives| drives.along),
             )
             .add(
                 aist_2021("3.7.2, Table 3.2", aist_evidence(kind)),
-                format!("{} of the largest loads of the driven wheels", kind.fractions().traction),
+                format!(
+                    "{} of the largest loads of the driven wheels",
+                    kind.fractions().traction
+                ),
                 loads(most).and_then(|loads| aist::tractive_force(kind, &loads).ok()),
             )
             .add(
@@ -188,7 +223,8 @@ impl CodeCase<'_> {
         };
         let rated = |fraction: f64| self.crane.speeds[0].map(|speed| fraction * speed);
         let phi7 = buffer::phi7(0.5).ok();
-        let by_phi7 = |speed: Option<f64>, mass: f64| phi7.and_then(|phi7| force(phi7, speed, mass));
+        let by_phi7 =
+            |speed: Option<f64>, mass: f64| phi7.and_then(|phi7| force(phi7, speed, mass));
         let clause = en_1991_3("2.11.1, Table 2.10", Used);
         let code = rated(buffer::END_STOP_SPEED);
         let question = "m with the hoisted load, if it cannot swing; EN 13001-2 and CMAA 70 leave out a load that \
@@ -236,27 +272,36 @@ impl CodeCase<'_> {
 
     /// Force of bumpers that stop `mass` within their stroke.
     fn bumper_force(&self, speed: Option<f64>, mass: f64) -> Option<f64> {
-        let (stroke, efficiency) = (self.practice.bumper_stroke?, self.practice.bumper_efficiency);
+        let (stroke, efficiency) = (
+            self.practice.bumper_stroke?,
+            self.practice.bumper_efficiency,
+        );
         buffer::stopping_force(mass, speed?, stroke, efficiency).ok()
     }
 
     /// Force of the buffer between two cranes that collide.
     pub fn collision(&self) -> CodeValues {
-        let energy = self.crane.buffer.zip(self.crane.speeds[0]).and_then(|(other, speed)| {
-            let crane = &self.crane.model;
-            let own = (crane.bridge + crane.trolley) / self.gravity;
-            cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed]).ok()
-        });
+        let energy = self
+            .crane
+            .buffer
+            .zip(self.crane.speeds[0])
+            .and_then(|(other, speed)| {
+                let crane = &self.crane.model;
+                let own = (crane.bridge + crane.trolley) / self.gravity;
+                cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed])
+                    .ok()
+            });
         let force = energy.zip(self.crane.buffer);
         let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
-        let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
+        let formula =
+            "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
         CodeValues::default().add(cmaa_1983("3.3.2.1.3.2", Quoted), formula, force)
     }
 
     /// Limit of the braking distance of bridge (0) or trolley (1) to standstill.
     pub fn braking_distance(&self, body: usize) -> CodeValues {
-        let limit =
-            self.measured.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
+        let limit = self.measured.brakes[body]
+            .and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
         CodeValues::default().add(
             osha_clause("(f)(4)(vii)"),
             "at most the distance of 6 s at the speed when the brakes are applied",

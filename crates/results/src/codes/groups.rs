@@ -19,15 +19,24 @@ pub struct CraneLoadGroup {
 
 impl CraneLoadGroup {
     fn new(group: LoadGroup, crane: &DynamicFactors) -> CraneLoadGroup {
-        let factors = group.loads.iter().map(|factored| (factored.load.word(), factored.factor.value(crane)));
-        CraneLoadGroup { factors: factors.collect(), group }
+        let factors = group
+            .loads
+            .iter()
+            .map(|factored| (factored.load.word(), factored.factor.value(crane)));
+        CraneLoadGroup {
+            factors: factors.collect(),
+            group,
+        }
     }
 
     /// As an item of `load_groups`.
     pub(super) fn json(&self) -> Value {
         let mut members = clause_json(&self.group.clause);
-        let factors: Map<String, Value> =
-            self.factors.iter().map(|(name, factor)| ((*name).to_owned(), json!(factor + 0.0))).collect();
+        let factors: Map<String, Value> = self
+            .factors
+            .iter()
+            .map(|(name, factor)| ((*name).to_owned(), json!(factor + 0.0)))
+            .collect();
         members["name"] = json!(self.group.name);
         members["factors"] = Value::Object(factors);
         members
@@ -41,9 +50,17 @@ pub(super) fn load_groups(case: &CodeCase) -> Vec<CraneLoadGroup> {
     let known = case.phi2.and_then(of_phi2);
     let mut groups: Vec<CraneLoadGroup> = Vec::new();
     if let Some(crane) = &known {
-        groups.extend(eurocode_groups().into_iter().map(|group| CraneLoadGroup::new(group, crane)));
+        groups.extend(
+            eurocode_groups()
+                .into_iter()
+                .map(|group| CraneLoadGroup::new(group, crane)),
+        );
     }
     // the factors of TR-13 are numbers, which do not depend on phi2
-    groups.extend(known.or_else(|| of_phi2(1.0)).map(|crane| CraneLoadGroup::new(mill_fatigue(), &crane)));
+    groups.extend(
+        known
+            .or_else(|| of_phi2(1.0))
+            .map(|crane| CraneLoadGroup::new(mill_fatigue(), &crane)),
+    );
     groups
 }

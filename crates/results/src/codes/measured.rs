@@ -63,10 +63,15 @@ impl MeasuredCrane {
             .map(|(w, _)| w)
             .collect();
         let mut out = MeasuredCrane::default();
-        let positions = practice.trolley.map(|trolley| record.part(&scene.bodies[trolley].name, "x"));
+        let positions = practice
+            .trolley
+            .map(|trolley| record.part(&scene.bodies[trolley].name, "x"));
         for (row, &t) in time.iter().enumerate() {
             let x = positions.and_then(|positions| positions.get(row));
-            let z = crane.trolley_line.zip(x).map(|([origin, slope], x)| origin + slope * x);
+            let z = crane
+                .trolley_line
+                .zip(x)
+                .map(|([origin, slope], x)| origin + slope * x);
             out.add_rail_forces(crane, &forces, z, row, t);
             if !trolley_wheels.is_empty() && crane.model.lifted > 0.0 {
                 out.add_load_factor(crane, forces.sum(&trolley_wheels, VERTICAL, row), t);
@@ -75,7 +80,9 @@ impl MeasuredCrane {
         out.add_end_stops(scene, practice, record);
         if let Some(buffer) = crane.buffer {
             let force = record.part(&scene.stops[buffer.stop].name, "force");
-            time.iter().zip(force).for_each(|(t, force)| raise(&mut out.collision, *force, *t));
+            time.iter()
+                .zip(force)
+                .for_each(|(t, force)| raise(&mut out.collision, *force, *t));
         }
         let bodies = [Some(practice.crane), practice.trolley];
         out.brakes = bodies.map(|body| braking_distance(record, &scene.bodies[body?].name));
@@ -108,10 +115,18 @@ impl MeasuredCrane {
                 let force = forces.sum(&[w], VERTICAL, row);
                 rail += force;
                 raise(&mut self.wheel, force * own.len() as f64 / static_force, t);
-                raise(&mut self.wheel_lateral, forces.sum(&[w], LATERAL, row).abs(), t);
+                raise(
+                    &mut self.wheel_lateral,
+                    forces.sum(&[w], LATERAL, row).abs(),
+                    t,
+                );
             }
             raise(&mut self.rail, rail / static_force, t);
-            raise(&mut self.longitudinal, forces.sum(own, TRACTION, row).abs(), t);
+            raise(
+                &mut self.longitudinal,
+                forces.sum(own, TRACTION, row).abs(),
+                t,
+            );
             lateral += forces.sum(own, LATERAL, row);
         }
         raise(&mut self.lateral, lateral.abs(), t);
@@ -122,9 +137,15 @@ impl MeasuredCrane {
     fn add_load_factor(&mut self, crane: &CraneData, force: f64, t: f64) {
         let factor = (force - crane.model.trolley) / crane.model.lifted;
         raise(&mut self.load[0], factor, t);
-        let mut least = self.load[1].map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
+        let mut least = self.load[1].map(|mark| TimedValue {
+            value: 0.0 - mark.value,
+            ..mark
+        });
         raise(&mut least, 0.0 - factor, t);
-        self.load[1] = least.map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
+        self.load[1] = least.map(|mark| TimedValue {
+            value: 0.0 - mark.value,
+            ..mark
+        });
     }
 
     /// Adds the forces of the end stops of the crane's rails, and the speed at which they are met.
@@ -149,13 +170,20 @@ impl<'r> WheelForces<'r> {
     fn new(input: &SimulationInput, record: &'r NamedColumns) -> WheelForces<'r> {
         let parts = ["vertical", "lateral", "traction"];
         WheelForces(
-            input.wheels.iter().map(|wheel| parts.map(|part| record.part(&wheel.name, part))).collect(),
+            input
+                .wheels
+                .iter()
+                .map(|wheel| parts.map(|part| record.part(&wheel.name, part)))
+                .collect(),
         )
     }
 
     /// Sum of one component over several wheels at one output time; a missing column counts as zero.
     fn sum(&self, wheels: &[usize], component: usize, row: usize) -> f64 {
-        wheels.iter().map(|w| self.0[*w][component].get(row).copied().unwrap_or_default()).sum()
+        wheels
+            .iter()
+            .map(|w| self.0[*w][component].get(row).copied().unwrap_or_default())
+            .sum()
     }
 }
 
@@ -186,9 +214,22 @@ fn acceleration(record: &NamedColumns, body: &str) -> Option<f64> {
 /// Braking distance of a body with the time of its standstill, and its speed when the brakes are applied.
 fn braking_distance(record: &NamedColumns, body: &str) -> Option<(TimedValue, f64)> {
     let [x, speed, brake] = ["x", "speed", "brake"].map(|part| record.part(body, part));
-    let on = brake.iter().position(|force| *force != 0.0)?.saturating_sub(1);
+    let on = brake
+        .iter()
+        .position(|force| *force != 0.0)?
+        .saturating_sub(1);
     let first = speed.get(on)?.abs();
-    let rest = speed.iter().skip(on).position(|speed| speed.abs() <= STANDSTILL * first)? + on;
+    let rest = speed
+        .iter()
+        .skip(on)
+        .position(|speed| speed.abs() <= STANDSTILL * first)?
+        + on;
     let time = *record.values("time").get(rest)?;
-    (first > 0.0).then_some((TimedValue { value: (x[rest] - x[on]).abs(), time }, first))
+    (first > 0.0).then_some((
+        TimedValue {
+            value: (x[rest] - x[on]).abs(),
+            time,
+        },
+        first,
+    ))
 }

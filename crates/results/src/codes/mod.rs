@@ -64,7 +64,9 @@ impl CodeCheck {
         record: &NamedColumns,
         run: &SpanResponse<'_>,
     ) -> Result<Option<CodeCheck>, Error> {
-        let Some(practice) = &scene.practice else { return Ok(None) };
+        let Some(practice) = &scene.practice else {
+            return Ok(None);
+        };
         let crane = CraneData::new(scene, practice, input, record)?;
         let measured = MeasuredCrane::new(scene, practice, input, &crane, record);
         let case = CodeCase::new(scene, practice, &crane, &measured);
@@ -72,17 +74,35 @@ impl CodeCheck {
         let groups = groups::load_groups(&case);
         let limits = deflection::static_deflections(scene, practice, input, &crane, run);
         let left_out = left_out(practice, &case);
-        Ok(Some(CodeCheck { crane, factors, rows, groups, limits, left_out }))
+        Ok(Some(CodeCheck {
+            crane,
+            factors,
+            rows,
+            groups,
+            limits,
+            left_out,
+        }))
     }
 
     /// As the member `practice` of a run's summary.
     #[must_use]
     pub fn json(&self) -> serde_json::Value {
-        let crane: Map<_, _> =
-            self.crane.list().into_iter().map(|(name, value, _)| (name.to_owned(), json!(value))).collect();
-        let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
-        let factors: Map<_, _> =
-            self.factors.iter().map(|factor| (factor.name.to_owned(), factor.value.json())).collect();
+        let crane: Map<_, _> = self
+            .crane
+            .list()
+            .into_iter()
+            .map(|(name, value, _)| (name.to_owned(), json!(value)))
+            .collect();
+        let rows: Map<_, _> = self
+            .rows
+            .iter()
+            .map(|row| (row.name.to_owned(), row.json()))
+            .collect();
+        let factors: Map<_, _> = self
+            .factors
+            .iter()
+            .map(|factor| (factor.name.to_owned(), factor.value.json()))
+            .collect();
         let approach_is_from_run = self.crane.approach_is_from_run;
         json!({
             "factors": factors,
@@ -99,14 +119,29 @@ impl CodeCheck {
 /// Values that are left out because the scene does not give what they need.
 fn left_out(practice: &Practice, case: &CodeCase<'_>) -> Vec<&'static str> {
     let all = [
-        (case.phi2.is_none(), "phi2, phi6 and groups of EN 1991-3: need hoisting and hoist_speed"),
-        (practice.s_class.is_none(), "damage-equivalent wheel loads of EN 1991-3: need s_class"),
-        (practice.class.is_none(), "limits of AISC Design Guide 7: need class"),
+        (
+            case.phi2.is_none(),
+            "phi2, phi6 and groups of EN 1991-3: need hoisting and hoist_speed",
+        ),
+        (
+            practice.s_class.is_none(),
+            "damage-equivalent wheel loads of EN 1991-3: need s_class",
+        ),
+        (
+            practice.class.is_none(),
+            "limits of AISC Design Guide 7: need class",
+        ),
         (
             practice.building_class.is_none(),
             "limits of AIST TR-13 are those of classes A and B, and of C and D: building_class selects",
         ),
-        (practice.bumper_stroke.is_none(), "stopping force of bumpers: needs bumper_stroke"),
+        (
+            practice.bumper_stroke.is_none(),
+            "stopping force of bumpers: needs bumper_stroke",
+        ),
     ];
-    all.into_iter().filter(|(is_missing, _)| *is_missing).map(|(_, words)| words).collect()
+    all.into_iter()
+        .filter(|(is_missing, _)| *is_missing)
+        .map(|(_, words)| words)
+        .collect()
 }

@@ -36,7 +36,11 @@ impl CodeValues {
         value: Option<f64>,
     ) -> CodeValues {
         if let Some(value) = value.filter(|value| value.is_finite()) {
-            self.0.push(CodeValue { clause, formula: formula.into(), value });
+            self.0.push(CodeValue {
+                clause,
+                formula: formula.into(),
+                value,
+            });
         }
         self
     }

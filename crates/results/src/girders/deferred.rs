@@ -25,7 +25,10 @@ pub(crate) struct DeferredGirders {
 impl DeferredGirders {
     /// Extremes that are still to be computed.
     pub fn of(inputs: GirderInputs) -> DeferredGirders {
-        DeferredGirders { found: OnceLock::new(), inputs: Mutex::new(Some(Box::new(inputs))) }
+        DeferredGirders {
+            found: OnceLock::new(),
+            inputs: Mutex::new(Some(Box::new(inputs))),
+        }
     }
 
     /// The extremes, which the first who asks computes. `input` and `history` are those of the run, `columns` the
@@ -62,7 +65,10 @@ impl DeferredGirders {
 
     /// Takes what is needed of a history before its owner drops it.
     pub fn keep_rows(&mut self, history: &mut History) {
-        let inputs = self.inputs.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let inputs = self
+            .inputs
+            .get_mut()
+            .unwrap_or_else(PoisonError::into_inner);
         if let Some(inputs) = inputs
             && inputs.steps.is_empty()
         {
@@ -73,7 +79,10 @@ impl DeferredGirders {
 
 impl From<GirderExtremes> for DeferredGirders {
     fn from(found: GirderExtremes) -> DeferredGirders {
-        DeferredGirders { found: OnceLock::from(found), inputs: Mutex::new(None) }
+        DeferredGirders {
+            found: OnceLock::from(found),
+            inputs: Mutex::new(None),
+        }
     }
 }
 
@@ -106,7 +115,16 @@ impl GirderInputs {
         let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
         let (steps, has_rows) = (take(&mut run.steps), run.history.len() >= 2);
         let has_inner_times = !matches!(run.method, Some(Method::Sdirk4 | Method::Esdirk5));
-        GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows: None, repetitions }
+        GirderInputs {
+            scene,
+            built,
+            members,
+            steps,
+            has_inner_times,
+            has_rows,
+            rows: None,
+            repetitions,
+        }
     }
 
     /// Computes the extremes. `watch` is called with the time in repetitions of the run, and many times between them.
@@ -120,8 +138,16 @@ impl GirderInputs {
         columns: &[ColumnEnvelope],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<GirderExtremes, Box<GirderInputs>> {
-        let GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows, repetitions } =
-            *self;
+        let GirderInputs {
+            scene,
+            built,
+            members,
+            steps,
+            has_inner_times,
+            has_rows,
+            rows,
+            repetitions,
+        } = *self;
         let solved: Vec<Option<&SolvedModel>> = scene
             .structures
             .iter()
@@ -139,7 +165,10 @@ impl GirderInputs {
         let (foundations, bases): (Vec<Foundation>, Vec<_>);
         let mut found = {
             let prepared = Prepared::new(&scene, &built, &solved, &members, &is_stopped);
-            (foundations, bases) = built.into_iter().map(|built| (built.foundation, built.basis)).unzip();
+            (foundations, bases) = built
+                .into_iter()
+                .map(|built| (built.foundation, built.basis))
+                .unzip();
             let recorded = match (steps.is_empty(), has_inner_times) {
                 (true, _) => Recorded::Rows(rows.as_ref().unwrap_or(history)),
                 (false, false) => Recorded::Steps(&steps),
@@ -151,18 +180,37 @@ impl GirderInputs {
                 repeated(&scene, input, &foundations, rows, &mut |t| ask(t))
             };
             match has_rows {
-                true => of_run(&prepared, (&scene, input), recorded, &foundations, &mut repeat),
+                true => of_run(
+                    &prepared,
+                    (&scene, input),
+                    recorded,
+                    &foundations,
+                    &mut repeat,
+                ),
                 false => prepared.without_rows(),
             }
         };
         if stop.get() {
             let built = foundations.into_iter().zip(bases);
-            let built = built.map(|(foundation, basis)| BuiltFoundation { foundation, basis }).collect();
-            let again =
-                GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows, repetitions };
+            let built = built
+                .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
+                .collect();
+            let again = GirderInputs {
+                scene,
+                built,
+                members,
+                steps,
+                has_inner_times,
+                has_rows,
+                rows,
+                repetitions,
+            };
             return Err(Box::new(again));
         }
-        found.reactions.iter_mut().for_each(|reaction| reaction.extend_to(columns));
+        found
+            .reactions
+            .iter_mut()
+            .for_each(|reaction| reaction.extend_to(columns));
         Ok(found)
     }
 }
@@ -175,7 +223,10 @@ fn repeated(
     rows: usize,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Option<History> {
-    let finer = sim::Scene { output_parts: rows, ..input.scene.clone() };
+    let finer = sim::Scene {
+        output_parts: rows,
+        ..input.scene.clone()
+    };
     let again = sim::run_by(scene.stepping, &finer, foundations, watch).ok()?;
     again.status.is_complete().then_some(again.history)
 }

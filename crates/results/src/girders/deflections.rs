@@ -28,15 +28,30 @@ pub(super) struct Wanted {
 impl Refinement<'_> {
     /// The largest of sign times the deflection over a span.
     pub fn span_deflection(&self, wanted: Wanted) -> Option<GirderValue> {
-        let Wanted { rail, span, plane, kind } = wanted;
+        let Wanted {
+            rail,
+            span,
+            plane,
+            kind,
+        } = wanted;
         let spans = self.scan.first_span[self.scan.first_span.len() - 1];
-        let tracks = (0..self.scan.under.len() / spans.max(1))
-            .map(|load| (load, &self.scan.under[self.scan.under(load, rail, span)][plane][kind]));
+        let tracks = (0..self.scan.under.len() / spans.max(1)).map(|load| {
+            (
+                load,
+                &self.scan.under[self.scan.under(load, rail, span)][plane][kind],
+            )
+        });
         let points = self.carried_points(wanted);
-        let heights: Vec<f64> =
-            points.iter().map(|at| self.scan.points[*at][plane][kind].highest.height).collect();
+        let heights: Vec<f64> = points
+            .iter()
+            .map(|at| self.scan.points[*at][plane][kind].highest.height)
+            .collect();
         let under = tracks.clone().map(|(_, peak)| peak.highest.height);
-        let best = heights.iter().copied().chain(under).fold(f64::NEG_INFINITY, f64::max);
+        let best = heights
+            .iter()
+            .copied()
+            .chain(under)
+            .fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(FORCES + plane);
         let mut found: Option<GirderValue> = None;
         for (k, &at) in points.iter().enumerate() {
@@ -44,7 +59,9 @@ impl Refinement<'_> {
             let is_crest = (k == 0 || heights[k] > heights[k - 1])
                 && heights.get(k + 1).is_none_or(|after| heights[k] >= *after);
             if is_crest && heights[k] >= least {
-                let own = self.point(at, plane, kind).map(|from| self.along_and_in_time(wanted, from));
+                let own = self
+                    .point(at, plane, kind)
+                    .map(|from| self.along_and_in_time(wanted, from));
                 offer(&mut found, own);
             }
         }
@@ -74,7 +91,12 @@ impl Refinement<'_> {
             return None;
         }
         let girders = self.girders;
-        let Wanted { rail, span, plane, kind } = wanted;
+        let Wanted {
+            rail,
+            span,
+            plane,
+            kind,
+        } = wanted;
         let [from, to] = girders.sections.rails[rail].bounds(span);
         let mut value = |position: f64| {
             let state = girders.states.at(position);
@@ -86,26 +108,44 @@ impl Refinement<'_> {
                 .deflections(rail, &[x], plane, &state)
                 .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
         };
-        let (signed, position) =
-            self.over_time((peak, girders.deflection_stride), (FORCES + plane, Corners::NONE), &mut value);
+        let (signed, position) = self.over_time(
+            (peak, girders.deflection_stride),
+            (FORCES + plane, Corners::NONE),
+            &mut value,
+        );
         let x = girders.states.at(position).loads[load].x;
         let side = SectionSide::At;
-        Some(GirderValue { signed, position, x, section: None, own: None, is_after: None, side })
+        Some(GirderValue {
+            signed,
+            position,
+            x,
+            section: None,
+            own: None,
+            is_after: None,
+            side,
+        })
     }
 
     /// Refines a deflection along the rail and over time in turn.
     fn along_and_in_time(&self, wanted: Wanted, from: GirderValue) -> GirderValue {
         let girders = self.girders;
-        let Wanted { rail, plane, kind, .. } = wanted;
+        let Wanted {
+            rail, plane, kind, ..
+        } = wanted;
         let near = self.carried_beside(wanted, from.x);
         let (mut found, size) = (from, self.size(FORCES + plane));
         for _ in 0..ROUNDS {
             let state = girders.states.at(found.position);
-            let (signed, x) = largest(near, (found.signed, found.x), self.search_end(size), &mut |x| {
-                girders
-                    .deflections(rail, &[x], plane, &state)
-                    .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
-            });
+            let (signed, x) = largest(
+                near,
+                (found.signed, found.x),
+                self.search_end(size),
+                &mut |x| {
+                    girders
+                        .deflections(rail, &[x], plane, &state)
+                        .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
+                },
+            );
             if signed <= found.signed {
                 break;
             }
@@ -116,7 +156,11 @@ impl Refinement<'_> {
                     SIGNS[kind] * girders.deflection(rail, x, plane, position)
                 });
             if signed > found.signed {
-                found = GirderValue { signed, position, ..found };
+                found = GirderValue {
+                    signed,
+                    position,
+                    ..found
+                };
             }
             if gain <= 1e-3 * self.accuracy * size {
                 break;
@@ -131,7 +175,14 @@ impl Refinement<'_> {
         let [from, to] = outline.bounds(wanted.span);
         let [before, after] = outline.neighbours(x);
         [before.max(from), after.min(to)].map(|end| {
-            if self.girders.is_carried(wanted.rail, 0.5 * (end + x), wanted.span) { end } else { x }
+            if self
+                .girders
+                .is_carried(wanted.rail, 0.5 * (end + x), wanted.span)
+            {
+                end
+            } else {
+                x
+            }
         })
     }
 }

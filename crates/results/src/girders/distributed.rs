@@ -17,7 +17,10 @@ const MANY: usize = 2000;
 
 /// Moments, and the shear forces that are their slopes.
 const SLOPES: [(GirderResponse, GirderResponse); 2] = [
-    (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
+    (
+        GirderResponse::VerticalMoment,
+        GirderResponse::VerticalShear,
+    ),
     (GirderResponse::LateralMoment, GirderResponse::LateralShear),
 ];
 
@@ -53,7 +56,8 @@ impl DistributedForces {
         sections: &Sections,
         (gravity, dead): (f64, bool),
     ) -> Result<DistributedForces, fea::Error> {
-        let mut nodes: Vec<MemberNodes> = members.members().map(|_| MemberNodes::default()).collect();
+        let mut nodes: Vec<MemberNodes> =
+            members.members().map(|_| MemberNodes::default()).collect();
         if built.basis.is_none() && !dead {
             return Ok(DistributedForces { members: nodes });
         }
@@ -61,15 +65,26 @@ impl DistributedForces {
         for (index, (member, node)) in members.members().zip(&mut nodes).enumerate() {
             node.places = vec![0.0, 0.5 * member.length, member.length];
             if sections.sections.len() <= MANY {
-                let own = sections.of_member[index].iter().map(|section| sections.sections[*section].place);
+                let own = sections.of_member[index]
+                    .iter()
+                    .map(|section| sections.sections[*section].place);
                 node.places.extend(own);
             }
             node.places.sort_by(f64::total_cmp);
             node.places.dedup_by(|b, a| *b - *a <= 1e-9 * member.length);
-            effects.extend(node.places.iter().flat_map(|place| members.effects(index, *place)));
+            effects.extend(
+                node.places
+                    .iter()
+                    .flat_map(|place| members.effects(index, *place)),
+            );
         }
         let weight = match dead {
-            true => dead_load(members.structure().frame(), &solved.model, gravity, &effects)?,
+            true => dead_load(
+                members.structure().frame(),
+                &solved.model,
+                gravity,
+                &effects,
+            )?,
             false => vec![0.0; effects.len()],
         };
         let inertia = inertia(&effects, built.basis.as_ref(), solved)?;
@@ -80,7 +95,10 @@ impl DistributedForces {
                 let own = std::array::from_fn(|k| weight[first + k]);
                 node.dead.push(members.quantities(index, own));
                 let per_dof = (0..inertia.ncols()).map(|dof| {
-                    members.quantities(index, std::array::from_fn(|k| 0.0 - inertia[(first + k, dof)]))
+                    members.quantities(
+                        index,
+                        std::array::from_fn(|k| 0.0 - inertia[(first + k, dof)]),
+                    )
                 });
                 by_dof.push(per_dof.collect::<Vec<Quantities>>());
                 first += FORCES;
@@ -88,7 +106,10 @@ impl DistributedForces {
             let is_moved = |k: &usize| by_dof.iter().flatten().any(|own| own[*k] != 0.0);
             node.moved = (0..FORCES).filter(is_moved).collect();
             let by_quantity = |own: &Vec<Quantities>| {
-                node.moved.iter().flat_map(|k| own.iter().map(|own| own[*k])).collect()
+                node.moved
+                    .iter()
+                    .flat_map(|k| own.iter().map(|own| own[*k]))
+                    .collect()
             };
             node.inertia = by_dof.iter().map(by_quantity).collect();
         }
@@ -106,7 +127,9 @@ impl DistributedForces {
         for member in &self.members {
             member.moved.iter().for_each(|k| out[*k] = true);
             for values in &member.dead {
-                out.iter_mut().zip(values).for_each(|(out, value)| *out |= *value != 0.0);
+                out.iter_mut()
+                    .zip(values)
+                    .for_each(|(out, value)| *out |= *value != 0.0);
             }
         }
         for (moment, shear) in SLOPES {
@@ -123,7 +146,11 @@ impl DistributedForces {
             // no accelerations are known where none were recorded
             let known = DVectorView::from_slice(accelerations, accelerations.len());
             if !accelerations.is_empty() {
-                for (k, per) in nodes.moved.iter().zip(nodes.inertia[node].chunks_exact(known.len())) {
+                for (k, per) in nodes
+                    .moved
+                    .iter()
+                    .zip(nodes.inertia[node].chunks_exact(known.len()))
+                {
                     out[*k] += DVectorView::from_slice(per, per.len()).dot(&known);
                 }
             }
@@ -144,7 +171,10 @@ impl MemberNodes {
         if self.places.is_empty() {
             return [0.0; FORCES];
         }
-        let b = self.places.partition_point(|node| *node < place).clamp(1, self.places.len() - 1);
+        let b = self
+            .places
+            .partition_point(|node| *node < place)
+            .clamp(1, self.places.len() - 1);
         let h = self.places[b] - self.places[b - 1];
         let t = ((place - self.places[b - 1]) / h).clamp(0.0, 1.0);
         if t == 0.0 || t == 1.0 {

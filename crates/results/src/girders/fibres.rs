@@ -43,12 +43,15 @@ impl StressedSections {
         members: &MemberForces,
         rails: &[[usize; 2]],
     ) -> StressedSections {
-        let Some(lateral) = scene.lateral_section else { return StressedSections::default() };
+        let Some(lateral) = scene.lateral_section else {
+            return StressedSections::default();
+        };
         let sections = GirderSections::new(spec, lateral, &solved.model, &solved.rails);
         let mut out = StressedSections::default();
         for [in_scene, rail] in rails {
             let lacks = sections.lacks_stress(*rail);
-            out.lacks.extend(lacks.into_iter().map(|why| (*in_scene, why)));
+            out.lacks
+                .extend(lacks.into_iter().map(|why| (*in_scene, why)));
         }
         for (index, member) in members.members().enumerate() {
             let own = match members.effects(index, 0.0)[0] {
@@ -58,9 +61,15 @@ impl StressedSections {
             let rail = rails.iter().position(|[_, rail]| *rail == member.rail);
             let found = rail.zip(own);
             out.of_member.push(found.map(|(rail, fibres)| {
-                let known = out.all.iter().position(|known| known.rail == rail && known.fibres == *fibres);
+                let known = out
+                    .all
+                    .iter()
+                    .position(|known| known.rail == rail && known.fibres == *fibres);
                 known.unwrap_or_else(|| {
-                    out.all.push(RailFibres { rail, fibres: fibres.clone() });
+                    out.all.push(RailFibres {
+                        rail,
+                        fibres: fibres.clone(),
+                    });
                     out.all.len() - 1
                 })
             }));
@@ -98,7 +107,11 @@ impl StressRows {
         let count = stressed.all.len();
         let sections = if count == 0 { 0 } else { sections };
         let none = RowStress::default();
-        StressRows { sections: vec![none; sections], wheels: vec![none; 2 * loads * count], count }
+        StressRows {
+            sections: vec![none; sections],
+            wheels: vec![none; 2 * loads * count],
+            count,
+        }
     }
 
     /// Index in [`StressRows::wheels`].
@@ -107,7 +120,13 @@ impl StressRows {
     }
 
     /// Adds the forces of a section at a row.
-    pub fn add_section(&mut self, section: usize, own: Option<(usize, &Fibres)>, row: usize, values: &[f64]) {
+    pub fn add_section(
+        &mut self,
+        section: usize,
+        own: Option<(usize, &Fibres)>,
+        row: usize,
+        values: &[f64],
+    ) {
         if let Some((_, fibres)) = own {
             add(&mut self.sections[section], fibres, row, values);
         }
@@ -129,7 +148,9 @@ impl StressRows {
 }
 
 fn add(known: &mut RowStress, fibres: &Fibres, row: usize, values: &[f64]) {
-    let size = fibres.worst(DIRECT.map(|k| values[k])).map_or(0.0, |worst| worst.value().abs());
+    let size = fibres
+        .worst(DIRECT.map(|k| values[k]))
+        .map_or(0.0, |worst| worst.value().abs());
     if size > known.size {
         *known = RowStress { size, row };
     }

@@ -39,7 +39,11 @@ pub(super) type OwnLoad = Option<(usize, bool)>;
 pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> {
     match side {
         SectionSide::At => vec![(false, false), (false, true), (true, false), (true, true)],
-        SectionSide::Before => vec![(!is_forward, false), (!is_forward, true), (is_forward, false)],
+        SectionSide::Before => vec![
+            (!is_forward, false),
+            (!is_forward, true),
+            (is_forward, false),
+        ],
         SectionSide::Behind => vec![(is_forward, false), (is_forward, true), (!is_forward, true)],
     }
 }
@@ -50,12 +54,17 @@ const ROWS_BETWEEN: usize = 16;
 impl LoadedGirders<'_> {
     /// The rows, or the first of them where the results are not wanted any more.
     pub fn rows(&self) -> impl Iterator<Item = usize> {
-        (0..self.states.len()).take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
+        (0..self.states.len())
+            .take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
     }
 
     /// The scanned rows by their numbers, or the first of them where the results are not wanted any more.
     pub fn scanned_rows(&self) -> impl Iterator<Item = ScannedRow> {
-        let rows = self.scanned.iter().enumerate().map(|(number, row)| ScannedRow { number, row: *row });
+        let rows = self
+            .scanned
+            .iter()
+            .enumerate()
+            .map(|(number, row)| ScannedRow { number, row: *row });
         rows.take_while(|at| !at.number.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
     }
 
@@ -67,7 +76,13 @@ impl LoadedGirders<'_> {
     }
 
     /// The quantities of a section at a distance from the first end of a member.
-    pub fn forces_in(&self, member: usize, place: f64, state: &LoadState<'_>, own: OwnLoad) -> Quantities {
+    pub fn forces_in(
+        &self,
+        member: usize,
+        place: f64,
+        state: &LoadState<'_>,
+        own: OwnLoad,
+    ) -> Quantities {
         let mut passed = PassedLoads::default();
         self.members.load(member, &state.loads, &mut passed);
         self.sum(member, place, state, &passed, own)
@@ -85,14 +100,21 @@ impl LoadedGirders<'_> {
         let mut out = passed.quantities(place, own);
         if !self.distributed.is_empty() {
             let more = self.distributed.at(member, place, &state.accelerations());
-            out.iter_mut().zip(more).for_each(|(sum, value)| *sum += value);
+            out.iter_mut()
+                .zip(more)
+                .for_each(|(sum, value)| *sum += value);
         }
         out
     }
 
     /// The quantities of a section at a time.
     pub fn forces(&self, section: &MemberSection, position: f64) -> Quantities {
-        self.forces_in(section.member, section.place, &self.states.at(position), None)
+        self.forces_in(
+            section.member,
+            section.place,
+            &self.states.at(position),
+            None,
+        )
     }
 
     /// The member of a rail on which a coordinate lies within a span, and the place on it.
@@ -102,9 +124,15 @@ impl LoadedGirders<'_> {
         if x < from || x > to || (from == to) {
             return None;
         }
-        let of_rail = self.members.members().enumerate().filter(|(_, m)| m.rail == outline.rail);
-        let mut on = of_rail.filter(|(_, m)| m.x[0] <= x && x <= m.x[1] && m.x[0] < to && m.x[1] > from);
-        on.next().map(|(index, _)| (index, self.members.place(index, x)))
+        let of_rail = self
+            .members
+            .members()
+            .enumerate()
+            .filter(|(_, m)| m.rail == outline.rail);
+        let mut on =
+            of_rail.filter(|(_, m)| m.x[0] <= x && x <= m.x[1] && m.x[0] < to && m.x[1] > from);
+        on.next()
+            .map(|(index, _)| (index, self.members.place(index, x)))
     }
 
     /// Whether a member carries the rail at a coordinate of a span, within rounding.
@@ -114,7 +142,10 @@ impl LoadedGirders<'_> {
         let ([from, to], of_rail) = (outline.bounds(span), outline.rail);
         self.members.members().any(|member| {
             let ends = [member.x[0].max(from), member.x[1].min(to)];
-            member.rail == of_rail && ends[1] - ends[0] > near && ends[0] - near <= x && x <= ends[1] + near
+            member.rail == of_rail
+                && ends[1] - ends[0] > near
+                && ends[0] - near <= x
+                && x <= ends[1] + near
         })
     }
 
@@ -140,11 +171,16 @@ impl LoadedGirders<'_> {
     /// Deflection of one point at a time.
     pub fn deflection(&self, rail: usize, x: f64, plane: usize, position: f64) -> f64 {
         let state = self.states.at(position);
-        self.deflections(rail, &[x], plane, &state).map_or(0.0, |all| all[0])
+        self.deflections(rail, &[x], plane, &state)
+            .map_or(0.0, |all| all[0])
     }
 
     /// Dead load at a section.
     pub fn dead(&self, member: usize, place: f64) -> Quantities {
-        if self.distributed.is_empty() { [0.0; FORCES] } else { self.distributed.dead(member, place) }
+        if self.distributed.is_empty() {
+            [0.0; FORCES]
+        } else {
+            self.distributed.dead(member, place)
+        }
     }
 }

@@ -46,7 +46,11 @@ impl MemberEnd {
     pub fn all(members: &MemberForces) -> Vec<MemberEnd> {
         let of_member = |own: RailMember| {
             let gap = BESIDE_END * (own.x[1] - own.x[0]).abs();
-            own.x.map(|x| MemberEnd { rail: own.rail, x, gap })
+            own.x.map(|x| MemberEnd {
+                rail: own.rail,
+                x,
+                gap,
+            })
         };
         let mut ends: Vec<MemberEnd> = members.members().flat_map(of_member).collect();
         ends.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
@@ -89,7 +93,10 @@ pub(super) struct LoadState<'a> {
 
 /// The values of a state, which are interpolated when they are needed.
 #[derive(Clone)]
-#[expect(clippy::large_enum_variant, reason = "a search makes thousands of states, one after the other")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a search makes thousands of states, one after the other"
+)]
 enum StateValues<'a> {
     Row(&'a [f64]),
     Between(Between<'a>),
@@ -168,13 +175,22 @@ impl LoadStates {
         for source in loads.on(s) {
             sources.push((source.clone(), channels.len()));
             let [place, forces] = source.channels();
-            may_jump.extend(place.clone().map(|_| false).chain(forces.clone().map(|_| true)));
+            may_jump.extend(
+                place
+                    .clone()
+                    .map(|_| false)
+                    .chain(forces.clone().map(|_| true)),
+            );
             channels.extend(place.chain(forces));
         }
         let motions = channels.len();
         let first = |wanted| history.position(wanted);
         let motion = first(Channel::Coordinate(s, 0)).zip(first(Channel::Acceleration(s, 0)));
-        channels.extend(motion.iter().flat_map(|(q, a)| (*q..q + dofs).chain(*a..a + dofs)));
+        channels.extend(
+            motion
+                .iter()
+                .flat_map(|(q, a)| (*q..q + dofs).chain(*a..a + dofs)),
+        );
         let width = channels.len();
         may_jump.extend((motions..width).map(|c| c - motions >= (width - motions) / 2));
         let mut values = Vec::with_capacity(rows.len() * width);
@@ -192,7 +208,15 @@ impl LoadStates {
                 loads.push(load);
             }
         }
-        let mut out = LoadStates { sources, motions, width, values, loads, may_jump, corners: Vec::new() };
+        let mut out = LoadStates {
+            sources,
+            motions,
+            width,
+            values,
+            loads,
+            may_jump,
+            corners: Vec::new(),
+        };
         out.corners = out.all_corners(ends);
         out
     }
@@ -204,12 +228,20 @@ impl LoadStates {
             for (load, (a, b)) in self.loads(row - 1).iter().zip(self.loads(row)).enumerate() {
                 let (low, high) = (a.x.min(b.x), a.x.max(b.x));
                 if low < high {
-                    let passed =
-                        ends.iter().filter(|end| end.rail == a.rail && low <= end.x && end.x <= high);
+                    let passed = ends
+                        .iter()
+                        .filter(|end| end.rail == a.rail && low <= end.x && end.x <= high);
                     for &end in passed {
-                        let fraction = self.passage(row - 1, load, end.x, [a.x, b.x]).max(AFTER_ROW);
+                        let fraction = self
+                            .passage(row - 1, load, end.x, [a.x, b.x])
+                            .max(AFTER_ROW);
                         let (position, sense) = ((row - 1) as f64 + fraction, (b.x - a.x).signum());
-                        corners.push(Corner { position, load, end, sense });
+                        corners.push(Corner {
+                            position,
+                            load,
+                            end,
+                            sense,
+                        });
                     }
                 }
             }
@@ -221,9 +253,17 @@ impl LoadStates {
     /// Channels of the values of a row by kind: places and forces of the loads, displacements, and accelerations.
     pub fn kinds(&self) -> [Vec<usize>; 4] {
         let half = self.motions + (self.width - self.motions) / 2;
-        let [places, forces] =
-            [false, true].map(|wanted| (1..self.motions).filter(|c| self.may_jump[*c] == wanted).collect());
-        [places, forces, (self.motions..half).collect(), (half..self.width).collect()]
+        let [places, forces] = [false, true].map(|wanted| {
+            (1..self.motions)
+                .filter(|c| self.may_jump[*c] == wanted)
+                .collect()
+        });
+        [
+            places,
+            forces,
+            (self.motions..half).collect(),
+            (half..self.width).collect(),
+        ]
     }
 
     /// Number of rows.
@@ -260,9 +300,15 @@ impl LoadStates {
             (_, Some(between)) => {
                 let mut loads = self.loads_by(&|c| between.value(c));
                 // also a corner at the next row, which is just behind it
-                for corner in self.corners_in(position.floor()..=position.floor() + 1.0 + 2.0 * AFTER_ROW) {
+                for corner in
+                    self.corners_in(position.floor()..=position.floor() + 1.0 + 2.0 * AFTER_ROW)
+                {
                     let load = &mut loads.to_mut()[corner.load];
-                    let side = if position > corner.position { corner.sense } else { -corner.sense };
+                    let side = if position > corner.position {
+                        corner.sense
+                    } else {
+                        -corner.sense
+                    };
                     load.x = corner.end.aside(load.x, side);
                 }
                 self.state(loads, StateValues::Between(between))
@@ -272,8 +318,12 @@ impl LoadStates {
 
     /// The corners between two times that are counted in rows.
     fn corners_in(&self, positions: RangeInclusive<f64>) -> &[Corner] {
-        let first = self.corners.partition_point(|corner| corner.position < *positions.start());
-        let end = self.corners.partition_point(|corner| corner.position <= *positions.end());
+        let first = self
+            .corners
+            .partition_point(|corner| corner.position < *positions.start());
+        let end = self
+            .corners
+            .partition_point(|corner| corner.position <= *positions.end());
         &self.corners[first..end]
     }
 
@@ -287,7 +337,10 @@ impl LoadStates {
 
     /// All loads by the values of a row.
     fn loads_by(&self, value: &dyn Fn(usize) -> f64) -> Cow<'_, [RailLoad]> {
-        self.sources.iter().map(|source| load(source, value)).collect()
+        self.sources
+            .iter()
+            .map(|source| load(source, value))
+            .collect()
     }
 
     /// The row at or before a time that is counted in rows, and what interpolates between it and the next.
@@ -303,7 +356,9 @@ impl LoadStates {
         }
         let ends = [self.row(row), self.row(row + 1)];
         let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
-        let corner = self.corner_from(row as f64).filter(|corner| *corner <= (row + 1) as f64);
+        let corner = self
+            .corner_from(row as f64)
+            .filter(|corner| *corner <= (row + 1) as f64);
         let is_after = corner.map(|corner| position > corner);
         let starts = match is_after {
             Some(false) => [row.checked_sub(3), None, None],
@@ -311,7 +366,18 @@ impl LoadStates {
             None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
         };
         let cubics = Default::default();
-        (row, Some(Between { states: self, ends, fraction, time, is_after, starts, cubics }))
+        (
+            row,
+            Some(Between {
+                states: self,
+                ends,
+                fraction,
+                time,
+                is_after,
+                starts,
+                cubics,
+            }),
+        )
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {
@@ -327,25 +393,37 @@ impl LoadStates {
     /// The first corner that is not before a position.
     fn corner_from(&self, position: f64) -> Option<f64> {
         self.corners
-            .get(self.corners.partition_point(|corner| corner.position < position))
+            .get(
+                self.corners
+                    .partition_point(|corner| corner.position < position),
+            )
             .map(|corner| corner.position)
     }
 
     /// The state just before or just after a corner; the state at the time itself if it is none. Where another corner is too
     /// near for a polynomial, forces are those of the next row on this side, and loads stand where they are at the corner.
     pub fn limit(&self, position: f64, is_after: bool) -> LoadState<'_> {
-        let corner = self.corner_from(position - AT_CORNER).filter(|corner| corner - position < AT_CORNER);
-        let Some(corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
+        let corner = self
+            .corner_from(position - AT_CORNER)
+            .filter(|corner| corner - position < AT_CORNER);
+        let Some(corner) = corner.filter(|_| self.len() > 1) else {
+            return self.at(position);
+        };
         let (row, start) = if is_after {
             let row = corner.floor() as usize + 1;
             (row, Some(row))
         } else {
             let row = (corner.ceil() as usize).checked_sub(1);
-            (row.unwrap_or_default(), row.and_then(|row| row.checked_sub(3)))
+            (
+                row.unwrap_or_default(),
+                row.and_then(|row| row.checked_sub(3)),
+            )
         };
         let row = row.min(self.len() - 1);
         let here = self.at(corner);
-        let Some(start) = start.filter(|start| self.is_clear(*start)) else { return self.moved(row, here) };
+        let Some(start) = start.filter(|start| self.is_clear(*start)) else {
+            return self.moved(row, here);
+        };
         let between = here.time;
         let cubic = Cubic::new(self.four(start), between);
         let mut out = self.row(row).to_vec();
@@ -360,7 +438,11 @@ impl LoadStates {
     fn moved(&self, row: usize, at: LoadState<'_>) -> LoadState<'_> {
         let mut out = self.at_row(row);
         out.time = at.time;
-        out.loads.to_mut().iter_mut().zip(at.loads.iter()).for_each(|(load, own)| load.x = own.x);
+        out.loads
+            .to_mut()
+            .iter_mut()
+            .zip(at.loads.iter())
+            .for_each(|(load, own)| load.x = own.x);
         out
     }
 
@@ -400,7 +482,12 @@ impl LoadStates {
             StateValues::Between(between) => between.time,
         };
         let dofs = self.motions..self.motions + (self.width - self.motions) / 2;
-        LoadState { time, loads, values, dofs }
+        LoadState {
+            time,
+            loads,
+            values,
+            dofs,
+        }
     }
 }
 
@@ -421,7 +508,10 @@ fn stop_before(ends: &[MemberEnd], from: f64, load: &mut RailLoad) {
 fn load((source, first): &(LoadSource, usize), value: &dyn Fn(usize) -> f64) -> RailLoad {
     let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
     let mut own = [0.0; 4];
-    own[..count].iter_mut().enumerate().for_each(|(k, own)| *own = value(first + k));
+    own[..count]
+        .iter_mut()
+        .enumerate()
+        .for_each(|(k, own)| *own = value(first + k));
     source.load(&own)
 }
 
@@ -443,7 +533,11 @@ struct Between<'a> {
 impl Between<'_> {
     /// Value `c` of a row.
     fn value(&self, c: usize) -> f64 {
-        if c == 0 { self.time } else { self.value_by(c, 0) }
+        if c == 0 {
+            self.time
+        } else {
+            self.value_by(c, 0)
+        }
     }
 
     /// Value `c` of a row by the polynomials from number `first` on.
@@ -467,7 +561,12 @@ impl Between<'_> {
     /// Values of a range of motions.
     fn values(&self, range: Range<usize>) -> Vec<f64> {
         let best = self.cubic(0);
-        range.map(|c| best.and_then(|best| best.value(c)).unwrap_or_else(|| self.value_by(c, 1))).collect()
+        range
+            .map(|c| {
+                best.and_then(|best| best.value(c))
+                    .unwrap_or_else(|| self.value_by(c, 1))
+            })
+            .collect()
     }
 
     fn cubic(&self, number: usize) -> Option<&Cubic<'_>> {
@@ -490,10 +589,16 @@ impl<'a> Cubic<'a> {
     fn new(rows: [&'a [f64]; 4], time: f64) -> Cubic<'a> {
         let weight = |i: usize| {
             let others = rows.iter().enumerate().filter(|(j, _)| *j != i);
-            others.map(|(_, other)| (time - other[0]) / (rows[i][0] - other[0])).product()
+            others
+                .map(|(_, other)| (time - other[0]) / (rows[i][0] - other[0]))
+                .product()
         };
         let rates = std::array::from_fn(|i| 1.0 / (rows[i + 1][0] - rows[i][0]));
-        Cubic { rows, weights: std::array::from_fn(weight), rates }
+        Cubic {
+            rows,
+            weights: std::array::from_fn(weight),
+            rates,
+        }
     }
 
     /// The value of channel `c`; `None` where it has a jump or a corner, or where the rows are so uneven that the polynomial
@@ -508,10 +613,19 @@ impl<'a> Cubic<'a> {
         if (d - 2.0 * b + a).abs() > CORNER * (a.abs() + d.abs()) {
             return None;
         }
-        let value: f64 = values.iter().zip(self.weights).map(|(value, weight)| weight * value).sum();
-        let [low, high] = values[1..].iter().fold([values[0]; 2], |[low, high], &value| {
-            [if value < low { value } else { low }, if value > high { value } else { high }]
-        });
+        let value: f64 = values
+            .iter()
+            .zip(self.weights)
+            .map(|(value, weight)| weight * value)
+            .sum();
+        let [low, high] = values[1..]
+            .iter()
+            .fold([values[0]; 2], |[low, high], &value| {
+                [
+                    if value < low { value } else { low },
+                    if value > high { value } else { high },
+                ]
+            });
         let beyond = OVERSHOOT * (high - low);
         (low - beyond <= value && value <= high + beyond).then_some(value)
     }

@@ -26,7 +26,11 @@ pub(super) fn kept_rows(
     most: usize,
 ) -> Vec<usize> {
     let kind = |channels: Vec<usize>| {
-        let size = |row: &&[f64]| channels.iter().fold(0.0, |most: f64, c| most.max(row[*c].abs()));
+        let size = |row: &&[f64]| {
+            channels
+                .iter()
+                .fold(0.0, |most: f64, c| most.max(row[*c].abs()))
+        };
         let size = samples.iter().map(size).fold(0.0, f64::max);
         Kind { channels, size }
     };
@@ -69,7 +73,9 @@ struct Cone {
 impl Cone {
     fn new(kinds: &[Kind]) -> Cone {
         let count = kinds.iter().map(|kind| kind.channels.len()).sum();
-        Cone { slopes: vec![[f64::NEG_INFINITY, f64::INFINITY]; count] }
+        Cone {
+            slopes: vec![[f64::NEG_INFINITY, f64::INFINITY]; count],
+        }
     }
 
     /// Whether the line from row `a` to row `b` is in the cone.
@@ -83,8 +89,9 @@ impl Cone {
 
     /// Leaves out the lines from row `a` that pass too far from row `b`.
     fn narrow(&mut self, kinds: &[Kind], tolerance: f64, a: &[f64], b: &[f64]) {
-        let channels =
-            kinds.iter().flat_map(|kind| kind.channels.iter().map(|c| (*c, tolerance * kind.size)));
+        let channels = kinds
+            .iter()
+            .flat_map(|kind| kind.channels.iter().map(|c| (*c, tolerance * kind.size)));
         for ((c, allowed), [least, most]) in channels.zip(&mut self.slopes) {
             let duration = b[0] - a[0];
             *least = least.max((b[c] - a[c] - allowed) / duration);
@@ -115,8 +122,14 @@ mod tests {
         // 10 * 10 is within the tolerance, 10 * 11 is not
         assert_eq!(rows(&samples, 1.02e-4, 1000), expected);
         // the second doubling of the tolerance allows 20 * 20
-        assert_eq!(rows(&samples, 1.02e-4, 30), (0..=1000).step_by(40).collect::<Vec<_>>());
-        let line: Vec<[f64; 3]> = samples.iter().map(|[t, _, line]| [*t, 0.0, *line]).collect();
+        assert_eq!(
+            rows(&samples, 1.02e-4, 30),
+            (0..=1000).step_by(40).collect::<Vec<_>>()
+        );
+        let line: Vec<[f64; 3]> = samples
+            .iter()
+            .map(|[t, _, line]| [*t, 0.0, *line])
+            .collect();
         assert_eq!(rows(&line, 1e-9, 1000), [0, 1000]);
     }
 
@@ -126,7 +139,11 @@ mod tests {
     fn rows_that_are_left_out_lie_near_straight_lines() {
         let wave = |k: i32| {
             let t = 0.01 * f64::from(k) + 0.004 * f64::from(k * k % 7);
-            [t, (5.0 * t).sin(), 40.0 * (3.0 * t).cos() + if t > 2.0 { 30.0 } else { 0.0 }]
+            [
+                t,
+                (5.0 * t).sin(),
+                40.0 * (3.0 * t).cos() + if t > 2.0 { 30.0 } else { 0.0 },
+            ]
         };
         let samples: Vec<[f64; 3]> = (0..500).map(wave).collect();
         for tolerance in [1e-3, 1e-2, 0.1] {
@@ -136,9 +153,14 @@ mod tests {
                 let [from, to] = [samples[pair[0]], samples[pair[1]]];
                 for sample in &samples[pair[0]..=pair[1]] {
                     for (c, size) in [(1, 1.0), (2, 70.0)] {
-                        let line = from[c] + (to[c] - from[c]) * (sample[0] - from[0]) / (to[0] - from[0]);
+                        let line =
+                            from[c] + (to[c] - from[c]) * (sample[0] - from[0]) / (to[0] - from[0]);
                         let error = (line - sample[c]).abs();
-                        assert!(error <= 1.0001 * tolerance * size, "{error} in {c} at {}", sample[0]);
+                        assert!(
+                            error <= 1.0001 * tolerance * size,
+                            "{error} in {c} at {}",
+                            sample[0]
+                        );
                     }
                 }
             }

@@ -141,7 +141,8 @@ impl GirderExtremes {
             })
         };
         let reactions = self.reactions.iter().map(|reaction| reaction.json(number));
-        (!self.extremes.is_empty()).then(|| self.extremes.iter().map(one).chain(reactions).collect())
+        (!self.extremes.is_empty())
+            .then(|| self.extremes.iter().map(one).chain(reactions).collect())
     }
 
     /// The envelopes of case `number`, counted from 1, as comma-separated values; `None` without girders.
@@ -185,7 +186,11 @@ impl GirderExtremes {
 }
 
 /// Writes a number as a field; `text` is memory.
-fn write_number(writer: &mut csv::Writer<Vec<u8>>, value: f64, text: &mut String) -> Result<(), csv::Error> {
+fn write_number(
+    writer: &mut csv::Writer<Vec<u8>>,
+    value: f64,
+    text: &mut String,
+) -> Result<(), csv::Error> {
     text.clear();
     write!(text, "{}", value + 0.0).expect("a string takes all text");
     writer.write_field(&*text)

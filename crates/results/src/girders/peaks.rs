@@ -42,13 +42,19 @@ impl LastRows {
     }
 
     fn add(&mut self, next: ScannedRow) {
-        *self =
-            LastRows { own: next, count: 2.min(self.count + 1), gap: next.row.saturating_sub(self.own.row) };
+        *self = LastRows {
+            own: next,
+            count: 2.min(self.count + 1),
+            gap: next.row.saturating_sub(self.own.row),
+        };
     }
 
     /// A change of the value from the last row but one, if there is one, as a part of a peak.
     fn rise(&self, change: impl FnOnce() -> f64) -> Option<Fall> {
-        (self.count > 1).then(|| Fall { change: change(), gap: self.gap })
+        (self.count > 1).then(|| Fall {
+            change: change(),
+            gap: self.gap,
+        })
     }
 }
 
@@ -94,7 +100,11 @@ impl Peak {
 
 impl Default for Vertex {
     fn default() -> Vertex {
-        Vertex { height: f64::NEG_INFINITY, row: 0, value: f64::NEG_INFINITY }
+        Vertex {
+            height: f64::NEG_INFINITY,
+            row: 0,
+            value: f64::NEG_INFINITY,
+        }
     }
 }
 
@@ -108,7 +118,10 @@ impl Index<usize> for Peaks {
 
 impl From<[Peak; 2]> for Peaks {
     fn from(found: [Peak; 2]) -> Peaks {
-        Peaks { found, ..Peaks::default() }
+        Peaks {
+            found,
+            ..Peaks::default()
+        }
     }
 }
 
@@ -119,7 +132,10 @@ impl Peaks {
             let [before, own] = self.values;
             // a value between its neighbours is no peak
             if self.last.count < 2 || (own - before) * (value - own) <= 0.0 {
-                self.offer(Some(Fall { change: own - value, gap: row.row - self.last.own.row }));
+                self.offer(Some(Fall {
+                    change: own - value,
+                    gap: row.row - self.last.own.row,
+                }));
             }
         } else {
             self.finish();
@@ -149,7 +165,11 @@ fn offer(found: &mut [Peak; 2], (row, own): (usize, f64), rise: Option<Fall>, fa
     for (peak, sign) in found.iter_mut().zip(SIGNS) {
         let is_beyond = |fall: Option<Fall>| fall.is_none_or(|fall| sign * fall.change >= 0.0);
         if is_beyond(rise) && is_beyond(fall) {
-            peak.offer(Vertex { height: sign * own + bulge(rise, fall), row, value: sign * own });
+            peak.offer(Vertex {
+                height: sign * own + bulge(rise, fall),
+                row,
+                value: sign * own,
+            });
         }
     }
 }
@@ -185,7 +205,12 @@ impl PeakRows {
     /// Peaks of a number of sequences.
     pub fn new(sequences: usize) -> PeakRows {
         let (before, own) = (vec![0.0; sequences], vec![0.0; sequences]);
-        PeakRows { last: LastRows::default(), before, own, found: vec![Default::default(); sequences] }
+        PeakRows {
+            last: LastRows::default(),
+            before,
+            own,
+            found: vec![Default::default(); sequences],
+        }
     }
 
     /// Adds the values of a row; rows that are left out separate sequences.
@@ -196,19 +221,42 @@ impl PeakRows {
         let (last, gap) = (self.last, row.row.saturating_sub(self.last.own.row));
         if last.count > 1 {
             // a value between its neighbours is no peak
-            let is_turn = |(before, own, next): (f64, f64, f64)| (own - before) * (next - own) <= 0.0;
-            let rows = || self.before.iter().zip(&self.own).zip(values).map(|((a, b), c)| (*a, *b, *c));
+            let is_turn =
+                |(before, own, next): (f64, f64, f64)| (own - before) * (next - own) <= 0.0;
+            let rows = || {
+                self.before
+                    .iter()
+                    .zip(&self.own)
+                    .zip(values)
+                    .map(|((a, b), c)| (*a, *b, *c))
+            };
             if rows().fold(false, |any, three| any | is_turn(three)) {
                 for (found, (before, own, next)) in self.found.iter_mut().zip(rows()) {
                     if is_turn((before, own, next)) {
                         let rise = last.rise(|| own - before);
-                        offer(found, (last.own.number, own), rise, Some(Fall { change: own - next, gap }));
+                        offer(
+                            found,
+                            (last.own.number, own),
+                            rise,
+                            Some(Fall {
+                                change: own - next,
+                                gap,
+                            }),
+                        );
                     }
                 }
             }
         } else if last.count == 1 {
             for ((found, own), next) in self.found.iter_mut().zip(&self.own).zip(values) {
-                offer(found, (last.own.number, *own), None, Some(Fall { change: own - next, gap }));
+                offer(
+                    found,
+                    (last.own.number, *own),
+                    None,
+                    Some(Fall {
+                        change: own - next,
+                        gap,
+                    }),
+                );
             }
         }
         std::mem::swap(&mut self.before, &mut self.own);
@@ -220,7 +268,12 @@ impl PeakRows {
     pub fn finish(&mut self) {
         if self.last.count > 0 {
             for ((found, own), before) in self.found.iter_mut().zip(&self.own).zip(&self.before) {
-                offer(found, (self.last.own.number, *own), self.last.rise(|| own - before), None);
+                offer(
+                    found,
+                    (self.last.own.number, *own),
+                    self.last.rise(|| own - before),
+                    None,
+                );
             }
         }
         self.last.count = 0;
@@ -287,7 +340,12 @@ pub(super) fn largest_between(
     end: SearchEnd,
     function: &mut dyn FnMut(f64) -> f64,
 ) -> (f64, f64) {
-    search(ends.map(|place| (function(place), place)), known, end, function)
+    search(
+        ends.map(|place| (function(place), place)),
+        known,
+        end,
+        function,
+    )
 }
 
 /// The search between ends with their values.
@@ -313,11 +371,19 @@ fn search(
     // the best, the second and the third of the places, as (value, place)
     let start = a + GOLDEN * (b - a);
     let is_inside = known.1 > a && known.1 < b;
-    let mut best = [if is_inside { known } else { (function(start), start) }; 3];
+    let mut best = [if is_inside {
+        known
+    } else {
+        (function(start), start)
+    }; 3];
     let (mut step, mut before) = (0.0_f64, 0.0_f64);
     let [first, second] = at_ends;
     if first.0 <= best[0].0 && second.0 <= best[0].0 {
-        let [second, third] = if first.0 >= second.0 { [first, second] } else { [second, first] };
+        let [second, third] = if first.0 >= second.0 {
+            [first, second]
+        } else {
+            [second, first]
+        };
         best = [best[0], second, third];
         (step, before) = (b - a, b - a);
     }
@@ -327,8 +393,8 @@ fn search(
         if (x - middle).abs() <= 2.0 * near - 0.5 * (b - a) {
             break;
         }
-        let vertex =
-            vertex(&best).filter(|(to, _)| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
+        let vertex = vertex(&best)
+            .filter(|(to, _)| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
         let is_near = best[0].0 - best[1].0 <= end.enough;
         let gain_that_counts = (GAIN * end.enough).max(ROUNDING * best[0].0.abs());
         if is_near && vertex.is_some_and(|(_, gain)| gain <= gain_that_counts) {
@@ -343,7 +409,11 @@ fn search(
                 GOLDEN * before
             }
         };
-        let place = x + if step.abs() >= near { step } else { near.copysign(step) };
+        let place = x + if step.abs() >= near {
+            step
+        } else {
+            near.copysign(step)
+        };
         let found = (function(place), place);
         if found.0 >= best[0].0 {
             *(if place < x { &mut b } else { &mut a }) = x;
@@ -388,13 +458,23 @@ mod tests {
         for rows in [[0, 4, 12], [0, 8, 9], [3, 4, 5]] {
             let mut peaks = Peaks::default();
             for (number, row) in rows.into_iter().enumerate() {
-                peaks.add(ScannedRow { number, row }, 2.0 - 0.01 * (row as f64 - 4.4).powi(2));
+                peaks.add(
+                    ScannedRow { number, row },
+                    2.0 - 0.01 * (row as f64 - 4.4).powi(2),
+                );
             }
             peaks.finish();
-            assert!((peaks[0].highest.height - 2.0).abs() < 1e-12, "{rows:?}: {:?}", peaks[0]);
+            assert!(
+                (peaks[0].highest.height - 2.0).abs() < 1e-12,
+                "{rows:?}: {:?}",
+                peaks[0]
+            );
         }
         let mut peaks = Peaks::default();
-        for (row, value) in [0.0, 3.0, 0.0, 5.0, 0.0, 2.0, 0.0, 4.0, 0.0].into_iter().enumerate() {
+        for (row, value) in [0.0, 3.0, 0.0, 5.0, 0.0, 2.0, 0.0, 4.0, 0.0]
+            .into_iter()
+            .enumerate()
+        {
             peaks.add(at(row), value);
         }
         peaks.finish();
@@ -423,7 +503,10 @@ mod tests {
             "{highest:?}"
         );
         let lowest = lowest.highest;
-        assert!((lowest.value + wave(1.5, 1.1)).abs() < 1e-12 && lowest.row == 3, "{lowest:?}");
+        assert!(
+            (lowest.value + wave(1.5, 1.1)).abs() < 1e-12 && lowest.row == 3,
+            "{lowest:?}"
+        );
     }
 
     /// By hand: from 2.0 values fall to -3.0, and the parabola through 1.9, 2.0 and -3.0 is above 2.5; 2.2 is larger than 2.0.
@@ -434,19 +517,31 @@ mod tests {
             peaks.add(at(row), value);
         }
         peaks.finish();
-        let [Peak { highest, largest, .. }, _] = peaks.found;
-        assert!(highest.row == 4 && highest.height > 2.5 && (largest.row, largest.value) == (1, 2.2));
+        let [
+            Peak {
+                highest, largest, ..
+            },
+            _,
+        ] = peaks.found;
+        assert!(
+            highest.row == 4 && highest.height > 2.5 && (largest.row, largest.value) == (1, 2.2)
+        );
     }
 
     /// Identity: many sequences have the peaks of each of them alone, also where rows are left out.
     #[test]
     fn sequences_together_have_the_peaks_of_each_alone() {
-        let value = |row: usize, k: usize| (0.7 * row as f64 + k as f64).sin() + 0.1 * (row % (k + 2)) as f64;
+        let value = |row: usize, k: usize| {
+            (0.7 * row as f64 + k as f64).sin() + 0.1 * (row % (k + 2)) as f64
+        };
         let (mut together, mut alone) = (PeakRows::new(5), [Peaks::default(); 5]);
         for row in (0..90).filter(|row| row % 31 != 7) {
             let values: [f64; 5] = std::array::from_fn(|k| value(row, k));
             together.add(at(row), &values);
-            alone.iter_mut().zip(values).for_each(|(one, value)| one.add(at(row), value));
+            alone
+                .iter_mut()
+                .zip(values)
+                .for_each(|(one, value)| one.add(at(row), value));
         }
         together.finish();
         for (mut alone, found) in alone.into_iter().zip(together.found()) {
@@ -457,7 +552,10 @@ mod tests {
 
     /// Ends as far as doubles tell values apart.
     fn rounding(evaluations: usize) -> SearchEnd {
-        SearchEnd { evaluations, enough: 0.0 }
+        SearchEnd {
+            evaluations,
+            enough: 0.0,
+        }
     }
 
     /// Analytic: the vertex of a parabola.
@@ -468,19 +566,34 @@ mod tests {
             count += 1;
             3.0 - (x - 0.7).powi(2)
         });
-        assert!((place - 0.7).abs() < 1e-5 && (value - 3.0).abs() < 1e-12, "{value} at {place}");
+        assert!(
+            (place - 0.7).abs() < 1e-5 && (value - 3.0).abs() < 1e-12,
+            "{value} at {place}"
+        );
         assert!(count <= 10, "{count} evaluations");
     }
 
     /// Analytic: a quartic that is flat at its top, a corner between the places, and a largest value at an end.
     #[test]
     fn flat_tops_corners_and_ends_are_found() {
-        let (flat, at) =
-            largest([-1.0, 2.0], (0.7599, 1.0), rounding(30), &mut |x: f64| 1.0 - (x - 0.3).powi(4));
-        assert!((flat - 1.0).abs() < 1e-9 && (at - 0.3).abs() < 0.02, "{flat} at {at}");
-        let (corner, at) = largest([0.0, 1.0], (-0.13, 0.5), rounding(60), &mut |x: f64| -(x - 0.37).abs());
-        assert!(corner > -1e-5 && (at - 0.37).abs() < 1e-5, "{corner} at {at}");
-        assert_eq!(largest([0.0, 1.0], (0.5, 0.5), rounding(20), &mut |x| x), (1.0, 1.0));
+        let (flat, at) = largest([-1.0, 2.0], (0.7599, 1.0), rounding(30), &mut |x: f64| {
+            1.0 - (x - 0.3).powi(4)
+        });
+        assert!(
+            (flat - 1.0).abs() < 1e-9 && (at - 0.3).abs() < 0.02,
+            "{flat} at {at}"
+        );
+        let (corner, at) = largest([0.0, 1.0], (-0.13, 0.5), rounding(60), &mut |x: f64| {
+            -(x - 0.37).abs()
+        });
+        assert!(
+            corner > -1e-5 && (at - 0.37).abs() < 1e-5,
+            "{corner} at {at}"
+        );
+        assert_eq!(
+            largest([0.0, 1.0], (0.5, 0.5), rounding(20), &mut |x| x),
+            (1.0, 1.0)
+        );
     }
 
     /// Analytic: a cosine, a corner and a peak beside an end, in fewer evaluations the looser the end; smooth peaks far better
@@ -498,11 +611,21 @@ mod tests {
                     count += 1;
                     function(x)
                 };
-                let end = SearchEnd { evaluations: 60, enough };
-                let (value, _) = largest_between([0.0, 1.0], (function(0.5), 0.5), end, &mut counted);
+                let end = SearchEnd {
+                    evaluations: 60,
+                    enough,
+                };
+                let (value, _) =
+                    largest_between([0.0, 1.0], (function(0.5), 0.5), end, &mut counted);
                 let near = if k == 1 { 1e-5 } else { 1e-4 * enough };
-                assert!(value <= exact && value > exact - near, "case {k}, {enough}: {value}");
-                assert!(count <= if k == 1 { 40 } else { 13 }, "case {k}, {enough}: {count} evaluations");
+                assert!(
+                    value <= exact && value > exact - near,
+                    "case {k}, {enough}: {value}"
+                );
+                assert!(
+                    count <= if k == 1 { 40 } else { 13 },
+                    "case {k}, {enough}: {count} evaluations"
+                );
             }
         }
     }

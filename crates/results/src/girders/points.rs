@@ -16,7 +16,11 @@ const FEW: usize = 24;
 
 /// The probe of a deflection in the vertical (0) or the lateral plane.
 pub(super) fn probe(rail: usize, x: f64, plane: usize) -> Probe {
-    Probe { rail, x, axis: [Axis::Vertical, Axis::Lateral][plane] }
+    Probe {
+        rail,
+        x,
+        axis: [Axis::Vertical, Axis::Lateral][plane],
+    }
 }
 
 /// The deflections of all points in the planes in which they are known and not zero throughout.
@@ -38,34 +42,60 @@ pub(super) struct PointBlock {
 
 impl<'a> PointDeflections<'a> {
     /// The points of `sections`. Rails whose deflections are not known, or that are unrestrained in a plane, have none.
-    pub fn new(foundation: &'a Foundation, sections: &Sections, states: &LoadStates) -> PointDeflections<'a> {
-        let is_known =
-            foundation.parts.is_none() && (foundation.structure.is_some() || foundation.compliance.is_some());
+    pub fn new(
+        foundation: &'a Foundation,
+        sections: &Sections,
+        states: &LoadStates,
+    ) -> PointDeflections<'a> {
+        let is_known = foundation.parts.is_none()
+            && (foundation.structure.is_some() || foundation.compliance.is_some());
         let vertical = Self::of(foundation, sections, if is_known { &[0] } else { &[] });
         let lateral = Self::of(foundation, sections, if is_known { &[1] } else { &[] });
         let mut few = spread(states.len(), FEW);
-        if few.any(|row| lateral.at(&states.at_row(row), &[]).iter().flatten().any(|value| *value != 0.0)) {
+        if few.any(|row| {
+            lateral
+                .at(&states.at_row(row), &[])
+                .iter()
+                .flatten()
+                .any(|value| *value != 0.0)
+        }) {
             return Self::of(foundation, sections, &[0, 1]);
         }
         vertical
     }
 
-    fn of(foundation: &'a Foundation, sections: &Sections, planes: &[usize]) -> PointDeflections<'a> {
+    fn of(
+        foundation: &'a Foundation,
+        sections: &Sections,
+        planes: &[usize],
+    ) -> PointDeflections<'a> {
         let (mut blocks, mut probes) = (Vec::new(), Vec::new());
         for &plane in planes {
             let mut first = 0;
             for (rail, outline) in sections.rails.iter().enumerate() {
-                let own: Vec<Probe> = outline.places.iter().map(|x| probe(outline.rail, *x, plane)).collect();
+                let own: Vec<Probe> = outline
+                    .places
+                    .iter()
+                    .map(|x| probe(outline.rail, *x, plane))
+                    .collect();
                 let points = first..first + own.len();
                 first = points.end;
                 if !own.is_empty() && PlaceMotions::new(foundation, &own).is_ok() {
                     let values = probes.len()..probes.len() + own.len();
-                    blocks.push(PointBlock { rail, plane, points, values });
+                    blocks.push(PointBlock {
+                        rail,
+                        plane,
+                        points,
+                        values,
+                    });
                     probes.extend(own);
                 }
             }
         }
-        PointDeflections { blocks, motions: PlaceMotions::new(foundation, &probes).ok() }
+        PointDeflections {
+            blocks,
+            motions: PlaceMotions::new(foundation, &probes).ok(),
+        }
     }
 
     /// The blocks of points.
@@ -80,11 +110,17 @@ impl<'a> PointDeflections<'a> {
 
     /// The deflections of all blocks, then those at `also`; `None` where the structure is unrestrained under a load or there.
     pub fn at(&self, state: &LoadState<'_>, also: &[Probe]) -> Option<Vec<f64>> {
-        let mut out = self.motions.as_ref()?.under(&state.loads, &state.dofs(), also).ok()?;
+        let mut out = self
+            .motions
+            .as_ref()?
+            .under(&state.loads, &state.dofs(), also)
+            .ok()?;
         let count = out.len() - also.len();
         let (own, others) = out.split_at_mut(count);
         for block in &self.blocks {
-            own[block.values.clone()].iter_mut().for_each(|value| *value *= DIRECTIONS[block.plane]);
+            own[block.values.clone()]
+                .iter_mut()
+                .for_each(|value| *value *= DIRECTIONS[block.plane]);
         }
         for (value, probe) in others.iter_mut().zip(also) {
             *value *= DIRECTIONS[usize::from(probe.axis == Axis::Lateral)];

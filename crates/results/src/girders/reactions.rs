@@ -53,8 +53,14 @@ impl GirderReaction {
     /// Takes the extreme of the column of the history where it is larger: steps that are left out of the rows may be output
     /// times.
     pub(crate) fn extend_to(&mut self, columns: &[ColumnEnvelope]) {
-        let Some(known) = columns.iter().find(|known| known.column == self.column) else { return };
-        let (at, sign) = if self.is_max { (&known.max, 1.0) } else { (&known.min, -1.0) };
+        let Some(known) = columns.iter().find(|known| known.column == self.column) else {
+            return;
+        };
+        let (at, sign) = if self.is_max {
+            (&known.max, 1.0)
+        } else {
+            (&known.min, -1.0)
+        };
         // equal values but for rounding keep their time
         if sign * (at.value - self.value) > ROUNDING * at.value.abs() {
             (self.value, self.time) = (at.value, at.time);
@@ -120,7 +126,9 @@ impl Reactions {
             for ground in spec.supported_points(model) {
                 for &direction in &ground.dofs {
                     let first = effects.len();
-                    let own = restraints.iter().filter(|r| r.point == ground.point && r.dof == direction);
+                    let own = restraints
+                        .iter()
+                        .filter(|r| r.point == ground.point && r.dof == direction);
                     effects.extend(own.copied().map(Effect::Reaction));
                     let parts = first..effects.len();
                     if !parts.is_empty() {
@@ -151,11 +159,21 @@ impl Reactions {
         let moved: DMatrix<f64> = inertia(&effects, built.basis.as_ref(), solved)?;
         for reaction in &mut all {
             reaction.dead = reaction.parts.clone().map(|part| weight[part]).sum();
-            let per_dof = |dof| reaction.parts.clone().map(|part| 0.0 - moved[(part, dof)]).sum();
+            let per_dof = |dof| {
+                reaction
+                    .parts
+                    .clone()
+                    .map(|part| 0.0 - moved[(part, dof)])
+                    .sum()
+            };
             reaction.inertia = (0..moved.ncols()).map(per_dof).collect();
         }
         let corners = corners(&lines);
-        Ok(Reactions { all, lines, corners })
+        Ok(Reactions {
+            all,
+            lines,
+            corners,
+        })
     }
 
     /// Writes all reactions in a state into `out`. Loads that the structure does not resist are neglected.
@@ -178,26 +196,43 @@ impl Reactions {
     fn value(&self, index: usize, state: &LoadState) -> f64 {
         let reaction = &self.all[index];
         let of = |(probe, force): (Probe, f64)| {
-            let parts = reaction.parts.clone().map(|part| self.lines.value(part, probe));
+            let parts = reaction
+                .parts
+                .clone()
+                .map(|part| self.lines.value(part, probe));
             force * parts.sum::<Result<f64, _>>().unwrap_or(0.0)
         };
-        reaction.apart_from_loads(&state.accelerations()) + forces(&state.loads).map(of).sum::<f64>()
+        reaction.apart_from_loads(&state.accelerations())
+            + forces(&state.loads).map(of).sum::<f64>()
     }
 }
 
 impl Reaction {
     /// The part of dead load and inertia.
     fn apart_from_loads(&self, accelerations: &[f64]) -> f64 {
-        self.dead + self.inertia.iter().zip(accelerations).map(|(per, a)| per * a).sum::<f64>()
+        self.dead
+            + self
+                .inertia
+                .iter()
+                .zip(accelerations)
+                .map(|(per, a)| per * a)
+                .sum::<f64>()
     }
 }
 
 /// The components of loads that are not zero, with their places.
 fn forces(loads: &[RailLoad]) -> impl Iterator<Item = (Probe, f64)> + '_ {
     let each = loads.iter().flat_map(|load| {
-        AXES.into_iter()
-            .zip(load.force)
-            .map(|(axis, force)| (Probe { rail: load.rail, x: load.x, axis }, force))
+        AXES.into_iter().zip(load.force).map(|(axis, force)| {
+            (
+                Probe {
+                    rail: load.rail,
+                    x: load.x,
+                    axis,
+                },
+                force,
+            )
+        })
     });
     each.filter(|(_, force)| *force != 0.0)
 }
@@ -213,13 +248,23 @@ fn corners(lines: &InfluenceLines) -> Vec<(usize, f64)> {
         let mut own = Vec::new();
         for axis in AXES {
             let four = FRACTIONS.map(|fraction| {
-                let probe = Probe { rail: element.rail, x: inside(element, fraction), axis };
+                let probe = Probe {
+                    rail: element.rail,
+                    x: inside(element, fraction),
+                    axis,
+                };
                 let is_known = lines.fill(probe, &mut ordinates).is_ok();
-                if is_known { ordinates.clone() } else { vec![0.0; lines.len()] }
+                if is_known {
+                    ordinates.clone()
+                } else {
+                    vec![0.0; lines.len()]
+                }
             });
             for (line, size) in sizes.iter_mut().enumerate() {
                 let values = [0, 1, 2, 3].map(|k: usize| four[k][line]);
-                *size = values.iter().fold(*size, |most, value| most.max(value.abs()));
+                *size = values
+                    .iter()
+                    .fold(*size, |most, value| most.max(value.abs()));
                 own.push(end_values(values));
             }
         }
@@ -236,7 +281,8 @@ fn corners(lines: &InfluenceLines) -> Vec<(usize, f64)> {
             let differs = |(k, (left, right)): (usize, (&EndValues, &EndValues))| {
                 let allowed = CORNER * sizes[k % sizes.len()];
                 let slope = (left[1][1] / lengths[0] - right[0][1] / lengths[1]).abs();
-                (left[1][0] - right[0][0]).abs() > allowed || slope * lengths[0].min(lengths[1]) > allowed
+                (left[1][0] - right[0][0]).abs() > allowed
+                    || slope * lengths[0].min(lengths[1]) > allowed
             };
             if ends[a].iter().zip(&ends[b]).enumerate().any(differs) {
                 out.push((left.rail, left.x[1]));
@@ -320,20 +366,29 @@ impl Refinement<'_> {
         for (index, peaks) in peaks.found().iter().enumerate() {
             let reaction = &reactions.all[index];
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
-            let most = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
+            let most = peaks
+                .iter()
+                .fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
             for (kind, peak) in peaks.iter().enumerate() {
                 let refined = |row: usize| {
                     self.near_scanned(row, &mut |position| {
                         SIGNS[kind] * reactions.value(index, &states.at(position))
                     })
                 };
-                let mut found = (peak.highest.value, self.girders.scanned[peak.highest.row] as f64);
+                let mut found = (
+                    peak.highest.value,
+                    self.girders.scanned[peak.highest.row] as f64,
+                );
                 // a value that is only rounding has no crest
                 if most > ROUNDING * size {
                     found = refined(peak.highest.row);
                     for vertex in self.lower_peaks(peak, (1, size)) {
                         let other = refined(vertex.row);
-                        found = if other.0 > found.0 + ROUNDING * size { other } else { found };
+                        found = if other.0 > found.0 + ROUNDING * size {
+                            other
+                        } else {
+                            found
+                        };
                     }
                     // the crest beside the row of the highest vertex may be lower than its parabola says
                     if peak.largest.value > found.0 + ROUNDING * size {
@@ -344,7 +399,11 @@ impl Refinement<'_> {
                     found = passages[index][kind];
                 }
                 let (signed, position) = found;
-                let value = if signed.abs() <= ROUNDING * size { 0.0 } else { SIGNS[kind] * signed };
+                let value = if signed.abs() <= ROUNDING * size {
+                    0.0
+                } else {
+                    SIGNS[kind] * signed
+                };
                 out.push(GirderReaction {
                     structure: reaction.structure,
                     support: reaction.support.clone(),
@@ -369,8 +428,10 @@ impl Refinement<'_> {
         let mut out = Vec::new();
         for (load, (from, to)) in a.iter().zip(b).enumerate() {
             let (low, high) = (from.x.min(to.x), from.x.max(to.x));
-            let passed =
-                reactions.corners.iter().filter(|(rail, x)| *rail == from.rail && low <= *x && *x <= high);
+            let passed = reactions
+                .corners
+                .iter()
+                .filter(|(rail, x)| *rail == from.rail && low <= *x && *x <= high);
             for &(_, x) in passed.filter(|_| low < high) {
                 let position = row as f64 + states.passage(row, load, x, [from.x, to.x]);
                 for is_after in [false, true] {
@@ -382,11 +443,20 @@ impl Refinement<'_> {
                         if slack == 0.0 {
                             continue;
                         }
-                        let corners = reactions.corners.iter().filter(|(rail, _)| *rail == own.rail);
-                        let Some(&(_, x)) = corners.clone().find(|(_, x)| (own.x - x).abs() <= slack) else {
+                        let corners = reactions
+                            .corners
+                            .iter()
+                            .filter(|(rail, _)| *rail == own.rail);
+                        let Some(&(_, x)) =
+                            corners.clone().find(|(_, x)| (own.x - x).abs() <= slack)
+                        else {
                             continue;
                         };
-                        own.x = if (to.x > from.x) == is_after { x.next_up() } else { x.next_down() };
+                        own.x = if (to.x > from.x) == is_after {
+                            x.next_up()
+                        } else {
+                            x.next_down()
+                        };
                     }
                     out.push((position, state));
                 }

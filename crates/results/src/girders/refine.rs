@@ -52,7 +52,11 @@ pub(super) struct Corners<'a> {
 
 impl Corners<'_> {
     /// No corners.
-    pub const NONE: Corners<'static> = Corners { passages: &[], quantity: 0, kind: 0 };
+    pub const NONE: Corners<'static> = Corners {
+        passages: &[],
+        quantity: 0,
+        kind: 0,
+    };
 
     /// The part of an interval without corners in which a peak may lie beside a known value, with its ends; `None` where
     /// the force rises as far as a corner, or falls from one on both sides of it.
@@ -65,23 +69,42 @@ impl Corners<'_> {
         value: &mut dyn FnMut(f64) -> f64,
     ) -> Option<[f64; 2]> {
         let signed = |passage: &Passage| SIGNS[self.kind] * passage.values[self.quantity];
-        let at_row = self.passages.iter().filter(|passage| (passage.position - known.1).abs() <= AT_ROW);
+        let at_row = self
+            .passages
+            .iter()
+            .filter(|passage| (passage.position - known.1).abs() <= AT_ROW);
         if let Some(limit) = at_row.map(signed).reduce(f64::max) {
             // the known value is at a corner: whether the force falls from it on both sides
-            let falls = |sense: f64| -> bool { value(known.1 + sense * BESIDE) <= limit.max(known.0) };
-            return if [-1.0, 1.0].into_iter().all(falls) { None } else { Some(ends) };
+            let falls =
+                |sense: f64| -> bool { value(known.1 + sense * BESIDE) <= limit.max(known.0) };
+            return if [-1.0, 1.0].into_iter().all(falls) {
+                None
+            } else {
+                Some(ends)
+            };
         }
         let mut part = ends;
         for (side, sense) in [-1.0, 1.0].into_iter().enumerate() {
             let distance = |passage: &Passage| sense * (passage.position - known.1);
             let reach = sense * (ends[side] - known.1);
-            let ahead = self.passages.iter().map(distance).filter(|ahead| *ahead > 0.0 && *ahead < reach);
-            let Some(ahead) = ahead.min_by(f64::total_cmp) else { continue };
+            let ahead = self
+                .passages
+                .iter()
+                .map(distance)
+                .filter(|ahead| *ahead > 0.0 && *ahead < reach);
+            let Some(ahead) = ahead.min_by(f64::total_cmp) else {
+                continue;
+            };
             let corner = known.1 + sense * ahead;
             // of the limits on this side of the corner the larger one
-            let limits = self.passages.iter().filter(|passage| distance(passage) == ahead);
-            let limit =
-                limits.filter(|passage| passage.is_after == (side == 0)).map(signed).fold(known.0, f64::max);
+            let limits = self
+                .passages
+                .iter()
+                .filter(|passage| distance(passage) == ahead);
+            let limit = limits
+                .filter(|passage| passage.is_after == (side == 0))
+                .map(signed)
+                .fold(known.0, f64::max);
             if limit > known.0 && value(corner - sense * BESIDE * ahead) <= limit {
                 return None;
             }
@@ -111,7 +134,11 @@ impl Refinement<'_> {
 
     /// A value of a quantity, and 0 where it is below 1e-12 of the largest value of its kind.
     pub fn without_rounding(&self, quantity: usize, value: f64) -> f64 {
-        if value.abs() <= 1e-12 * self.kind_size(quantity) { 0.0 } else { value }
+        if value.abs() <= 1e-12 * self.kind_size(quantity) {
+            0.0
+        } else {
+            value
+        }
     }
 
     /// Largest magnitude of a quantity.
@@ -131,7 +158,13 @@ impl Refinement<'_> {
 
     /// The largest of sign times a force at a section over time, wheels that pass it included. The peak between the rows
     /// is refined if `is_near`.
-    pub fn section(&self, at: usize, quantity: usize, kind: usize, is_near: bool) -> Option<GirderValue> {
+    pub fn section(
+        &self,
+        at: usize,
+        quantity: usize,
+        kind: usize,
+        is_near: bool,
+    ) -> Option<GirderValue> {
         let section = &self.girders.sections.sections[at];
         let x = self.girders.sections.points[section.point].x;
         let peak = &self.scan.sections[at][quantity][kind];
@@ -150,10 +183,19 @@ impl Refinement<'_> {
         };
         let mut found = None;
         if is_near {
-            let corners = Corners { passages: &self.scan.passages[at], quantity, kind };
+            let corners = Corners {
+                passages: &self.scan.passages[at],
+                quantity,
+                kind,
+            };
             let (signed, position) =
-                self.over_time((peak, 1), (quantity, corners), &mut |position| value(position));
-            offer(&mut found, Some(make(signed, position, None, None, section.side)));
+                self.over_time((peak, 1), (quantity, corners), &mut |position| {
+                    value(position)
+                });
+            offer(
+                &mut found,
+                Some(make(signed, position, None, None, section.side)),
+            );
         }
         for passage in &self.scan.passages[at] {
             let signed = SIGNS[kind] * passage.values[quantity];
@@ -164,7 +206,16 @@ impl Refinement<'_> {
                 side => side,
             };
             let own = Some((passage.load, passage.is_behind));
-            offer(&mut found, Some(make(signed, passage.position, own, Some(passage.is_after), side)));
+            offer(
+                &mut found,
+                Some(make(
+                    signed,
+                    passage.position,
+                    own,
+                    Some(passage.is_after),
+                    side,
+                )),
+            );
         }
         found
     }
@@ -176,21 +227,35 @@ impl Refinement<'_> {
         if peak.highest.height == f64::NEG_INFINITY {
             return None;
         }
-        let mut value =
-            |position: f64| SIGNS[kind] * self.girders.deflection(point.rail, point.x, plane, position);
+        let mut value = |position: f64| {
+            SIGNS[kind]
+                * self
+                    .girders
+                    .deflection(point.rail, point.x, plane, position)
+        };
         let (signed, position) = self.over_time(
             (peak, self.girders.deflection_stride),
             (FORCES + plane, Corners::NONE),
             &mut value,
         );
         let side = SectionSide::At;
-        Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
+        Some(GirderValue {
+            signed,
+            position,
+            x: point.x,
+            section: None,
+            own: None,
+            is_after: None,
+            side,
+        })
     }
 
     /// The state in which a value was found.
     pub fn state_of(&self, found: &GirderValue) -> LoadState<'_> {
         let states = self.girders.states;
-        let Some(is_after) = found.is_after else { return states.at(found.position) };
+        let Some(is_after) = found.is_after else {
+            return states.at(found.position);
+        };
         let mut state = states.limit(found.position, is_after);
         if let Some((load, _)) = found.own {
             state.loads.to_mut()[load].x = found.x;
@@ -213,7 +278,10 @@ impl Refinement<'_> {
             let vertex = self.among_rows(vertex, stride, &mut *value);
             let known = (vertex.value, vertex.row as f64);
             let ends = self.rows_beside(known.1, stride);
-            if vertex.height - vertex.value <= end.enough || ends[1] <= ends[0] || vertex.height <= least {
+            if vertex.height - vertex.value <= end.enough
+                || ends[1] <= ends[0]
+                || vertex.height <= least
+            {
                 return known;
             }
             match corners.divide(ends, known, &mut *value) {
@@ -242,22 +310,34 @@ impl Refinement<'_> {
         (stride, size): (usize, f64),
     ) -> impl Iterator<Item = &'p Vertex> + use<'p, '_> {
         let least = peak.highest.value - RANKED * size;
-        peak.lower
-            .iter()
-            .filter(move |vertex| vertex.height > least && self.rows_between(vertex.row, stride).is_some())
+        peak.lower.iter().filter(move |vertex| {
+            vertex.height > least && self.rows_between(vertex.row, stride).is_some()
+        })
     }
 
     /// The rows at which forces, or for a stride of more than 1 deflections, are evaluated.
     fn evaluated(&self, stride: usize) -> &[usize] {
-        if stride == 1 { self.girders.scanned } else { &self.girders.deflected }
+        if stride == 1 {
+            self.girders.scanned
+        } else {
+            &self.girders.deflected
+        }
     }
 
     /// The vertex at the evaluated row of a number: at the row itself, or where others have been left out beside it at the one
     /// with the largest value as far as the evaluated rows beside it, which is found by halves.
-    fn among_rows(&self, vertex: &Vertex, stride: usize, value: &mut dyn FnMut(f64) -> f64) -> Vertex {
+    fn among_rows(
+        &self,
+        vertex: &Vertex,
+        stride: usize,
+        value: &mut dyn FnMut(f64) -> f64,
+    ) -> Vertex {
         let own = self.evaluated(stride)[vertex.row];
         let Some([before, after]) = self.rows_between(vertex.row, stride) else {
-            return Vertex { row: own, ..*vertex };
+            return Vertex {
+                row: own,
+                ..*vertex
+            };
         };
         let mut best = (vertex.value, own);
         let mut beside = [None; 2];
@@ -269,7 +349,10 @@ impl Refinement<'_> {
                 let row = row.filter(|row| *row >= before && *row <= after)?;
                 Some((value(row as f64), row))
             });
-            let higher = beside.into_iter().flatten().fold(best, |a, b| if b.0 > a.0 { b } else { a });
+            let higher = beside
+                .into_iter()
+                .flatten()
+                .fold(best, |a, b| if b.0 > a.0 { b } else { a });
             if higher.1 != best.1 {
                 // beside the new one the values at this distance are that of the old one, and one beyond
                 beside = [None; 2];
@@ -278,22 +361,32 @@ impl Refinement<'_> {
         }
         let known = |row: Option<usize>| {
             let row = row.filter(|row| *row >= before && *row <= after)?;
-            let known = beside.into_iter().flatten().find(|known: &(f64, usize)| known.1 == row);
+            let known = beside
+                .into_iter()
+                .flatten()
+                .find(|known: &(f64, usize)| known.1 == row);
             Some(known.map_or_else(|| value(row as f64), |known| known.0))
         };
         let fall = |beside: Option<f64>| {
             let change = best.0 - beside?;
             change.is_finite().then_some(Fall { change, gap: 1 })
         };
-        let [rise, fall] = [best.1.checked_sub(stride), Some(best.1 + stride)].map(known).map(fall);
-        Vertex { height: best.0 + bulge(rise, fall), row: best.1, value: best.0 }
+        let [rise, fall] = [best.1.checked_sub(stride), Some(best.1 + stride)]
+            .map(known)
+            .map(fall);
+        Vertex {
+            height: best.0 + bulge(rise, fall),
+            row: best.1,
+            value: best.0,
+        }
     }
 
     /// The evaluated rows beside that of a number; `None` where none have been left out between.
     fn rows_between(&self, number: usize, stride: usize) -> Option<[usize; 2]> {
         let rows = self.evaluated(stride);
         let own = rows[number];
-        let [before, after] = [number.saturating_sub(1), (number + 1).min(rows.len() - 1)].map(|k| rows[k]);
+        let [before, after] =
+            [number.saturating_sub(1), (number + 1).min(rows.len() - 1)].map(|k| rows[k]);
         (own - before > stride || after - own > stride).then_some([before, after])
     }
 
@@ -302,7 +395,17 @@ impl Refinement<'_> {
         let mut row = self.girders.scanned[number];
         if self.rows_between(number, 1).is_some() {
             let own = value(row as f64);
-            row = self.among_rows(&Vertex { height: own, row: number, value: own }, 1, value).row;
+            row = self
+                .among_rows(
+                    &Vertex {
+                        height: own,
+                        row: number,
+                        value: own,
+                    },
+                    1,
+                    value,
+                )
+                .row;
         }
         self.near_in_time(row as f64, 1, value)
     }
@@ -311,12 +414,18 @@ impl Refinement<'_> {
     fn rows_beside(&self, position: f64, stride: usize) -> [f64; 2] {
         let last = (self.girders.states.len() - 1) as f64;
         let row = position.round();
-        [(row - stride as f64).max(0.0), (row + stride as f64).min(last)]
+        [
+            (row - stride as f64).max(0.0),
+            (row + stride as f64).min(last),
+        ]
     }
 
     /// When a search among values ends of which the largest are as large as `size`.
     pub fn search_end(&self, size: f64) -> SearchEnd {
-        SearchEnd { evaluations: EVALUATIONS, enough: ENOUGH * self.accuracy * size }
+        SearchEnd {
+            evaluations: EVALUATIONS,
+            enough: ENOUGH * self.accuracy * size,
+        }
     }
 
     /// The largest value from `stride` rows before a time to as many behind it.
@@ -337,14 +446,18 @@ impl Refinement<'_> {
 
 /// Whether a quantity is a bending moment, which is the same on both sides of a wheel.
 pub(super) fn is_moment(quantity: usize) -> bool {
-    quantity == GirderResponse::VerticalMoment as usize || quantity == GirderResponse::LateralMoment as usize
+    quantity == GirderResponse::VerticalMoment as usize
+        || quantity == GirderResponse::LateralMoment as usize
 }
 
 /// Replaces a value by a larger one; of equal values the first one counts.
 pub(super) fn offer(known: &mut Option<GirderValue>, found: Option<GirderValue>) {
     let Some(found) = found else { return };
     let tie = |known: &GirderValue| 1e-12 * known.signed.abs().max(found.signed.abs());
-    if known.as_ref().is_none_or(|known| found.signed > known.signed + tie(known)) {
+    if known
+        .as_ref()
+        .is_none_or(|known| found.signed > known.signed + tie(known))
+    {
         *known = Some(found);
     }
 }
@@ -357,7 +470,13 @@ mod tests {
     fn passage(position: f64, is_after: bool, limit: f64) -> Passage {
         let mut values = [0.0; FORCES];
         values[0] = limit;
-        Passage { load: 0, position, is_after, is_behind: is_after, values }
+        Passage {
+            load: 0,
+            position,
+            is_after,
+            is_behind: is_after,
+            values,
+        }
     }
 
     /// Analytic: a force rises to a corner behind the row, or has a peak before it; it falls from a corner at the row, or from one
@@ -365,8 +484,14 @@ mod tests {
     #[test]
     fn intervals_of_peaks_end_at_corners() {
         let part = |passages: &[Passage], value: &dyn Fn(f64) -> f64| {
-            let corners = Corners { passages, quantity: 0, kind: 0 };
-            corners.divide([3.0, 5.0], (value(4.0), 4.0), &mut |position| value(position))
+            let corners = Corners {
+                passages,
+                quantity: 0,
+                kind: 0,
+            };
+            corners.divide([3.0, 5.0], (value(4.0), 4.0), &mut |position| {
+                value(position)
+            })
         };
         assert_eq!(part(&[], &|x| -(x - 4.1).powi(2)), Some([3.0, 5.0]));
 
@@ -375,19 +500,30 @@ mod tests {
         let at_corner = [passage(4.5, false, 1.0), passage(4.5, true, -9.0)];
         assert_eq!(part(&at_corner, &rising), None);
         // the same limit, but a higher peak at 4.4
-        let peaked = |x: f64| if x < 4.5 { 1.01 - (x - 4.4).powi(2) } else { -9.0 };
+        let peaked = |x: f64| {
+            if x < 4.5 {
+                1.01 - (x - 4.4).powi(2)
+            } else {
+                -9.0
+            }
+        };
         let [from, to] = part(&at_corner, &peaked).expect("a peak before the corner");
         assert!(from == 3.0 && to < 4.5 && to > 4.5 - 1e-8);
 
         // a corner at the row: a force that falls on both sides, and one with a peak behind it
         let at_row = [passage(4.0, false, 0.0), passage(4.0, true, 0.0)];
         assert_eq!(part(&at_row, &|x| -(x - 4.0).abs()), None);
-        assert_eq!(part(&at_row, &|x| if x > 4.0 { x - 4.0 } else { 4.0 - x }), Some([3.0, 5.0]));
+        assert_eq!(
+            part(&at_row, &|x| if x > 4.0 { x - 4.0 } else { 4.0 - x }),
+            Some([3.0, 5.0])
+        );
 
         // lower limits at a corner before the row bound the interval
         let before = [passage(3.25, false, -7.0), passage(3.25, true, -2.0)];
-        let [from, to] =
-            part(&before, &|x| if x > 3.25 { -(x - 4.2).powi(2) } else { -7.0 }).expect("smooth");
+        let [from, to] = part(&before, &|x| {
+            if x > 3.25 { -(x - 4.2).powi(2) } else { -7.0 }
+        })
+        .expect("smooth");
         assert!(to == 5.0 && from > 3.25 && from < 3.25 + 1e-8);
     }
 }

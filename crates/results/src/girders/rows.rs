@@ -56,7 +56,10 @@ impl<'a> Prepared<'a> {
 
     /// What there is of a run without an interval.
     pub fn without_rows(&self) -> GirderExtremes {
-        GirderExtremes { notes: self.notes.clone(), ..GirderExtremes::default() }
+        GirderExtremes {
+            notes: self.notes.clone(),
+            ..GirderExtremes::default()
+        }
     }
 }
 
@@ -107,7 +110,13 @@ pub(super) fn of_run(
         return out;
     }
     let breaks = input.scene.breaks();
-    let all = Evaluation { scene, input, foundations, girders: &girders, breaks: &breaks };
+    let all = Evaluation {
+        scene,
+        input,
+        foundations,
+        girders: &girders,
+        breaks: &breaks,
+    };
     let (found, finer) = match recorded {
         Recorded::Rows(rows) => all.by_repetition(rows, repeat),
         Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
@@ -116,13 +125,23 @@ pub(super) fn of_run(
     let history = finer.as_ref().unwrap_or(history);
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
-        let rows = Rows { history, loads: &loads, foundations, breaks: &breaks };
-        let (extremes, envelope, stresses, reactions) = girders.results(rows, spans, scene.accuracy);
+        let rows = Rows {
+            history,
+            loads: &loads,
+            foundations,
+            breaks: &breaks,
+        };
+        let (extremes, envelope, stresses, reactions) =
+            girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.reactions.extend(reactions);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
-        let usual = if matches!(recorded, Recorded::Inside(_)) { FEWER.0 } else { 1 };
+        let usual = if matches!(recorded, Recorded::Inside(_)) {
+            FEWER.0
+        } else {
+            1
+        };
         if spans.chosen.stride > usual {
             out.notes.push(format!(
                 "{}: extremes of girders are evaluated at one of {} times, because they are many",
@@ -165,11 +184,19 @@ struct Change {
 
 impl Change {
     fn larger(self, other: Change) -> Change {
-        if other.fraction > self.fraction { other } else { self }
+        if other.fraction > self.fraction {
+            other
+        } else {
+            self
+        }
     }
 
     fn smaller(self, other: Change) -> Change {
-        if other.fraction < self.fraction { other } else { self }
+        if other.fraction < self.fraction {
+            other
+        } else {
+            self
+        }
     }
 
     /// Where the largest change is, as the end of a sentence.
@@ -177,7 +204,10 @@ impl Change {
         self.at.map_or_else(String::new, |(quantity, span)| {
             let quantity = GirderResponse::ALL[quantity];
             let (plane, word) = (plane_word(quantity), quantity_word(quantity));
-            format!("; most changes the {plane} {word} in span {span} of {}", self.structure)
+            format!(
+                "; most changes the {plane} {word} in span {span} of {}",
+                self.structure
+            )
         })
     }
 }
@@ -195,12 +225,17 @@ struct Evaluation<'a> {
 impl Evaluation<'_> {
     /// The extremes at the rows of a history, and if needed at those of repetitions of the run, the last of which is returned
     /// as well.
-    fn by_repetition(&self, history: &History, repeat: &mut Repetition<'_>) -> (Attempt, Option<History>) {
+    fn by_repetition(
+        &self,
+        history: &History,
+        repeat: &mut Repetition<'_>,
+    ) -> (Attempt, Option<History>) {
         let mut found = self.attempt(history, RowChoice::Every);
         let (mut rows, mut finer) = (1, None);
         for _ in 0..REPETITIONS {
             let own = finer.as_ref().unwrap_or(history);
-            let Some(more) = more_rows(self.scene, own, found.most_rows, found.change.fraction) else {
+            let Some(more) = more_rows(self.scene, own, found.most_rows, found.change.fraction)
+            else {
                 break;
             };
             let more = more * rows;
@@ -228,14 +263,24 @@ impl Evaluation<'_> {
         };
         let found = attempt(RowChoice::Smooth(FEWER.0));
         // where the values are many, the first choice has as many of them as the second
-        let has_more = found.spans.iter().any(|spans| spans.chosen.stride == FEWER.0);
+        let has_more = found
+            .spans
+            .iter()
+            .any(|spans| spans.chosen.stride == FEWER.0);
         let is_rough = found.change.fraction > FEWER.1 * self.scene.accuracy;
-        if has_more && is_rough { attempt(RowChoice::Sampled(1)) } else { found }
+        if has_more && is_rough {
+            attempt(RowChoice::Sampled(1))
+        } else {
+            found
+        }
     }
 
     /// Largest change of the extremes from one evaluation to the next, relative to the largest value of its kind.
     fn change(&self, next: &Attempt, before: &Attempt) -> Change {
-        let each = self.girders.iter().zip(next.spans.iter().zip(&before.spans));
+        let each = self
+            .girders
+            .iter()
+            .zip(next.spans.iter().zip(&before.spans));
         let of = |(girders, (next, before)): (&&PreparedGirders<'_>, (_, &SpanExtremes))| Change {
             structure: girders.name().to_owned(),
             ..difference(next, &before.values)
@@ -246,18 +291,34 @@ impl Evaluation<'_> {
     /// The extremes at rows of a history, and by how much they change from a coarser choice of them.
     fn attempt(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, breaks: self.breaks };
+        let rows = Rows {
+            history,
+            loads: &loads,
+            foundations: self.foundations,
+            breaks: self.breaks,
+        };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
             let own = girders.spans(rows, choice, self.scene.accuracy);
             let structure = girders.name().to_owned();
-            change = change.larger(Change { structure, ..difference(&own, &own.coarse) });
+            change = change.larger(Change {
+                structure,
+                ..difference(&own, &own.coarse)
+            });
             all.push(own);
         }
-        let most_rows =
-            self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
-        Attempt { spans: all, change, most_rows }
+        let most_rows = self
+            .girders
+            .iter()
+            .map(|own| own.most_rows(history, &loads))
+            .min()
+            .unwrap_or_default();
+        Attempt {
+            spans: all,
+            change,
+            most_rows,
+        }
     }
 }
 
@@ -271,15 +332,24 @@ fn difference(fine: &SpanExtremes, coarse: &[SpanValue]) -> Change {
         _ => 2,
     };
     let mut sizes = [0.0_f64; 3];
-    fine.sizes.iter().enumerate().for_each(|(k, size)| sizes[kind(k)] = sizes[kind(k)].max(*size));
+    fine.sizes
+        .iter()
+        .enumerate()
+        .for_each(|(k, size)| sizes[kind(k)] = sizes[kind(k)].max(*size));
     let mut largest = Change::default();
     for value in &fine.values {
         let size = sizes[kind(value.quantity)];
-        let Some(other) = coarse.iter().find(|other| key(other) == key(value)) else { continue };
+        let Some(other) = coarse.iter().find(|other| key(other) == key(value)) else {
+            continue;
+        };
         if size > 0.0 {
             let change = (value.found.signed - other.found.signed).abs() / size;
             if change > largest.fraction {
-                largest = Change { fraction: change, at: Some((value.quantity, value.span)), ..largest };
+                largest = Change {
+                    fraction: change,
+                    at: Some((value.quantity, value.span)),
+                    ..largest
+                };
             }
         }
     }
@@ -292,7 +362,9 @@ fn more_rows(scene: &Scene, history: &History, most: usize, change: f64) -> Opti
     if change <= scene.accuracy {
         return None;
     }
-    let factor = (1.5 * (change / scene.accuracy).cbrt()).clamp(2.0, 16.0).ceil() as usize;
+    let factor = (1.5 * (change / scene.accuracy).cbrt())
+        .clamp(2.0, 16.0)
+        .ceil() as usize;
     let width = history.channels().len().max(1);
     let most = most.min(MAX_ROWS[0]).min(MAX_ROWS[1] / width) / history.len().max(1);
     let factor = factor.min(most);

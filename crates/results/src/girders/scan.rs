@@ -69,22 +69,41 @@ struct Target<'s> {
 impl<'s> Target<'s> {
     fn new(scan: &'s mut Scan, girders: &LoadedGirders<'_>, row: ScannedRow) -> Target<'s> {
         let number = girders.deflected.binary_search(&row.row).ok();
-        let deflections = number.map(|number| ScannedRow { number, row: row.row });
-        Target { scan, row, deflections }
+        let deflections = number.map(|number| ScannedRow {
+            number,
+            row: row.row,
+        });
+        Target {
+            scan,
+            row,
+            deflections,
+        }
     }
 }
 
 impl Scan {
     /// Scans the rows of `fine`, and those of `coarse`, which are the ones of `fine` with the numbers `chosen`.
-    pub fn both(fine: &LoadedGirders<'_>, coarse: &LoadedGirders<'_>, chosen: &[usize]) -> [Scan; 2] {
+    pub fn both(
+        fine: &LoadedGirders<'_>,
+        coarse: &LoadedGirders<'_>,
+        chosen: &[usize],
+    ) -> [Scan; 2] {
         let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
         let (mut next, mut memory) = (0, Workspace::default());
         for at in fine.scanned_rows() {
             let state = fine.states.at_row(at.row);
             let own = Target::new(&mut all, fine, at);
             if chosen.get(next) == Some(&at.number) {
-                let other = ScannedRow { number: next, row: coarse.scanned[next] };
-                add_row(&mut [own, Target::new(&mut few, coarse, other)], fine, &state, &mut memory);
+                let other = ScannedRow {
+                    number: next,
+                    row: coarse.scanned[next],
+                };
+                add_row(
+                    &mut [own, Target::new(&mut few, coarse, other)],
+                    fine,
+                    &state,
+                    &mut memory,
+                );
                 next += 1;
             } else {
                 add_row(&mut [own], fine, &state, &mut memory);
@@ -98,7 +117,12 @@ impl Scan {
         let (mut scan, mut memory) = (Scan::empty(girders, false), Workspace::default());
         for at in girders.scanned_rows() {
             let own = Target::new(&mut scan, girders, at);
-            add_row(&mut [own], girders, &girders.states.at_row(at.row), &mut memory);
+            add_row(
+                &mut [own],
+                girders,
+                &girders.states.at_row(at.row),
+                &mut memory,
+            );
         }
         scan.finished(girders)
     }
@@ -110,11 +134,16 @@ impl Scan {
             first_span.push(first_span[first_span.len() - 1] + rail.ends.len() + 1);
         }
         let is_counted = has_loads && girders.states.len() > 0;
-        let loads = if is_counted { girders.states.loads(0).len() } else { 0 };
+        let loads = if is_counted {
+            girders.states.loads(0).len()
+        } else {
+            0
+        };
         let spans = first_span[first_span.len() - 1];
         let acting = girders.acting();
-        let of_member =
-            |own: &Vec<usize>| std::array::from_fn(|k| PeakRows::new(if acting[k] { own.len() } else { 0 }));
+        let of_member = |own: &Vec<usize>| {
+            std::array::from_fn(|k| PeakRows::new(if acting[k] { own.len() } else { 0 }))
+        };
         Scan {
             of_members: sections.of_member.iter().map(of_member).collect(),
             of_blocks: girders
@@ -175,7 +204,13 @@ impl Scan {
 
     fn add_size(&mut self, quantity: usize, values: &[f64]) {
         let size = &mut self.sizes[quantity];
-        *size = values.iter().fold(*size, |most, value| if value.abs() > most { value.abs() } else { most });
+        *size = values.iter().fold(*size, |most, value| {
+            if value.abs() > most {
+                value.abs()
+            } else {
+                most
+            }
+        });
     }
 
     /// Adds the sections that loads pass between a row and the next. `clear` are the stretches of rails without sections on which
@@ -206,7 +241,13 @@ impl Scan {
                     let values = girders.forces_in(section.member, section.place, &state, own);
                     let sizes = self.sizes.iter_mut().zip(values);
                     sizes.for_each(|(size, value)| *size = size.max(value.abs()));
-                    self.passages[index].push(Passage { load, position, is_after, is_behind, values });
+                    self.passages[index].push(Passage {
+                        load,
+                        position,
+                        is_after,
+                        is_behind,
+                        values,
+                    });
                 }
             }
         }
@@ -236,13 +277,19 @@ fn add_forces(
     let sections = girders.sections;
     let has_loads = targets.iter().any(|target| !target.scan.wheels.is_empty());
     for (index, member) in girders.members.members().enumerate() {
-        let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else {
+        let Some(rail) = sections
+            .rails
+            .iter()
+            .position(|rail| rail.rail == member.rail)
+        else {
             continue;
         };
         if !has_loads && sections.of_member[index].is_empty() {
             continue;
         }
-        girders.members.load(index, &state.loads, &mut memory.passed);
+        girders
+            .members
+            .load(index, &state.loads, &mut memory.passed);
         let fibres = sections.stressed.of(index);
         add_sections(targets, girders, index, state, memory);
         let passed = &memory.passed;
@@ -253,14 +300,24 @@ fn add_forces(
             let x = girders.members.coordinate(index, place);
             // at the end of a member the side of the load is that of the member
             let is_first = x - member.x[0] < member.x[1] - x;
-            let side = if is_first { SectionSide::Behind } else { SectionSide::Before };
+            let side = if is_first {
+                SectionSide::Behind
+            } else {
+                SectionSide::Before
+            };
             let span = sections.rails[rail].span(x, side);
             for is_behind in [false, true] {
                 let values = girders.sum(index, place, state, passed, Some((load, is_behind)));
                 for Target { scan, row, .. } in targets.iter_mut() {
                     let at = scan.wheel(load, is_behind, rail, span);
-                    add(&mut scan.wheels[at], (&scan.acting, &mut scan.sizes), *row, &values);
-                    scan.stresses.add_wheel((load, is_behind), fibres, row.row, &values);
+                    add(
+                        &mut scan.wheels[at],
+                        (&scan.acting, &mut scan.sizes),
+                        *row,
+                        &values,
+                    );
+                    scan.stresses
+                        .add_wheel((load, is_behind), fibres, row.row, &values);
                 }
             }
         }
@@ -273,7 +330,11 @@ fn add_sections(
     girders: &LoadedGirders<'_>,
     member: usize,
     state: &LoadState<'_>,
-    Workspace { passed, values, all }: &mut Workspace,
+    Workspace {
+        passed,
+        values,
+        all,
+    }: &mut Workspace,
 ) {
     let sections = girders.sections;
     let (own, places) = (&sections.of_member[member], &sections.places[member]);
@@ -281,12 +342,18 @@ fn add_sections(
     let is_whole = fibres.is_some() || !girders.distributed.is_empty();
     if is_whole {
         all.clear();
-        all.extend(places.iter().map(|place| girders.sum(member, *place, state, passed, None)));
+        all.extend(
+            places
+                .iter()
+                .map(|place| girders.sum(member, *place, state, passed, None)),
+        );
     }
     if fibres.is_some() {
         for Target { scan, row, .. } in targets.iter_mut() {
             let each = own.iter().zip(&*all);
-            each.for_each(|(section, values)| scan.stresses.add_section(*section, fibres, row.row, values));
+            each.for_each(|(section, values)| {
+                scan.stresses.add_section(*section, fibres, row.row, values)
+            });
         }
     }
     values.resize(places.len(), 0.0);
@@ -295,7 +362,10 @@ fn add_sections(
             continue;
         }
         match is_whole {
-            true => values.iter_mut().zip(&*all).for_each(|(value, all)| *value = all[k]),
+            true => values
+                .iter_mut()
+                .zip(&*all)
+                .for_each(|(value, all)| *value = all[k]),
             false => passed.fill(k, places, values),
         }
         for Target { scan, row, .. } in targets.iter_mut().filter(|target| target.scan.acting[k]) {
@@ -313,18 +383,26 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
         let outline = &girders.sections.rails[block.rail];
         for (load, RailLoad { rail, x, .. }) in state.loads.iter().enumerate() {
             if *rail == outline.rail && *x >= outline.range[0] && *x <= outline.range[1] {
-                let spans = outline.spans_at(*x).filter(|span| girders.is_carried(block.rail, *x, *span));
+                let spans = outline
+                    .spans_at(*x)
+                    .filter(|span| girders.is_carried(block.rail, *x, *span));
                 under.extend(spans.map(|span| (probes.len(), load, block.rail, span)));
                 probes.push(probe(*rail, *x, block.plane));
             }
         }
     }
-    let Some(all) = girders.points.at(state, &probes) else { return };
+    let Some(all) = girders.points.at(state, &probes) else {
+        return;
+    };
     let (fixed, moving) = all.split_at(all.len() - probes.len());
     let plane_of = |index: usize| usize::from(probes[index].axis == Axis::Lateral);
-    for Target { scan, deflections, .. } in targets.iter_mut() {
+    for Target {
+        scan, deflections, ..
+    } in targets.iter_mut()
+    {
         let Some(row) = *deflections else { continue };
-        for (block, PointBlock { plane, values, .. }) in girders.points.blocks().iter().enumerate() {
+        for (block, PointBlock { plane, values, .. }) in girders.points.blocks().iter().enumerate()
+        {
             let own = &fixed[values.clone()];
             scan.of_blocks[block].add(row, own);
             scan.add_size(FORCES + plane, own);

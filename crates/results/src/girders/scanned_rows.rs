@@ -39,7 +39,9 @@ pub(super) fn scanned_rows(
 ) -> Vec<usize> {
     let count = samples.len();
     let size = |channels: &Vec<usize>| {
-        let values = samples.iter().flat_map(|sample| channels.iter().map(|c| sample[*c].abs()));
+        let values = samples
+            .iter()
+            .flat_map(|sample| channels.iter().map(|c| sample[*c].abs()));
         values.fold(0.0, f64::max)
     };
     let allowed: Vec<(usize, f64)> = kinds
@@ -56,12 +58,13 @@ pub(super) fn scanned_rows(
     while step < MOST {
         for row in (step..count).step_by(2 * step) {
             let half = step / 2;
-            let is_bare =
-                half == 0 || (is_left_out[row - half] && is_left_out.get(row + half) == Some(&true));
+            let is_bare = half == 0
+                || (is_left_out[row - half] && is_left_out.get(row + half) == Some(&true));
             if is_kept[row] || !is_bare || row < 3 * step || row + 3 * step >= count {
                 continue;
             }
-            let beside = [row - 3 * step, row - step, row + step, row + 3 * step].map(|row| samples[row]);
+            let beside =
+                [row - 3 * step, row - step, row + step, row + 3 * step].map(|row| samples[row]);
             let moved = |c: &usize| (beside[1][*c] - beside[2][*c]).abs();
             is_left_out[row] = kinds[0].iter().all(|c| moved(c) <= MOVED * span)
                 && is_smooth(samples[row], beside, &allowed);
@@ -75,10 +78,16 @@ pub(super) fn scanned_rows(
 fn is_smooth(row: &[f64], beside: [&[f64]; 4], allowed: &[(usize, f64)]) -> bool {
     let weights: [f64; 4] = std::array::from_fn(|i| {
         let others = (0..4).filter(|j| *j != i);
-        others.map(|j| (row[0] - beside[j][0]) / (beside[i][0] - beside[j][0])).product()
+        others
+            .map(|j| (row[0] - beside[j][0]) / (beside[i][0] - beside[j][0]))
+            .product()
     });
     allowed.iter().all(|&(c, allowed)| {
-        let value: f64 = beside.iter().zip(weights).map(|(beside, weight)| weight * beside[c]).sum();
+        let value: f64 = beside
+            .iter()
+            .zip(weights)
+            .map(|(beside, weight)| weight * beside[c])
+            .sum();
         (value - row[c]).abs() <= allowed
     })
 }
@@ -100,7 +109,9 @@ mod tests {
         let rows: Vec<[f64; 5]> = (0..ROWS.1).map(row).collect();
         let samples: Vec<&[f64]> = rows.iter().map(|row| &row[..]).collect();
         let found = scanned_rows(&samples, &[vec![1], vec![2], vec![3], vec![4]], kept, 10.0);
-        (0..ROWS.1).map(|row| found.binary_search(&row).is_ok()).collect()
+        (0..ROWS.1)
+            .map(|row| found.binary_search(&row).is_ok())
+            .collect()
     }
 
     /// Three waves of half a second and of different size.
@@ -121,14 +132,25 @@ mod tests {
             for (row, c) in (four[1]..four[2]).flat_map(|row| (0..3).map(move |c| (row, c))) {
                 let weight = |i: usize| -> f64 {
                     let others = (0..4).filter(|j| *j != i).map(|j| four[j] as f64);
-                    others.map(|other| (row as f64 - other) / (four[i] as f64 - other)).product()
+                    others
+                        .map(|other| (row as f64 - other) / (four[i] as f64 - other))
+                        .product()
                 };
                 let value: f64 = (0..4).map(|i| weight(i) * wave(c, four[i])).sum();
                 let error = (value - wave(c, row)).abs() / [40.0, 0.02, 3.0][c];
                 assert!(error < 1.1 * SMOOTH, "{error:e} in {c} at {row}");
             }
         }
-        let rough = scanned(&|c, row| if c == 2 { [1.0, -1.0][row % 2] } else { wave(c, row) }, &[]);
+        let rough = scanned(
+            &|c, row| {
+                if c == 2 {
+                    [1.0, -1.0][row % 2]
+                } else {
+                    wave(c, row)
+                }
+            },
+            &[],
+        );
         assert!(rough.iter().all(|is_scanned| *is_scanned));
     }
 
@@ -138,15 +160,24 @@ mod tests {
     fn rows_beside_a_corner_or_a_jump_are_never_left_out() {
         let corner = |past: f64| 5.0 * past.max(0.0);
         let jump = |past: f64| if past > 0.0 { 0.01 } else { 0.0 };
-        for (channel, at) in (0..3).flat_map(|c| (1000..1017).map(move |k| (c, 0.5 * f64::from(k)))) {
+        for (channel, at) in (0..3).flat_map(|c| (1000..1017).map(move |k| (c, 0.5 * f64::from(k))))
+        {
             let size = [40.0, 0.02, 3.0][channel];
             // from the middle of the force down to zero, where the contact opens
             let open = |past: f64| size * (-12.0 * past).clamp(0.0, 1.0);
             let with = |kink: &dyn Fn(f64) -> f64, keeps_wave: bool| {
                 let value = |c: usize, row: usize| {
                     let past = ROWS.0 * (row as f64 - at);
-                    let wave = if c != channel || keeps_wave { wave(c, row) } else { 0.0 };
-                    if c == channel { wave + kink(past) } else { wave }
+                    let wave = if c != channel || keeps_wave {
+                        wave(c, row)
+                    } else {
+                        0.0
+                    };
+                    if c == channel {
+                        wave + kink(past)
+                    } else {
+                        wave
+                    }
                 };
                 scanned(&value, &[])
             };
@@ -157,7 +188,10 @@ mod tests {
             ];
             for (kind, own) in found.iter().enumerate() {
                 let beside = [at.ceil() as usize - 1, at.floor() as usize + 1];
-                assert!((beside[0]..=beside[1]).all(|row| own[row]), "{kind} of {channel} at {at}");
+                assert!(
+                    (beside[0]..=beside[1]).all(|row| own[row]),
+                    "{kind} of {channel} at {at}"
+                );
                 let count = own.iter().filter(|is_scanned| **is_scanned).count();
                 assert!(count < ROWS.1 / 6, "{count} rows");
             }
@@ -171,7 +205,9 @@ mod tests {
         let own = scanned(&wave, &kept);
         assert!(kept.iter().all(|row| own[*row]));
         assert!(!scanned(&wave, &[])[301]);
-        let fast: Vec<[f64; 2]> = (0..50).map(|row| [f64::from(row), 0.11 * f64::from(row)]).collect();
+        let fast: Vec<[f64; 2]> = (0..50)
+            .map(|row| [f64::from(row), 0.11 * f64::from(row)])
+            .collect();
         let samples: Vec<&[f64]> = fast.iter().map(|row| &row[..]).collect();
         let kinds = [vec![1], Vec::new(), Vec::new(), Vec::new()];
         assert_eq!(scanned_rows(&samples, &kinds, &[], 10.0).len(), 50);

@@ -43,7 +43,10 @@ impl RailSpans {
     pub fn bounds(&self, span: usize) -> [f64; 2] {
         let from = span.checked_sub(1).and_then(|end| self.ends.get(end));
         let to = self.ends.get(span);
-        [from.map_or(self.range[0], |x| *x), to.map_or(self.range[1], |x| *x)]
+        [
+            from.map_or(self.range[0], |x| *x),
+            to.map_or(self.range[1], |x| *x),
+        ]
     }
 
     /// Lengths of the spans and overhangs that are longer than rounding.
@@ -52,7 +55,9 @@ impl RailSpans {
             let [from, to] = self.bounds(span);
             to - from
         };
-        (0..=self.ends.len()).map(length).filter(|length| *length > self.slack())
+        (0..=self.ends.len())
+            .map(length)
+            .filter(|length| *length > self.slack())
     }
 
     /// The spans in which a coordinate lies; two at the end that they have in common.
@@ -67,7 +72,10 @@ impl RailSpans {
     pub fn neighbours(&self, x: f64) -> [f64; 2] {
         let before = self.places.iter().rev().find(|place| **place < x);
         let after = self.places.iter().find(|place| **place > x);
-        [before.map_or(x, |place| *place), after.map_or(x, |place| *place)]
+        [
+            before.map_or(x, |place| *place),
+            after.map_or(x, |place| *place),
+        ]
     }
 
     /// Differences of coordinates that count as rounding.
@@ -118,12 +126,25 @@ impl Sections {
         let mut stressed = StressedSections::default();
         if let Origin::Spec { spec, .. } = &scene.structures[s].origin {
             for index in (0..scene.rails.len()).filter(|rail| scene.rails[*rail].structure == s) {
-                rails.push(rail_spans(scene, index, spec, &solved.model, solved, members));
+                rails.push(rail_spans(
+                    scene,
+                    index,
+                    spec,
+                    &solved.model,
+                    solved,
+                    members,
+                ));
             }
-            let known: Vec<[usize; 2]> = rails.iter().map(|rail| [rail.scene_rail, rail.rail]).collect();
+            let known: Vec<[usize; 2]> = rails
+                .iter()
+                .map(|rail| [rail.scene_rail, rail.rail])
+                .collect();
             stressed = StressedSections::new(scene, spec, solved, members, &known);
         }
-        Sections { stressed, ..Sections::of(rails, members) }
+        Sections {
+            stressed,
+            ..Sections::of(rails, members)
+        }
     }
 
     /// The sections at the places of `rails`, without stresses.
@@ -136,7 +157,11 @@ impl Sections {
             for &x in &rail.places {
                 let point = points.len();
                 points.push(RailPoint { rail: number, x });
-                for (index, member) in members.members().enumerate().filter(|(_, m)| m.rail == rail.rail) {
+                for (index, member) in members
+                    .members()
+                    .enumerate()
+                    .filter(|(_, m)| m.rail == rail.rail)
+                {
                     if x < member.x[0] - near || x > member.x[1] + near {
                         continue;
                     }
@@ -183,7 +208,9 @@ impl Sections {
                 let point = self.points[section.point];
                 (point.rail, point.x)
             };
-            let first = self.sections.partition_point(|section| place(section) < (index, low));
+            let first = self
+                .sections
+                .partition_point(|section| place(section) < (index, low));
             let own = move |at: &usize| {
                 let (rail, x) = place(&self.sections[*at]);
                 rail == index && x <= high
@@ -194,9 +221,16 @@ impl Sections {
 
     /// The stretch of a rail of the structure about a coordinate, its ends left out, in which there are no sections.
     pub fn clear_about(&self, rail: usize, x: f64) -> [f64; 2] {
-        let places = self.rails.iter().filter(|own| own.rail == rail).flat_map(|own| &own.places);
+        let places = self
+            .rails
+            .iter()
+            .filter(|own| own.rail == rail)
+            .flat_map(|own| &own.places);
         places.fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], &place| {
-            [if place <= x { low.max(place) } else { low }, if place >= x { high.min(place) } else { high }]
+            [
+                if place <= x { low.max(place) } else { low },
+                if place >= x { high.min(place) } else { high },
+            ]
         })
     }
 
@@ -206,8 +240,13 @@ impl Sections {
         for (number, rail) in rails.iter_mut().enumerate() {
             let known = std::mem::take(&mut rail.places);
             let near = rail.slack();
-            let of_rail = places.iter().filter(|(of, _)| *of == number).map(|(_, x)| *x);
-            rail.places = of_rail.filter(|x| known.iter().all(|own| (own - x).abs() > near)).collect();
+            let of_rail = places
+                .iter()
+                .filter(|(of, _)| *of == number)
+                .map(|(_, x)| *x);
+            rail.places = of_rail
+                .filter(|x| known.iter().all(|own| (own - x).abs() > near))
+                .collect();
             tidy(&mut rail.places, rail.range);
         }
         Sections::of(rails, members)
@@ -225,21 +264,38 @@ fn rail_spans(
     let rail = scene.rails[index].rail;
     let range = members.structure().range(rail);
     let given = scene.output.spans.iter().find(|(known, _)| *known == index);
-    let mut ends = given.map_or_else(|| spec.spans(model, &solved.rails, rail), |(_, ends)| ends.clone());
+    let mut ends = given.map_or_else(
+        || spec.spans(model, &solved.rails, rail),
+        |(_, ends)| ends.clone(),
+    );
     // the first and the last support may lie beyond the part of the rail that carries loads
-    ends.iter_mut().for_each(|x| *x = x.clamp(range[0], range[1]));
+    ends.iter_mut()
+        .for_each(|x| *x = x.clamp(range[0], range[1]));
     tidy(&mut ends, range);
     if ends.len() < 2 {
         ends = range.to_vec();
     }
     let mut places: Vec<f64> = ends
         .windows(2)
-        .flat_map(|pair| (0..=PARTS).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / PARTS as f64))
+        .flat_map(|pair| {
+            (0..=PARTS).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / PARTS as f64)
+        })
         .collect();
-    places.extend(spec.rails().get(rail).iter().flat_map(|outline| outline.stations.iter().copied()));
+    places.extend(
+        spec.rails()
+            .get(rail)
+            .iter()
+            .flat_map(|outline| outline.stations.iter().copied()),
+    );
     places.extend(members.structure().member_ends(rail));
     tidy(&mut places, range);
-    RailSpans { scene_rail: index, rail, range, ends, places }
+    RailSpans {
+        scene_rail: index,
+        rail,
+        range,
+        ends,
+        places,
+    }
 }
 
 /// Sorts places, and removes those beyond the rail and those that others repeat.

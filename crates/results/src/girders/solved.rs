@@ -14,7 +14,10 @@ pub(crate) struct SolvedMembers {
 impl SolvedMembers {
     /// The members of none of `known` are solved yet.
     pub fn new(known: &[SolvedStructure]) -> SolvedMembers {
-        SolvedMembers { known: known.to_vec(), members: known.iter().map(|_| OnceLock::new()).collect() }
+        SolvedMembers {
+            known: known.to_vec(),
+            members: known.iter().map(|_| OnceLock::new()).collect(),
+        }
     }
 
     /// The solved specs.
@@ -27,8 +30,12 @@ impl SolvedMembers {
     /// # Errors
     /// Those of [`MemberForces::new`].
     pub fn of(&self, solved: &SolvedModel) -> Option<Result<&MemberForces, trains::Error>> {
-        let index = self.known.iter().position(|entry| std::ptr::eq(&*entry.solution, solved))?;
-        let members = self.members[index].get_or_init(|| MemberForces::new(&solved.model, &solved.rails));
+        let index = self
+            .known
+            .iter()
+            .position(|entry| std::ptr::eq(&*entry.solution, solved))?;
+        let members =
+            self.members[index].get_or_init(|| MemberForces::new(&solved.model, &solved.rails));
         Some(members.as_ref().map_err(Clone::clone))
     }
 }

@@ -42,9 +42,20 @@ impl Refinement<'_> {
                     for kind in 0..2 {
                         let found = match quantity.checked_sub(FORCES) {
                             None => self.span_force(rail, span, quantity, kind),
-                            Some(plane) => self.span_deflection(Wanted { rail, span, plane, kind }),
+                            Some(plane) => self.span_deflection(Wanted {
+                                rail,
+                                span,
+                                plane,
+                                kind,
+                            }),
                         };
-                        out.extend(found.map(|found| SpanValue { rail, span, quantity, kind, found }));
+                        out.extend(found.map(|found| SpanValue {
+                            rail,
+                            span,
+                            quantity,
+                            kind,
+                            found,
+                        }));
                     }
                 }
             }
@@ -53,20 +64,39 @@ impl Refinement<'_> {
     }
 
     /// The largest of sign times a force over a span: at its sections, where wheels pass them, and beside wheels.
-    fn span_force(&self, rail: usize, span: usize, quantity: usize, kind: usize) -> Option<GirderValue> {
-        let Scan { sections: peaks, wheels, .. } = self.scan;
+    fn span_force(
+        &self,
+        rail: usize,
+        span: usize,
+        quantity: usize,
+        kind: usize,
+    ) -> Option<GirderValue> {
+        let Scan {
+            sections: peaks,
+            wheels,
+            ..
+        } = self.scan;
         let all = &self.girders.sections;
         let own: Vec<usize> = (0..all.sections.len())
-            .filter(|at| all.sections[*at].span == span && all.points[all.sections[*at].point].rail == rail)
+            .filter(|at| {
+                all.sections[*at].span == span && all.points[all.sections[*at].point].rail == rail
+            })
             .collect();
-        let loads = wheels.len() / (2 * self.scan.first_span[self.scan.first_span.len() - 1]).max(1);
+        let loads =
+            wheels.len() / (2 * self.scan.first_span[self.scan.first_span.len() - 1]).max(1);
         let tracks: Vec<(usize, bool, &Peak)> = (0..loads)
             .flat_map(|load| [(load, false), (load, true)])
             .map(|(load, behind)| {
-                (load, behind, &wheels[self.scan.wheel(load, behind, rail, span)][quantity][kind])
+                (
+                    load,
+                    behind,
+                    &wheels[self.scan.wheel(load, behind, rail, span)][quantity][kind],
+                )
             })
             .collect();
-        let values = own.iter().map(|at| peaks[*at][quantity][kind].largest.value);
+        let values = own
+            .iter()
+            .map(|at| peaks[*at][quantity][kind].largest.value);
         let values = values.chain(tracks.iter().map(|track| track.2.largest.value));
         let best = values.fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(quantity);
@@ -83,12 +113,22 @@ impl Refinement<'_> {
         }
         // of equal values that of the first section counts
         let mut found: Option<GirderValue> = None;
-        of_sections.into_iter().for_each(|value| offer(&mut found, value));
-        if let Some(own) = found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty()) {
+        of_sections
+            .into_iter()
+            .for_each(|value| offer(&mut found, value));
+        if let Some(own) =
+            found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty())
+        {
             offer(&mut found, self.along(rail, span, quantity, kind, own));
         }
-        for (load, behind, peak) in tracks.into_iter().filter(|track| track.2.highest.height >= least) {
-            offer(&mut found, self.beside(rail, span, (load, behind), quantity, kind, peak));
+        for (load, behind, peak) in tracks
+            .into_iter()
+            .filter(|track| track.2.highest.height >= least)
+        {
+            offer(
+                &mut found,
+                self.beside(rail, span, (load, behind), quantity, kind, peak),
+            );
         }
         found
     }
@@ -118,18 +158,24 @@ impl Refinement<'_> {
                 girders.members.load(index, &state.loads, &mut passed);
                 let (_, place) = passed.places().find(|(load, _)| *load == own.0)?;
                 let x = girders.members.coordinate(index, place);
-                girders.member_at(rail, x, span).is_some().then_some((index, place, x))
+                girders
+                    .member_at(rail, x, span)
+                    .is_some()
+                    .then_some((index, place, x))
             };
             let found = girders.members.members().enumerate().find_map(on)?;
             Some((state, found))
         };
         let value = |position: f64, is_behind: bool| {
             place(position).map_or(f64::NEG_INFINITY, |(state, (member, place, _))| {
-                SIGNS[kind] * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
+                SIGNS[kind]
+                    * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
             })
         };
         let (signed, position) =
-            self.over_time((peak, 1), (quantity, Corners::NONE), &mut |position| value(position, own.1));
+            self.over_time((peak, 1), (quantity, Corners::NONE), &mut |position| {
+                value(position, own.1)
+            });
         let (_, (member, place, x)) = place(position)?;
         let side = match own.1 {
             _ if is_moment(quantity) => SectionSide::At,
@@ -137,7 +183,15 @@ impl Refinement<'_> {
             false => SectionSide::Before,
         };
         let section = Some((member, place));
-        Some(GirderValue { signed, position, x, section, own: Some(own), is_after: None, side })
+        Some(GirderValue {
+            signed,
+            position,
+            x,
+            section,
+            own: Some(own),
+            is_after: None,
+            side,
+        })
     }
 
     /// Refines a value at a section along its member and over time in turn.
@@ -155,15 +209,21 @@ impl Refinement<'_> {
         let ends = girders.members.members().nth(member)?.x;
         let bounds = outline.bounds(span);
         let neighbours = outline.neighbours(from.x);
-        let near = [neighbours[0].max(ends[0]).max(bounds[0]), neighbours[1].min(ends[1]).min(bounds[1])];
+        let near = [
+            neighbours[0].max(ends[0]).max(bounds[0]),
+            neighbours[1].min(ends[1]).min(bounds[1]),
+        ];
         let value = |x: f64, position: f64| {
             let place = girders.members.place(member, x);
-            SIGNS[kind] * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
+            SIGNS[kind]
+                * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
         };
         let (mut found, size) = (from, self.size(quantity));
         for _ in 0..ROUNDS {
             let known = (found.signed, found.x);
-            let (signed, x) = largest(near, known, self.search_end(size), &mut |x| value(x, found.position));
+            let (signed, x) = largest(near, known, self.search_end(size), &mut |x| {
+                value(x, found.position)
+            });
             if signed <= found.signed + 1e-3 * self.accuracy * size {
                 break;
             }
@@ -174,9 +234,14 @@ impl Refinement<'_> {
                 side: SectionSide::At,
                 ..found
             };
-            let (signed, position) = self.near_in_time(found.position, 1, &mut |position| value(x, position));
+            let (signed, position) =
+                self.near_in_time(found.position, 1, &mut |position| value(x, position));
             if signed > found.signed {
-                found = GirderValue { signed, position, ..found };
+                found = GirderValue {
+                    signed,
+                    position,
+                    ..found
+                };
             }
         }
         Some(found)

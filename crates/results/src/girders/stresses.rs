@@ -72,8 +72,18 @@ impl GirderStresses {
     #[must_use]
     pub fn governing(&self) -> Option<&GirderStress> {
         let used = self.rows.iter().filter(|row| row.yield_strength.is_some());
-        let most = used.reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a });
-        most.or_else(|| self.rows.iter().reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a }))
+        let most = used.reduce(|a, b| {
+            if b.utilisation() > a.utilisation() {
+                b
+            } else {
+                a
+            }
+        });
+        most.or_else(|| {
+            self.rows
+                .iter()
+                .reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
+        })
     }
 
     /// Adds the stresses of another structure.
@@ -86,7 +96,11 @@ impl GirderStresses {
     #[must_use]
     pub fn json(&self, scene: &Scene, number: usize) -> Option<Value> {
         let named = |names: [&str; 3], values: [f64; 3]| -> Map<String, Value> {
-            names.into_iter().zip(values).map(|(name, value)| (name.to_owned(), json!(value + 0.0))).collect()
+            names
+                .into_iter()
+                .zip(values)
+                .map(|(name, value)| (name.to_owned(), json!(value + 0.0)))
+                .collect()
         };
         let one = |found: &GirderStress| {
             let mut out = json!({
@@ -105,7 +119,8 @@ impl GirderStresses {
                 "side": side_word(found.side),
                 "time": found.time,
             });
-            if let (Some(strength), Some(utilisation)) = (found.yield_strength, found.utilisation()) {
+            if let (Some(strength), Some(utilisation)) = (found.yield_strength, found.utilisation())
+            {
                 out["strength"] = json!(strength);
                 out["utilisation"] = json!(utilisation);
                 out["within"] = json!(utilisation <= 1.0);
@@ -124,7 +139,12 @@ impl GirderStresses {
         let tables = scene.rails.iter().enumerate().filter_map(|(index, rail)| {
             let structure = &scene.structures[rail.structure];
             let is_tables = matches!(structure.origin, Origin::Tables { .. });
-            is_tables.then(|| (index, format!("structure {} is given by tables", structure.name)))
+            is_tables.then(|| {
+                (
+                    index,
+                    format!("structure {} is given by tables", structure.name),
+                )
+            })
         });
         let lacks: Vec<(String, String)> = tables
             .chain(self.lacks.iter().cloned())
@@ -146,11 +166,20 @@ impl Refinement<'_> {
     /// The largest stresses of the sections of a structure; `spans` are its extremes.
     pub fn stresses(&self, spans: &[SpanValue]) -> GirderStresses {
         let stressed = &self.girders.sections.stressed;
-        let found: Vec<GirderStress> =
-            (0..stressed.all.len()).filter_map(|section| self.of_section(section, spans)).collect();
-        let most = found.iter().fold(0.0_f64, |most, row| most.max(row.value.abs()));
-        let rows = found.into_iter().filter(|row| row.value.abs() > ZERO * most).collect();
-        GirderStresses { rows, lacks: stressed.lacks.clone() }
+        let found: Vec<GirderStress> = (0..stressed.all.len())
+            .filter_map(|section| self.of_section(section, spans))
+            .collect();
+        let most = found
+            .iter()
+            .fold(0.0_f64, |most, row| most.max(row.value.abs()));
+        let rows = found
+            .into_iter()
+            .filter(|row| row.value.abs() > ZERO * most)
+            .collect();
+        GirderStresses {
+            rows,
+            lacks: stressed.lacks.clone(),
+        }
     }
 
     fn of_section(&self, section: usize, spans: &[SpanValue]) -> Option<GirderStress> {
@@ -158,13 +187,33 @@ impl Refinement<'_> {
         let all = girders.sections;
         let is_own = |member: usize| all.stressed.of_member[member] == Some(section);
         let mut found: Option<GirderValue> = None;
-        for value in spans.iter().filter(|value| DIRECT.contains(&value.quantity)) {
-            if value.found.section.is_some_and(|(member, _)| is_own(member)) {
-                let signed = self.stress_at(&value.found).map_or(0.0, |(worst, _)| worst.value().abs());
-                offer(&mut found, Some(GirderValue { signed, ..value.found }));
+        for value in spans
+            .iter()
+            .filter(|value| DIRECT.contains(&value.quantity))
+        {
+            if value
+                .found
+                .section
+                .is_some_and(|(member, _)| is_own(member))
+            {
+                let signed = self
+                    .stress_at(&value.found)
+                    .map_or(0.0, |(worst, _)| worst.value().abs());
+                offer(
+                    &mut found,
+                    Some(GirderValue {
+                        signed,
+                        ..value.found
+                    }),
+                );
             }
         }
-        for (own, passages) in all.sections.iter().zip(&scan.passages).filter(|(own, _)| is_own(own.member)) {
+        for (own, passages) in all
+            .sections
+            .iter()
+            .zip(&scan.passages)
+            .filter(|(own, _)| is_own(own.member))
+        {
             for passage in passages {
                 offer(
                     &mut found,
@@ -181,10 +230,18 @@ impl Refinement<'_> {
             }
         }
         let loads = scan.stresses.wheels.len() / (2 * all.stressed.all.len());
-        let tracks: Vec<(usize, bool)> = (0..loads).flat_map(|load| [(load, false), (load, true)]).collect();
-        let own: Vec<usize> = (0..all.sections.len()).filter(|at| is_own(all.sections[*at].member)).collect();
-        let of_track = |track: &(usize, bool)| scan.stresses.wheels[scan.stresses.wheel(*track, section)];
-        let rows = own.iter().map(|at| scan.stresses.sections[*at]).chain(tracks.iter().map(of_track));
+        let tracks: Vec<(usize, bool)> = (0..loads)
+            .flat_map(|load| [(load, false), (load, true)])
+            .collect();
+        let own: Vec<usize> = (0..all.sections.len())
+            .filter(|at| is_own(all.sections[*at].member))
+            .collect();
+        let of_track =
+            |track: &(usize, bool)| scan.stresses.wheels[scan.stresses.wheel(*track, section)];
+        let rows = own
+            .iter()
+            .map(|at| scan.stresses.sections[*at])
+            .chain(tracks.iter().map(of_track));
         let known = found.map_or(0.0, |found| found.signed);
         let least = (1.0 - NEAR) * rows.map(|row| row.size).fold(known, f64::max);
         for at in own {
@@ -214,12 +271,18 @@ impl Refinement<'_> {
     }
 
     fn stress_size(&self, member: usize, values: &Quantities) -> f64 {
-        self.stress(member, values).map_or(0.0, |(worst, _)| worst.value().abs())
+        self.stress(member, values)
+            .map_or(0.0, |(worst, _)| worst.value().abs())
     }
 
     fn stress_at(&self, found: &GirderValue) -> Option<(FibreStress, [f64; 3])> {
         let (member, place) = found.section?;
-        self.stress(member, &self.girders.forces_in(member, place, &self.state_of(found), found.own))
+        self.stress(
+            member,
+            &self
+                .girders
+                .forces_in(member, place, &self.state_of(found), found.own),
+        )
     }
 
     /// The largest stress of a section of a member in the intervals beside a row.
@@ -251,16 +314,23 @@ impl Refinement<'_> {
                 girders.members.load(member, &state.loads, &mut passed);
                 let (_, place) = passed.places().find(|(load, _)| *load == own.0)?;
                 Some((
-                    self.stress_size(member, &girders.sum(member, place, &state, &passed, Some(own))),
+                    self.stress_size(
+                        member,
+                        &girders.sum(member, place, &state, &passed, Some(own)),
+                    ),
                     member,
                     place,
                 ))
             };
-            let members = (0..stressed.of_member.len()).filter(|m| stressed.of_member[*m] == Some(section));
-            members.filter_map(on).reduce(|a, b| if b.0 > a.0 { b } else { a })
+            let members =
+                (0..stressed.of_member.len()).filter(|m| stressed.of_member[*m] == Some(section));
+            members
+                .filter_map(on)
+                .reduce(|a, b| if b.0 > a.0 { b } else { a })
         };
-        let (signed, position) =
-            self.near_in_time(row as f64, 1, &mut |position| at(position).map_or(0.0, |found| found.0));
+        let (signed, position) = self.near_in_time(row as f64, 1, &mut |position| {
+            at(position).map_or(0.0, |found| found.0)
+        });
         let (_, member, place) = at(position)?;
         let x = girders.members.coordinate(member, place);
         let side = SectionSide::At;
@@ -279,8 +349,9 @@ impl Refinement<'_> {
     fn stress_along(&self, section: usize, from: GirderValue) -> GirderValue {
         let girders = self.girders;
         let outline = &girders.sections.rails[girders.sections.stressed.all[section].rail];
-        let Some((member, ends)) =
-            from.section.and_then(|(member, _)| Some((member, girders.members.members().nth(member)?.x)))
+        let Some((member, ends)) = from
+            .section
+            .and_then(|(member, _)| Some((member, girders.members.members().nth(member)?.x)))
         else {
             return from;
         };
@@ -288,21 +359,39 @@ impl Refinement<'_> {
         let near = [before.max(ends[0]), after.min(ends[1])];
         let size = |x: f64, position: f64| {
             let place = girders.members.place(member, x);
-            self.stress_size(member, &girders.forces_in(member, place, &girders.states.at(position), None))
+            self.stress_size(
+                member,
+                &girders.forces_in(member, place, &girders.states.at(position), None),
+            )
         };
-        let mut found = GirderValue { is_after: None, ..from };
+        let mut found = GirderValue {
+            is_after: None,
+            ..from
+        };
         for _ in 0..ROUNDS {
             let known = (size(found.x, found.position), found.x);
-            let (signed, x) =
-                largest(near, known, self.search_end(from.signed), &mut |x| size(x, found.position));
+            let (signed, x) = largest(near, known, self.search_end(from.signed), &mut |x| {
+                size(x, found.position)
+            });
             if signed <= (1.0 + 1e-3 * self.accuracy) * found.signed {
                 break;
             }
-            let (later, position) = self.near_in_time(found.position, 1, &mut |position| size(x, position));
+            let (later, position) =
+                self.near_in_time(found.position, 1, &mut |position| size(x, position));
             let section = Some((member, girders.members.place(member, x)));
-            found = GirderValue { signed, x, section, side: SectionSide::At, ..found };
+            found = GirderValue {
+                signed,
+                x,
+                section,
+                side: SectionSide::At,
+                ..found
+            };
             if later > signed {
-                found = GirderValue { signed: later, position, ..found };
+                found = GirderValue {
+                    signed: later,
+                    position,
+                    ..found
+                };
             }
         }
         found
@@ -315,8 +404,13 @@ impl Refinement<'_> {
         let (worst, forces) = self.stress_at(found)?;
         let side = match found.own {
             Some((load, is_behind)) if found.side == SectionSide::At => {
-                let across = GirderValue { own: Some((load, !is_behind)), ..*found };
-                let other = self.stress_at(&across).map_or(0.0, |(worst, _)| worst.value().abs());
+                let across = GirderValue {
+                    own: Some((load, !is_behind)),
+                    ..*found
+                };
+                let other = self
+                    .stress_at(&across)
+                    .map_or(0.0, |(worst, _)| worst.value().abs());
                 match is_behind {
                     _ if other >= (1.0 - ROUNDING) * worst.value().abs() => SectionSide::At,
                     true => SectionSide::Behind,

@@ -125,9 +125,13 @@ impl<'a> PreparedGirders<'a> {
         solved: &SolvedModel,
         (all, is_stopped): (&'a SolvedMembers, &'a dyn Fn() -> bool),
     ) -> Result<Option<PreparedGirders<'a>>, Error> {
-        let failed =
-            |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
-        let Some(members) = all.of(solved) else { return Ok(None) };
+        let failed = |source: trains::Error| Error::Girders {
+            structure: scene.structures[s].name.clone(),
+            source,
+        };
+        let Some(members) = all.of(solved) else {
+            return Ok(None);
+        };
         let members = members.map_err(failed)?;
         let sections = Sections::new(scene, s, solved, members);
         if sections.sections.is_empty() {
@@ -139,7 +143,16 @@ impl<'a> PreparedGirders<'a> {
         let reactions = Reactions::new((scene, s), solved, built, members, load)
             .map_err(|source| failed(source.into()))?;
         let ends = MemberEnd::all(members);
-        Ok(Some(PreparedGirders { scene, s, members, ends, sections, distributed, reactions, is_stopped }))
+        Ok(Some(PreparedGirders {
+            scene,
+            s,
+            members,
+            ends,
+            sections,
+            distributed,
+            reactions,
+            is_stopped,
+        }))
     }
 
     /// Index of the structure.
@@ -154,7 +167,11 @@ impl<'a> PreparedGirders<'a> {
 
     /// Number of values of one row.
     fn width(&self, history: &History, loads: &WheelLoadReader) -> usize {
-        let on = loads.at(history.sample(0)).iter().filter(|load| load.structure == self.s).count();
+        let on = loads
+            .at(history.sample(0))
+            .iter()
+            .filter(|load| load.structure == self.s)
+            .count();
         FORCES * (self.sections.sections.len() + 2 * on) + 2 * self.sections.points.len()
     }
 
@@ -164,7 +181,12 @@ impl<'a> PreparedGirders<'a> {
     }
 
     fn chosen(&self, rows: Rows<'_>, choice: RowChoice) -> ChosenRows {
-        let Rows { history, loads, foundations, .. } = rows;
+        let Rows {
+            history,
+            loads,
+            foundations,
+            ..
+        } = rows;
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
         if let RowChoice::Sampled(least) = choice {
@@ -174,16 +196,33 @@ impl<'a> PreparedGirders<'a> {
             let is_kept = |index: &usize| beside.binary_search(&rows[*index]).is_ok();
             let kept: Vec<usize> = (0..rows.len()).filter(is_kept).collect();
             let coarse = with(every(&(0..rows.len()).collect::<Vec<_>>(), 2), &kept);
-            return ChosenRows { rows, stride, coarse, kept, most_deflections: MAX_STEPS };
+            return ChosenRows {
+                rows,
+                stride,
+                coarse,
+                kept,
+                most_deflections: MAX_STEPS,
+            };
         }
         if choice == RowChoice::Needed {
             // places, forces, displacements and accelerations
-            let of_loads =
-                |k: usize| loads.on(self.s).flat_map(|source| source.channels()[k].clone()).collect();
+            let of_loads = |k: usize| {
+                loads
+                    .on(self.s)
+                    .flat_map(|source| source.channels()[k].clone())
+                    .collect()
+            };
             let mut kinds: Vec<Vec<usize>> = vec![of_loads(0), of_loads(1)];
-            for first in [Channel::Coordinate(self.s, 0), Channel::Acceleration(self.s, 0)] {
+            for first in [
+                Channel::Coordinate(self.s, 0),
+                Channel::Acceleration(self.s, 0),
+            ] {
                 let dofs = foundations[self.s].dofs();
-                kinds.extend(history.position(first).map(|first| (first..first + dofs).collect()));
+                kinds.extend(
+                    history
+                        .position(first)
+                        .map(|first| (first..first + dofs).collect()),
+                );
             }
             let needed = |rows: &[usize], (tolerance, most): (f64, usize)| {
                 let samples: Vec<&[f64]> = rows.iter().map(|row| history.sample(*row)).collect();
@@ -191,24 +230,53 @@ impl<'a> PreparedGirders<'a> {
             };
             let rows = needed(&all, NEEDED[0]);
             let coarse = needed(&rows, NEEDED[1]);
-            return ChosenRows { rows, stride: 1, coarse, kept: Vec::new(), most_deflections: MAX_STEPS };
+            return ChosenRows {
+                rows,
+                stride: 1,
+                coarse,
+                kept: Vec::new(),
+                most_deflections: MAX_STEPS,
+            };
         }
         let stride = (history.len() * width).div_ceil(MAX_VALUES).max(1);
         let rows = every(&all, stride);
         let coarse = every(&(0..rows.len()).collect::<Vec<_>>(), 2);
-        ChosenRows { rows, stride, coarse, kept: Vec::new(), most_deflections: MAX_DEFLECTIONS }
+        ChosenRows {
+            rows,
+            stride,
+            coarse,
+            kept: Vec::new(),
+            most_deflections: MAX_DEFLECTIONS,
+        }
     }
 
     /// Rows at which a load is at an end of a member of its rail, or a motion or load has a corner, and the [`BESIDE`] rows on
     /// both sides of them.
-    fn rows_beside_corners(&self, Rows { history, loads, breaks, .. }: Rows<'_>) -> Vec<usize> {
+    fn rows_beside_corners(
+        &self,
+        Rows {
+            history,
+            loads,
+            breaks,
+            ..
+        }: Rows<'_>,
+    ) -> Vec<usize> {
         let is_at_end = |load: &RailLoad| self.ends.iter().any(|end| end.has(load));
         let is_corner = |row: &usize| {
             let sample = history.sample(*row);
-            breaks.contains(&sample[0]) || loads.on(self.s).any(|source| is_at_end(&source.load_in(sample)))
+            breaks.contains(&sample[0])
+                || loads
+                    .on(self.s)
+                    .any(|source| is_at_end(&source.load_in(sample)))
         };
         let beside = |row: usize| row.saturating_sub(BESIDE)..(row + BESIDE + 1).min(history.len());
-        with((0..history.len()).filter(is_corner).flat_map(beside).collect(), &[])
+        with(
+            (0..history.len())
+                .filter(is_corner)
+                .flat_map(beside)
+                .collect(),
+            &[],
+        )
     }
 
     fn loaded<'b>(
@@ -237,8 +305,23 @@ impl<'a> PreparedGirders<'a> {
     }
 
     /// The states of the structure at rows of the history.
-    fn states(&self, Rows { history, loads, foundations, .. }: Rows<'_>, rows: &[usize]) -> LoadStates {
-        LoadStates::new(history, loads, (self.s, foundations[self.s].dofs()), &self.ends, rows)
+    fn states(
+        &self,
+        Rows {
+            history,
+            loads,
+            foundations,
+            ..
+        }: Rows<'_>,
+        rows: &[usize],
+    ) -> LoadStates {
+        LoadStates::new(
+            history,
+            loads,
+            (self.s, foundations[self.s].dofs()),
+            &self.ends,
+            rows,
+        )
     }
 
     /// Extremes of all spans, at some of the rows.
@@ -260,8 +343,16 @@ impl<'a> PreparedGirders<'a> {
 
     /// Extremes of all spans, with peaks that are looked for at the scanned rows.
     fn spans_at(&self, rows: Rows<'_>, found: ScannedStates, accuracy: f64) -> SpanExtremes {
-        let ScannedStates { chosen, states, scanned } = found;
-        let few: Vec<usize> = chosen.coarse.iter().map(|index| chosen.rows[*index]).collect();
+        let ScannedStates {
+            chosen,
+            states,
+            scanned,
+        } = found;
+        let few: Vec<usize> = chosen
+            .coarse
+            .iter()
+            .map(|index| chosen.rows[*index])
+            .collect();
         let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
         let places = (&self.sections, &points);
         let fine = self.loaded(rows, places, (&states, &scanned), chosen.most_deflections);
@@ -271,14 +362,29 @@ impl<'a> PreparedGirders<'a> {
             .enumerate()
             .filter_map(|(number, row)| Some([number, chosen.coarse.binary_search(row).ok()?]))
             .collect();
-        let [numbers, own] = [0, 1].map(|k| common.iter().map(|pair| pair[k]).collect::<Vec<usize>>());
+        let [numbers, own] =
+            [0, 1].map(|k| common.iter().map(|pair| pair[k]).collect::<Vec<usize>>());
         let coarse = self.loaded(rows, places, (&few, &own), chosen.most_deflections);
         let [scan, few] = Scan::both(&fine, &coarse, &numbers);
         let values = |girders: &LoadedGirders<'_>, scan: &Scan| {
-            Refinement { girders, scan, sizes: scan.sizes, accuracy }.spans()
+            Refinement {
+                girders,
+                scan,
+                sizes: scan.sizes,
+                accuracy,
+            }
+            .spans()
         };
         let (values, coarse) = (values(&fine, &scan), values(&coarse, &few));
-        SpanExtremes { values, coarse, sizes: scan.sizes, states, scanned, scan, chosen }
+        SpanExtremes {
+            values,
+            coarse,
+            sizes: scan.sizes,
+            states,
+            scanned,
+            scan,
+            chosen,
+        }
     }
 
     /// The states at chosen rows, and those of them at which peaks are looked for: all where stresses are wanted, of which only
@@ -289,14 +395,23 @@ impl<'a> PreparedGirders<'a> {
         let scanned = (!has_stresses && is_worthwhile(fewest(count), count))
             .then(|| self.smooth(&states, &chosen.kept))
             .filter(|scanned| is_worthwhile(scanned.len(), count));
-        ScannedStates { chosen, scanned: scanned.unwrap_or_else(|| (0..count).collect()), states }
+        ScannedStates {
+            chosen,
+            scanned: scanned.unwrap_or_else(|| (0..count).collect()),
+            states,
+        }
     }
 
     /// The rows that are left where those between which loads and motions are smooth are left out.
     fn smooth(&self, states: &LoadStates, kept: &[usize]) -> Vec<usize> {
         let lengths = self.sections.rails.iter().flat_map(RailSpans::lengths);
         let samples: Vec<&[f64]> = (0..states.len()).map(|row| states.row(row)).collect();
-        scanned_rows(&samples, &states.kinds(), kept, lengths.fold(f64::INFINITY, f64::min))
+        scanned_rows(
+            &samples,
+            &states.kinds(),
+            kept,
+            lengths.fold(f64::INFINITY, f64::min),
+        )
     }
 
     /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
@@ -305,14 +420,28 @@ impl<'a> PreparedGirders<'a> {
         rows: Rows<'_>,
         found: &SpanExtremes,
         accuracy: f64,
-    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses, Vec<GirderReaction>) {
+    ) -> (
+        Vec<GirderExtreme>,
+        Vec<GirderEnvelope>,
+        GirderStresses,
+        Vec<GirderReaction>,
+    ) {
         let (sizes, most) = (found.sizes, found.chosen.most_deflections);
         let (foundation, states) = (&rows.foundations[self.s], &found.states);
         let points = PointDeflections::new(foundation, &self.sections, states);
         let states_of = (states, &found.scanned[..]);
         let girders = self.loaded(rows, (&self.sections, &points), states_of, most);
-        let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
-        let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
+        let refinement = Refinement {
+            girders: &girders,
+            scan: &found.scan,
+            sizes,
+            accuracy,
+        };
+        let extremes = found
+            .values
+            .iter()
+            .map(|value| extreme(&refinement, value))
+            .collect();
         let stresses = refinement.stresses(&found.values);
         let reactions = refinement.reactions(&self.reactions);
         let mut all = envelopes(&refinement);
@@ -321,7 +450,12 @@ impl<'a> PreparedGirders<'a> {
         let points = PointDeflections::new(foundation, &sections, states);
         let girders = self.loaded(rows, (&sections, &points), states_of, most);
         let scan = Scan::of_sections(&girders);
-        all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
+        all.extend(envelopes(&Refinement {
+            girders: &girders,
+            scan: &scan,
+            sizes,
+            accuracy,
+        }));
         // places in order; quantities keep theirs
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
         (extremes, all, stresses, reactions)
@@ -348,8 +482,16 @@ fn every(rows: &[usize], stride: usize) -> Vec<usize> {
 /// An extreme of a span as a result.
 fn extreme(refinement: &Refinement<'_>, value: &SpanValue) -> GirderExtreme {
     let girders = refinement.girders;
-    let SpanValue { rail, span, quantity, kind, found } = *value;
-    let dead = found.section.map_or(0.0, |(member, place)| girders.dead(member, place)[quantity]);
+    let SpanValue {
+        rail,
+        span,
+        quantity,
+        kind,
+        found,
+    } = *value;
+    let dead = found
+        .section
+        .map_or(0.0, |(member, place)| girders.dead(member, place)[quantity]);
     GirderExtreme {
         rail: girders.sections.rails[rail].scene_rail,
         span,
@@ -371,7 +513,9 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
     for (index, section) in all.sections.iter().enumerate() {
         at_point[section.point].push(index);
     }
-    let quantities: Vec<usize> = (0..FORCES + 2).filter(|quantity| !refinement.is_zero(*quantity)).collect();
+    let quantities: Vec<usize> = (0..FORCES + 2)
+        .filter(|quantity| !refinement.is_zero(*quantity))
+        .collect();
     let mut out = Vec::new();
     for (index, (point, sections)) in all.points.iter().zip(&at_point).enumerate() {
         if (girders.is_stopped)() {
@@ -384,7 +528,13 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
                     None => sections
                         .iter()
                         .filter_map(|at| refinement.section(*at, quantity, kind, true))
-                        .reduce(|best, next| if next.signed > best.signed { next } else { best }),
+                        .reduce(|best, next| {
+                            if next.signed > best.signed {
+                                next
+                            } else {
+                                best
+                            }
+                        }),
                 };
                 let Some(found) = found else { continue };
                 out.push(GirderEnvelope {
@@ -425,18 +575,23 @@ fn coincident(
     ]
     .contains(&quantity);
     let state = refinement.state_of(found);
-    let deflection =
-        girders.deflections(rail, &[found.x], usize::from(is_lateral), &state).map_or(0.0, |all| all[0]);
+    let deflection = girders
+        .deflections(rail, &[found.x], usize::from(is_lateral), &state)
+        .map_or(0.0, |all| all[0]);
     let section = found.section.or_else(|| {
         let section = girders.sections.sections[first?];
         Some((section.member, section.place))
     });
-    let forces =
-        section.map_or([0.0; FORCES], |(member, place)| girders.forces_in(member, place, &state, found.own));
+    let forces = section.map_or([0.0; FORCES], |(member, place)| {
+        girders.forces_in(member, place, &state, found.own)
+    });
     let [moment, shear] = if is_lateral {
         [GirderResponse::LateralMoment, GirderResponse::LateralShear]
     } else {
-        [GirderResponse::VerticalMoment, GirderResponse::VerticalShear]
+        [
+            GirderResponse::VerticalMoment,
+            GirderResponse::VerticalShear,
+        ]
     };
     [forces[moment as usize], forces[shear as usize], deflection]
 }
@@ -463,28 +618,58 @@ mod tests {
 
     /// Runs the first case of an example with changes and evaluates all rows, and those between which it is not smooth.
     fn compared(example: &str, changes: &str) -> Compared {
-        let path = format!("{}/../../examples/{example}/scene.json", env!("CARGO_MANIFEST_DIR"));
+        let path = format!(
+            "{}/../../examples/{example}/scene.json",
+            env!("CARGO_MANIFEST_DIR")
+        );
         let source = SceneSource::open(path.as_ref()).expect("an example");
-        let changes = Source { name: "changes".to_owned(), text: changes.to_owned() };
-        let document = source.document(Some(&changes), true).expect("a scene without faults");
-        let known = solve_specs(&document, &distinct_specs(&document)).expect("structures that stand");
+        let changes = Source {
+            name: "changes".to_owned(),
+            text: changes.to_owned(),
+        };
+        let document = source
+            .document(Some(&changes), true)
+            .expect("a scene without faults");
+        let known =
+            solve_specs(&document, &distinct_specs(&document)).expect("structures that stand");
         let mut scene = document.cases[0].scene.clone();
         let mut input = simulation_input(&scene).expect("equal fractions");
         input.scene.records_steps = true;
         let mut observer = ColumnObserver::new(&document.cases[0].scene, &input, &known, &|_| ());
         let mut watch = |_: f64| ControlFlow::Continue(());
-        let run = select_and_run(&mut scene, &input.scene, &known, &|_, _| true, &mut observer, &mut watch);
+        let run = select_and_run(
+            &mut scene,
+            &input.scene,
+            &known,
+            &|_, _| true,
+            &mut observer,
+            &mut watch,
+        );
         let run = run.expect("a scene that starts");
-        let history = if run.run.steps.is_empty() { &run.run.history } else { &run.run.steps };
+        let history = if run.run.steps.is_empty() {
+            &run.run.history
+        } else {
+            &run.run.steps
+        };
         let loads = WheelLoadReader::new(&scene, &input, history);
         let (all, is_stopped) = (SolvedMembers::new(&known), || false);
         let solved = solution_of(all.known(), &scene.structures[0].origin).expect("a spec");
         let girders = PreparedGirders::new(&scene, 0, &run.built[0], solved, (&all, &is_stopped));
-        let girders =
-            girders.expect("members that are solved").expect("a structure with members under rails");
-        let foundations: Vec<Foundation> = run.built.into_iter().map(|built| built.foundation).collect();
+        let girders = girders
+            .expect("members that are solved")
+            .expect("a structure with members under rails");
+        let foundations: Vec<Foundation> = run
+            .built
+            .into_iter()
+            .map(|built| built.foundation)
+            .collect();
         let breaks = input.scene.breaks();
-        let rows = Rows { history, loads: &loads, foundations: &foundations, breaks: &breaks };
+        let rows = Rows {
+            history,
+            loads: &loads,
+            foundations: &foundations,
+            breaks: &breaks,
+        };
         let mut counts = [0; 2];
         let found = [false, true].map(|leaves_out| {
             let chosen = girders.chosen(rows, RowChoice::Sampled(1));
@@ -494,8 +679,21 @@ mod tests {
                 false => (0..states.len()).collect(),
             };
             counts[usize::from(leaves_out)] = scanned.len();
-            assert!(chosen.kept.iter().all(|row| scanned.binary_search(row).is_ok()));
-            let spans = girders.spans_at(rows, ScannedStates { chosen, states, scanned }, scene.accuracy);
+            assert!(
+                chosen
+                    .kept
+                    .iter()
+                    .all(|row| scanned.binary_search(row).is_ok())
+            );
+            let spans = girders.spans_at(
+                rows,
+                ScannedStates {
+                    chosen,
+                    states,
+                    scanned,
+                },
+                scene.accuracy,
+            );
             let (extremes, envelopes, _, reactions) = girders.results(rows, &spans, scene.accuracy);
             (spans.sizes, extremes, envelopes, reactions)
         });
@@ -506,12 +704,20 @@ mod tests {
             _ => sizes[6].max(sizes[7]),
         };
         let size = |quantity: GirderResponse| {
-            of_kind(GirderResponse::ALL.iter().position(|own| *own == quantity).expect("one of all"))
+            of_kind(
+                GirderResponse::ALL
+                    .iter()
+                    .position(|own| *own == quantity)
+                    .expect("one of all"),
+            )
         };
         let mut difference = 0.0_f64;
         assert!(!extremes.is_empty() && extremes.len() == few.1.len());
         for (a, b) in extremes.iter().zip(&few.1) {
-            assert_eq!((a.rail, a.span, a.quantity, a.is_max), (b.rail, b.span, b.quantity, b.is_max));
+            assert_eq!(
+                (a.rail, a.span, a.quantity, a.is_max),
+                (b.rail, b.span, b.quantity, b.is_max)
+            );
             difference = difference.max((a.value - b.value).abs() / size(a.quantity));
         }
         // places of extremes may differ by rounding
@@ -523,14 +729,24 @@ mod tests {
                 same += 1;
             }
         }
-        assert!(10 * same > 8 * envelopes.len(), "{same} of {}", envelopes.len());
+        assert!(
+            10 * same > 8 * envelopes.len(),
+            "{same} of {}",
+            envelopes.len()
+        );
         assert!(!reactions.is_empty() && reactions.len() == few.3.len());
         for (a, b) in reactions.iter().zip(&few.3) {
-            assert_eq!((&a.support, a.direction, a.is_max), (&b.support, b.direction, b.is_max));
+            assert_eq!(
+                (&a.support, a.direction, a.is_max),
+                (&b.support, b.direction, b.is_max)
+            );
             let size = of_kind(usize::from(a.direction >= fea::Dof::Rx));
             difference = difference.max((a.value - b.value).abs() / size);
         }
-        Compared { rows: counts, difference }
+        Compared {
+            rows: counts,
+            difference,
+        }
     }
 
     /// Identity: rows between which loads and motions are smooth change no extreme, envelope or reaction that is followed among
@@ -539,7 +755,10 @@ mod tests {
     fn extremes_with_rows_left_out_are_those_of_all_rows() {
         let short = r#"{"end": {"time": 4}}"#;
         for (example, changes) in [("bogie", "{}"), ("runway", short), ("monorail", "{}")] {
-            let Compared { rows: [all, scanned], difference } = compared(example, changes);
+            let Compared {
+                rows: [all, scanned],
+                difference,
+            } = compared(example, changes);
             assert!(3 * scanned < all, "{example}: {scanned} of {all} rows");
             assert!(difference < 1e-7, "{example}: {difference:e}");
         }

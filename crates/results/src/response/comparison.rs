@@ -60,14 +60,24 @@ impl RunComparison {
     /// empty for a single run.
     #[must_use]
     pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
-        let [(_, record, first), _, ..] = runs else { return RunComparison::default() };
+        let [(_, record, first), _, ..] = runs else {
+            return RunComparison::default();
+        };
         let structural = first.columns.iter().map(|column| column.name.clone());
-        let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(structural).collect();
+        let names: Vec<String> = rail_sums(record)
+            .into_iter()
+            .flatten()
+            .chain(structural)
+            .collect();
         let rows = parallel_map(&names, threads, |_, name| {
-            let is_zero = |record: &NamedColumns| record.values(name).iter().all(|value| *value == 0.0);
+            let is_zero =
+                |record: &NamedColumns| record.values(name).iter().all(|value| *value == 0.0);
             Row {
                 column: name.clone(),
-                statistics: runs.iter().map(|(_, record, _)| ColumnStatistics::new(record, name)).collect(),
+                statistics: runs
+                    .iter()
+                    .map(|(_, record, _)| ColumnStatistics::new(record, name))
+                    .collect(),
                 is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
             }
         });
@@ -77,15 +87,22 @@ impl RunComparison {
     /// Statistics of a column, one entry per run.
     #[must_use]
     pub fn of(&self, column: &str) -> Option<&[Option<ColumnStatistics>]> {
-        self.rows.iter().find(|row| row.column == column).map(|row| row.statistics.as_slice())
+        self.rows
+            .iter()
+            .find(|row| row.column == column)
+            .map(|row| row.statistics.as_slice())
     }
 
     /// Columns that all runs have and that are not zero in all of them, with their statistics, one entry per run.
     pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&ColumnStatistics>)> {
-        self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
-            let all: Option<Vec<&ColumnStatistics>> = row.statistics.iter().map(Option::as_ref).collect();
-            Some((row.column.as_str(), all?))
-        })
+        self.rows
+            .iter()
+            .filter(|row| !row.is_zero)
+            .filter_map(|row| {
+                let all: Option<Vec<&ColumnStatistics>> =
+                    row.statistics.iter().map(Option::as_ref).collect();
+                Some((row.column.as_str(), all?))
+            })
     }
 
     /// The statistics by column and by label of the run; `runs` are the runs from which they were computed.
@@ -97,14 +114,19 @@ impl RunComparison {
                 .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
                 .collect()
         };
-        self.columns().map(|(name, all)| (name.to_owned(), Value::Object(of_runs(all)))).collect()
+        self.columns()
+            .map(|(name, all)| (name.to_owned(), Value::Object(of_runs(all))))
+            .collect()
     }
 }
 
 /// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is
 /// one.
 pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
-    let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
+    let rails = record
+        .columns
+        .iter()
+        .filter_map(|column| column.name.strip_suffix(".reaction"));
     let of = |rail: &str| {
         let lateral = format!("{rail}.lateral");
         let mut names = vec![format!("{rail}.reaction")];
@@ -176,19 +198,29 @@ fn oscillations(spectrum: &HistorySpectrum, band: [f64; 2]) -> Vec<SineComponent
     let (mut found, mut bands) = (Vec::<SineComponent>::new(), vec![band]);
     let strongest = |band: &[f64; 2]| spectrum.strongest(*band).ok().flatten();
     while found.len() < MAX_OSCILLATIONS {
-        let all = bands.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let all = bands
+            .iter()
+            .enumerate()
+            .filter_map(|(k, band)| Some((k, strongest(band)?)));
         let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
         let Some((k, tone)) = best else { break };
-        if found.first().is_some_and(|first| tone.amplitude < MIN_AMPLITUDE * first.amplitude) {
+        if found
+            .first()
+            .is_some_and(|first| tone.amplitude < MIN_AMPLITUDE * first.amplitude)
+        {
             break;
         }
         let [low, high] = bands.swap_remove(k);
         // the spectrum of an oscillation that was found before may be largest at the edge of a remaining band
-        let is_known = |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < MIN_RATIO.ln();
+        let is_known =
+            |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < MIN_RATIO.ln();
         if found.iter().any(is_known) {
             continue;
         }
-        let sides = [[low, tone.frequency / MIN_RATIO], [tone.frequency * MIN_RATIO, high]];
+        let sides = [
+            [low, tone.frequency / MIN_RATIO],
+            [tone.frequency * MIN_RATIO, high],
+        ];
         bands.extend(sides.into_iter().filter(|[low, high]| low < high));
         found.push(tone);
     }
@@ -204,14 +236,26 @@ mod tests {
     /// A record with a damped wave of `hz` about `mean`, and its response.
     fn wave(hz: f64, mean: f64) -> (NamedColumns, Response) {
         let times: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 0.01).collect();
-        let values =
-            times.iter().map(|t| mean + (-0.3 * t).exp() * (std::f64::consts::TAU * hz * t).cos()).collect();
+        let values = times
+            .iter()
+            .map(|t| mean + (-0.3 * t).exp() * (std::f64::consts::TAU * hz * t).cos())
+            .collect();
         let mut record = NamedColumns::default();
         record.push("time", Dimension::NUMBER, times);
         record.push("a", Dimension::NUMBER, values);
-        let column =
-            Column { name: "a".into(), dimension: Dimension::NUMBER, kind: Kind::Reaction, direction: None };
-        (record, Response { columns: vec![column], ..Response::default() })
+        let column = Column {
+            name: "a".into(),
+            dimension: Dimension::NUMBER,
+            kind: Kind::Reaction,
+            direction: None,
+        };
+        (
+            record,
+            Response {
+                columns: vec![column],
+                ..Response::default()
+            },
+        )
     }
 
     /// Analytic: both settle at 5, the peak is 5 + 1 at the start, and each has its own frequency.
@@ -223,7 +267,9 @@ mod tests {
         for (label, hz) in [("flexible", 2.0), ("rigid", 4.0)] {
             let at = &found["a"][label];
             let near = |value: &Value, wanted: f64, by: f64| {
-                value.as_f64().is_some_and(|value| (value - wanted).abs() < by)
+                value
+                    .as_f64()
+                    .is_some_and(|value| (value - wanted).abs() < by)
             };
             assert!(near(&at["settled_mean"], 5.0, 1e-2), "{at}");
             assert!(near(&at["peak"]["value"], 6.0, 1e-12), "{at}");

@@ -52,18 +52,32 @@ impl ColumnEnvelope {
         if columns.is_empty() {
             return Ok(Vec::new());
         }
-        let series: Vec<&[f64]> = columns.iter().map(|column| record.values(&column.name)).collect();
-        let run = practice::RunHistories { times: record.values("time"), series: &series };
+        let series: Vec<&[f64]> = columns
+            .iter()
+            .map(|column| record.values(&column.name))
+            .collect();
+        let run = practice::RunHistories {
+            times: record.values("time"),
+            series: &series,
+        };
         let found = practice::envelope(&[run], columns.len())?;
         let extreme = |index: usize, at: &practice::ExtremeInstant| {
             let value = at.values[index];
-            ColumnExtreme { value, time: at.time, ..scene_at(at.sample, scene, input, history, loads) }
+            ColumnExtreme {
+                value,
+                time: at.time,
+                ..scene_at(at.sample, scene, input, history, loads)
+            }
         };
-        let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| ColumnEnvelope {
-            column: column.name.clone(),
-            max: extreme(index, &found.max),
-            min: extreme(index, &found.min),
-        });
+        let each = columns
+            .iter()
+            .zip(&found)
+            .enumerate()
+            .map(|(index, (column, found))| ColumnEnvelope {
+                column: column.name.clone(),
+                max: extreme(index, &found.max),
+                min: extreme(index, &found.min),
+            });
         Ok(each.collect())
     }
 
@@ -79,7 +93,16 @@ impl ColumnExtreme {
         let bodies: Map<String, Value> = self
             .bodies
             .iter()
-            .map(|(name, at)| (name.clone(), if let [x] = at[..] { json!(x) } else { json!(at) }))
+            .map(|(name, at)| {
+                (
+                    name.clone(),
+                    if let [x] = at[..] {
+                        json!(x)
+                    } else {
+                        json!(at)
+                    },
+                )
+            })
             .collect();
         let wheels: Map<String, Value> = self
             .wheels
@@ -99,11 +122,19 @@ fn scene_at(
     loads: &WheelLoadReader,
 ) -> ColumnExtreme {
     let sample = history.sample(row);
-    let of =
-        |channel: Channel| history.channels().iter().position(|c| *c == channel).map_or(0.0, |at| sample[at]);
+    let of = |channel: Channel| {
+        history
+            .channels()
+            .iter()
+            .position(|c| *c == channel)
+            .map_or(0.0, |at| sample[at])
+    };
     let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
-        let all: &[BodyDof] =
-            if body.in_space { &[BodyDof::X, BodyDof::Y, BodyDof::Z] } else { &[BodyDof::X] };
+        let all: &[BodyDof] = if body.in_space {
+            &[BodyDof::X, BodyDof::Y, BodyDof::Z]
+        } else {
+            &[BodyDof::X]
+        };
         let places = all.iter().map(|dof| of(Channel::Displacement(b, *dof)));
         (body.name.clone(), places.collect())
     });
@@ -112,7 +143,13 @@ fn scene_at(
         let [along, up, side] = load.force;
         (wheel.name.clone(), [0.0 - up, side, along])
     });
-    ColumnExtreme { value: 0.0, row, time: sample[0], bodies: bodies.collect(), wheels: wheels.collect() }
+    ColumnExtreme {
+        value: 0.0,
+        row,
+        time: sample[0],
+        bodies: bodies.collect(),
+        wheels: wheels.collect(),
+    }
 }
 
 /// Range of the positions of a body in space.
@@ -129,7 +166,10 @@ impl Sway {
     #[must_use]
     pub fn json(&self) -> Value {
         let axes = ["X", "Y", "Z"].into_iter().zip(&self.range);
-        Value::Object(axes.map(|(axis, range)| (axis.to_owned(), json!(range))).collect::<Map<_, _>>())
+        Value::Object(
+            axes.map(|(axis, range)| (axis.to_owned(), json!(range)))
+                .collect::<Map<_, _>>(),
+        )
     }
 }
 
@@ -143,7 +183,10 @@ pub(super) fn sways(scene: &Scene, record: &NamedColumns) -> Vec<Sway> {
     bodies
         .filter_map(|body| {
             let [x, y, z] = ["X", "Y", "Z"].map(|axis| range(record.part(&body.name, axis)));
-            Some(Sway { body: body.name.clone(), range: [x?, y?, z?] })
+            Some(Sway {
+                body: body.name.clone(),
+                range: [x?, y?, z?],
+            })
         })
         .collect()
 }
@@ -173,9 +216,17 @@ pub(super) fn uplifts(input: &SimulationInput, record: &NamedColumns) -> Vec<Upl
     let of = |name: &str| {
         let found = zero_intervals(time, record.part(name, "vertical"));
         let name = name.to_owned();
-        found.into_iter().map(move |[time, duration]| Uplift { wheel: name.clone(), time, duration })
+        found.into_iter().map(move |[time, duration]| Uplift {
+            wheel: name.clone(),
+            time,
+            duration,
+        })
     };
-    input.wheels.iter().flat_map(|wheel| of(&wheel.name)).collect()
+    input
+        .wheels
+        .iter()
+        .flat_map(|wheel| of(&wheel.name))
+        .collect()
 }
 
 /// Start and duration of each interval of zeros.

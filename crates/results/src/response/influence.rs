@@ -82,8 +82,15 @@ impl ColumnInfluence {
         let (model, rails) = (&solved.model, &solved.rails);
         let [reactions, sections] = columns::names(name, spec);
         let stresses = columns::stresses(name, spec);
-        let lists = [(Kind::Reaction, &reactions), (Kind::Section, &sections), (Kind::Stress, &stresses)];
-        if !lists.iter().any(|(kind, names)| names.iter().any(|own| wanted(*kind, own))) {
+        let lists = [
+            (Kind::Reaction, &reactions),
+            (Kind::Section, &sections),
+            (Kind::Stress, &stresses),
+        ];
+        if !lists
+            .iter()
+            .any(|(kind, names)| names.iter().any(|own| wanted(*kind, own)))
+        {
             return Ok(None);
         }
         let frame = FactoredFrame::new(model, rails)?;
@@ -91,7 +98,11 @@ impl ColumnInfluence {
         list.add_reactions(name, spec, (model, rails), &frame, wanted);
         list.add_internal_forces(name, spec, wanted);
         list.add_stresses(name, spec, model, wanted);
-        let ColumnList { columns, effects, terms } = list;
+        let ColumnList {
+            columns,
+            effects,
+            terms,
+        } = list;
         let out = ColumnInfluence::of(&frame, solved, built, gravity, columns, &effects, terms)?;
         let nonzero = out.nonzero();
         if !nonzero.contains(&true) {
@@ -168,18 +179,35 @@ impl ColumnInfluence {
             for fraction in [0.0, 0.3, 0.6, 1.0] {
                 let x = element.x[0] + fraction * (element.x[1] - element.x[0]);
                 for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
-                    let unit = self.unit(Probe { rail: element.rail, x, axis }).unwrap_or_default();
-                    units.iter_mut().zip(unit).for_each(|(most, value)| *most = most.max(value.abs()));
+                    let unit = self
+                        .unit(Probe {
+                            rail: element.rail,
+                            x,
+                            axis,
+                        })
+                        .unwrap_or_default();
+                    units
+                        .iter_mut()
+                        .zip(unit)
+                        .for_each(|(most, value)| *most = most.max(value.abs()));
                 }
             }
         }
         let dead: Vec<f64> = self.dead.iter().map(|value| value.abs()).collect();
-        let inertia =
-            (0..n).map(|column| self.inertia.row(column).iter().fold(0.0_f64, |m, s| m.max(s.abs())));
+        let inertia = (0..n).map(|column| {
+            self.inertia
+                .row(column)
+                .iter()
+                .fold(0.0_f64, |m, s| m.max(s.abs()))
+        });
         let mut nonzero = vec![false; n];
         for sizes in [units, dead, inertia.collect()] {
             let most = |dimension: Dimension| {
-                let own = self.columns.iter().zip(&sizes).filter(|(column, _)| column.dimension == dimension);
+                let own = self
+                    .columns
+                    .iter()
+                    .zip(&sizes)
+                    .filter(|(column, _)| column.dimension == dimension);
                 own.fold(0.0_f64, |most, (_, size)| most.max(*size))
             };
             let kinds = [Dimension::FORCE, Dimension::MOMENT, Dimension::STRESS];
@@ -206,9 +234,16 @@ impl ColumnInfluence {
         let number = |column: usize| kept[..column].iter().filter(|kept| **kept).count();
         let rows: Vec<usize> = (0..kept.len()).filter(|column| kept[*column]).collect();
         let is_kept = |(_, term): &(&Effect, &ColumnTerm)| kept[term.column];
-        let renumbered = |term: &ColumnTerm| ColumnTerm { column: number(term.column), ..*term };
-        let (effects, terms): (Vec<Effect>, Vec<ColumnTerm>) =
-            effects.iter().zip(&self.terms).filter(is_kept).map(|(e, term)| (*e, renumbered(term))).unzip();
+        let renumbered = |term: &ColumnTerm| ColumnTerm {
+            column: number(term.column),
+            ..*term
+        };
+        let (effects, terms): (Vec<Effect>, Vec<ColumnTerm>) = effects
+            .iter()
+            .zip(&self.terms)
+            .filter(is_kept)
+            .map(|(e, term)| (*e, renumbered(term)))
+            .unzip();
         Ok(ColumnInfluence {
             effects: frame.influence_lines(model, &effects)?,
             sources: effects,
@@ -255,13 +290,25 @@ impl ColumnInfluence {
         let mut is_complete = true;
         let mut unit = vec![0.0; self.effects.len()];
         for load in loads {
-            for (axis, force) in
-                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
+            for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
+                .into_iter()
+                .zip(load.force)
             {
                 if force == 0.0 {
                     continue;
                 }
-                if self.effects.fill(Probe { rail: load.rail, x: load.x, axis }, &mut unit).is_err() {
+                if self
+                    .effects
+                    .fill(
+                        Probe {
+                            rail: load.rail,
+                            x: load.x,
+                            axis,
+                        },
+                        &mut unit,
+                    )
+                    .is_err()
+                {
                     is_complete = false;
                     continue;
                 }
@@ -284,7 +331,9 @@ impl ColumnInfluence {
         let mut unit = vec![0.0; self.effects.len()];
         self.effects.fill(at, &mut unit).ok()?;
         let mut out = vec![0.0; self.columns.len()];
-        unit.iter().zip(&self.terms).for_each(|(value, term)| out[term.column] += term.weight * value);
+        unit.iter()
+            .zip(&self.terms)
+            .for_each(|(value, term)| out[term.column] += term.weight * value);
         Some(out)
     }
 }
@@ -302,7 +351,10 @@ impl ColumnList {
     /// Adds a column of several effects of weight 1.
     fn add(&mut self, column: Column, effects: Vec<Effect>) {
         let index = self.columns.len();
-        self.terms.extend(effects.iter().map(|_| ColumnTerm { column: index, weight: 1.0 }));
+        self.terms.extend(effects.iter().map(|_| ColumnTerm {
+            column: index,
+            weight: 1.0,
+        }));
         self.effects.extend(effects);
         self.columns.push(column);
     }
@@ -322,28 +374,54 @@ impl ColumnList {
             for &dof in &ground.dofs {
                 let name = format!("{structure}.{}.{}", ground.name, spec.dof_word(dof));
                 let is_here = |one: &&fea::Restraint| one.point == ground.point && one.dof == dof;
-                let all: Vec<Effect> =
-                    restraints.iter().filter(is_here).copied().map(Effect::Reaction).collect();
+                let all: Vec<Effect> = restraints
+                    .iter()
+                    .filter(is_here)
+                    .copied()
+                    .map(Effect::Reaction)
+                    .collect();
                 if wanted(Kind::Reaction, &name) && !all.is_empty() {
                     let dimension = dimension(dof >= Dof::Rx);
                     let direction = relative_direction(model, rails, dof);
-                    self.add(Column { name, dimension, kind: Kind::Reaction, direction }, all);
+                    self.add(
+                        Column {
+                            name,
+                            dimension,
+                            kind: Kind::Reaction,
+                            direction,
+                        },
+                        all,
+                    );
                 }
             }
         }
     }
 
     /// Adds the wanted components of the internal force at each section that the spec names.
-    fn add_internal_forces(&mut self, structure: &str, spec: &Spec, wanted: &dyn Fn(Kind, &str) -> bool) {
+    fn add_internal_forces(
+        &mut self,
+        structure: &str,
+        spec: &Spec,
+        wanted: &dyn Fn(Kind, &str) -> bool,
+    ) {
         for cut in &spec.effects {
             for (index, (word, component)) in COMPONENTS.into_iter().enumerate() {
                 let name = format!("{structure}.{}.{word}", cut.name);
                 if wanted(Kind::Section, &name) {
                     let dimension = dimension(index >= 3);
-                    let column = Column { name, dimension, kind: Kind::Section, direction: None };
+                    let column = Column {
+                        name,
+                        dimension,
+                        kind: Kind::Section,
+                        direction: None,
+                    };
                     self.add(
                         column,
-                        vec![Effect::InternalForce { member: cut.member, place: cut.place, component }],
+                        vec![Effect::InternalForce {
+                            member: cut.member,
+                            place: cut.place,
+                            component,
+                        }],
                     );
                 }
             }
@@ -359,13 +437,23 @@ impl ColumnList {
         wanted: &dyn Fn(Kind, &str) -> bool,
     ) {
         for cut in &spec.effects {
-            let section = model.members.get(cut.member).and_then(|member| model.sections.get(member.section));
+            let section = model
+                .members
+                .get(cut.member)
+                .and_then(|member| model.sections.get(member.section));
             for point in &cut.points {
                 let name = format!("{structure}.{}.{}", cut.name, point.name);
-                let Some(section) = section.filter(|_| wanted(Kind::Stress, &name)) else { continue };
-                for ((_, component), weight) in COMPONENTS.into_iter().zip(stress_weights(section, point)) {
+                let Some(section) = section.filter(|_| wanted(Kind::Stress, &name)) else {
+                    continue;
+                };
+                for ((_, component), weight) in
+                    COMPONENTS.into_iter().zip(stress_weights(section, point))
+                {
                     if weight != 0.0 {
-                        self.terms.push(ColumnTerm { column: self.columns.len(), weight });
+                        self.terms.push(ColumnTerm {
+                            column: self.columns.len(),
+                            weight,
+                        });
                         self.effects.push(Effect::InternalForce {
                             member: cut.member,
                             place: cut.place,
@@ -374,7 +462,12 @@ impl ColumnList {
                     }
                 }
                 let dimension = Dimension::STRESS;
-                self.columns.push(Column { name, dimension, kind: Kind::Stress, direction: None });
+                self.columns.push(Column {
+                    name,
+                    dimension,
+                    kind: Kind::Stress,
+                    direction: None,
+                });
             }
         }
     }
@@ -410,9 +503,15 @@ pub(crate) fn inertia(
             if effects.is_empty() {
                 return Ok(DMatrix::zeros(0, modes.len()));
             }
-            let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            let inertia = inertia.get_or_init(|| refined.frame.inertia_of_modes(&refined.model, modes));
-            refined.frame.effects_of_modes(&refined.model, &own, modes, inertia)
+            let own: Vec<Effect> = effects
+                .iter()
+                .map(|effect| refined.effect(*effect))
+                .collect();
+            let inertia =
+                inertia.get_or_init(|| refined.frame.inertia_of_modes(&refined.model, modes));
+            refined
+                .frame
+                .effects_of_modes(&refined.model, &own, modes, inertia)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),
@@ -424,18 +523,39 @@ pub(crate) fn inertia(
 /// Normal stress at a point per unit of each component of the internal force: N/A + My z/Iy - Mz y/Iz, as in
 /// [`practice::stress::weights`]; a component for which the section property is 0 causes no stress.
 fn stress_weights(section: &CrossSection, point: &StressPoint) -> [f64; 6] {
-    let over = |lever: f64, property: f64| if property > 0.0 { lever / property } else { 0.0 };
-    [over(1.0, section.area), 0.0, 0.0, 0.0, over(point.z, section.iy), over(0.0 - point.y, section.iz)]
+    let over = |lever: f64, property: f64| {
+        if property > 0.0 {
+            lever / property
+        } else {
+            0.0
+        }
+    };
+    [
+        over(1.0, section.area),
+        0.0,
+        0.0,
+        0.0,
+        over(point.z, section.iy),
+        over(0.0 - point.y, section.iz),
+    ]
 }
 
 /// Dimension of a reaction or internal force.
 const fn dimension(is_moment: bool) -> Dimension {
-    if is_moment { Dimension::MOMENT } else { Dimension::FORCE }
+    if is_moment {
+        Dimension::MOMENT
+    } else {
+        Dimension::FORCE
+    }
 }
 
 /// Direction of a reaction relative to the first rail: vertical or lateral if it is within about 25 degrees of that
 /// direction.
-pub(crate) fn relative_direction(model: &Model, rails: &[fea::Rail], dof: Dof) -> Option<Direction> {
+pub(crate) fn relative_direction(
+    model: &Model,
+    rails: &[fea::Rail],
+    dof: Dof,
+) -> Option<Direction> {
     let k = dof as usize;
     let up = Vector3::from(model.up).normalize();
     let side = Vector3::from(rails.first()?.axis).cross(&up).normalize();

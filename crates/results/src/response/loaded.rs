@@ -60,7 +60,11 @@ impl LoadSource {
             Some([x, side]) => (x, [side * values[0], 0.0, 0.0]),
             None => (values[0], [values[3], 0.0 - values[1], values[2]]),
         };
-        RailLoad { rail: self.rail, x, force }
+        RailLoad {
+            rail: self.rail,
+            x,
+            force,
+        }
     }
 }
 
@@ -71,10 +75,17 @@ impl WheelLoadReader {
         let wheels = input.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
             let first = history.position(Channel::Position(w)).unwrap_or_default();
-            LoadSource { structure: rail.structure, rail: rail.rail, channels: first..first + 4, stop: None }
+            LoadSource {
+                structure: rail.structure,
+                rail: rail.rail,
+                channels: first..first + 4,
+                stop: None,
+            }
         });
-        let meetings =
-            scene.stops.iter().flat_map(|stop| stop.points.iter().map(move |meeting| (stop, meeting)));
+        let meetings = scene
+            .stops
+            .iter()
+            .flat_map(|stop| stop.points.iter().map(move |meeting| (stop, meeting)));
         let stops = meetings.enumerate().filter_map(|(index, (stop, meeting))| {
             let rail = &scene.rails[stop.rail?];
             let channel = history.position(Channel::Stop(index))?;
@@ -85,12 +96,16 @@ impl WheelLoadReader {
                 stop: Some([stop.place.clamp(rail.range[0], rail.range[1]), meeting.side]),
             })
         });
-        WheelLoadReader { sources: wheels.chain(stops).collect() }
+        WheelLoadReader {
+            sources: wheels.chain(stops).collect(),
+        }
     }
 
     /// Where the loads on a structure are read from, in their order.
     pub(crate) fn on(&self, structure: usize) -> impl Iterator<Item = &LoadSource> + Clone {
-        self.sources.iter().filter(move |source| source.structure == structure)
+        self.sources
+            .iter()
+            .filter(move |source| source.structure == structure)
     }
 
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
@@ -98,7 +113,12 @@ impl WheelLoadReader {
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
         let load = |source: &LoadSource| {
             let RailLoad { rail, x, force } = source.load_in(sample);
-            WheelLoad { structure: source.structure, rail, x, force }
+            WheelLoad {
+                structure: source.structure,
+                rail,
+                x,
+                force,
+            }
         };
         self.sources.iter().map(load).collect()
     }
@@ -144,9 +164,13 @@ impl LoadedStructure<'_> {
     ) -> Result<Option<Vec<f64>>, Error> {
         let foundation = &self.built.foundation;
         let sample = self.history.sample(row);
-        let q = self.start().map_or(&[][..], |at| &sample[at..at + foundation.dofs()]);
-        let loads: Vec<RailLoad> =
-            on.iter().map(|&WheelLoad { rail, x, force, .. }| RailLoad { rail, x, force }).collect();
+        let q = self
+            .start()
+            .map_or(&[][..], |at| &sample[at..at + foundation.dofs()]);
+        let loads: Vec<RailLoad> = on
+            .iter()
+            .map(|&WheelLoad { rail, x, force, .. }| RailLoad { rail, x, force })
+            .collect();
         match displacements(foundation, probes, &loads, q) {
             Ok(moved) => Ok(Some(moved)),
             Err(Error::NoStiffness { .. }) => Ok(None),
@@ -156,7 +180,10 @@ impl LoadedStructure<'_> {
 
     /// Channel of the first degree of freedom of the structure.
     fn start(&self) -> Option<usize> {
-        self.history.channels().iter().position(|c| *c == Channel::Coordinate(self.s, 0))
+        self.history
+            .channels()
+            .iter()
+            .position(|c| *c == Channel::Coordinate(self.s, 0))
     }
 }
 
@@ -176,14 +203,23 @@ pub(crate) fn displacements(
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];
     if let Some(compliance) = &foundation.compliance {
-        compliance.displacements(probes, &components(loads, foundation.is_loaded_along), &mut out)?;
+        compliance.displacements(
+            probes,
+            &components(loads, foundation.is_loaded_along),
+            &mut out,
+        )?;
     }
     add_motions(foundation, probes, q, &mut out)?;
     Ok(out)
 }
 
 /// Adds Phi q at the probes.
-fn add_motions(foundation: &Foundation, probes: &[Probe], q: &[f64], out: &mut [f64]) -> Result<(), Error> {
+fn add_motions(
+    foundation: &Foundation,
+    probes: &[Probe],
+    q: &[f64],
+    out: &mut [f64],
+) -> Result<(), Error> {
     if let (Some(structure), false) = (&foundation.structure, q.is_empty()) {
         let (mut value, mut slope) = (vec![0.0; q.len()], vec![0.0; q.len()]);
         for (out, probe) in out.iter_mut().zip(probes) {
@@ -198,9 +234,19 @@ fn add_motions(foundation: &Foundation, probes: &[Probe], q: &[f64], out: &mut [
 fn components(loads: &[RailLoad], is_loaded_along: bool) -> Vec<(Probe, f64)> {
     let mut out = Vec::with_capacity(3 * loads.len());
     for load in loads {
-        for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force) {
+        for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
+            .into_iter()
+            .zip(load.force)
+        {
             if force != 0.0 && (axis != Axis::Longitudinal || is_loaded_along) {
-                out.push((Probe { rail: load.rail, x: load.x, axis }, force));
+                out.push((
+                    Probe {
+                        rail: load.rail,
+                        x: load.x,
+                        axis,
+                    },
+                    force,
+                ));
             }
         }
     }
@@ -222,17 +268,31 @@ impl<'a> PlaceMotions<'a> {
     /// # Errors
     /// A probe beyond its rail, or in a direction in which the structure is unrestrained.
     pub fn new(foundation: &'a Foundation, probes: &[Probe]) -> Result<PlaceMotions<'a>, Error> {
-        let compliance = foundation.compliance.as_ref().map(|own| own.at_places(probes)).transpose()?;
+        let compliance = foundation
+            .compliance
+            .as_ref()
+            .map(|own| own.at_places(probes))
+            .transpose()?;
         let (count, dofs) = (probes.len(), foundation.dofs());
         let mut shapes = vec![0.0; dofs * count];
         if let Some(structure) = &foundation.structure {
             let (mut value, mut slope) = (vec![0.0; dofs], vec![0.0; dofs]);
             for (k, probe) in probes.iter().enumerate() {
                 structure.shapes.row(*probe, &mut value, &mut slope)?;
-                shapes.iter_mut().skip(k).step_by(count).zip(&value).for_each(|(own, value)| *own = *value);
+                shapes
+                    .iter_mut()
+                    .skip(k)
+                    .step_by(count)
+                    .zip(&value)
+                    .for_each(|(own, value)| *own = *value);
             }
         }
-        Ok(PlaceMotions { foundation, compliance, shapes, count })
+        Ok(PlaceMotions {
+            foundation,
+            compliance,
+            shapes,
+            count,
+        })
     }
 
     /// The displacements under loads, with the degrees of freedom `q`, none where they are not known; then those of the
@@ -244,11 +304,18 @@ impl<'a> PlaceMotions<'a> {
         let mut out = vec![0.0; self.count + also.len()];
         let foundation = self.foundation;
         if let Some(compliance) = &self.compliance {
-            compliance.under(&components(loads, foundation.is_loaded_along), also, &mut out)?;
+            compliance.under(
+                &components(loads, foundation.is_loaded_along),
+                also,
+                &mut out,
+            )?;
         }
         let (fixed, others) = out.split_at_mut(self.count);
         for (q, own) in q.iter().zip(self.shapes.chunks(self.count.max(1))) {
-            fixed.iter_mut().zip(own).for_each(|(sum, phi)| *sum += phi * q);
+            fixed
+                .iter_mut()
+                .zip(own)
+                .for_each(|(sum, phi)| *sum += phi * q);
         }
         add_motions(foundation, also, q, others)?;
         Ok(out)

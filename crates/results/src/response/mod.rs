@@ -66,8 +66,9 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
         !matches!(pick, ColumnSelection::None) && (few || !matches!(pick, ColumnSelection::Few))
     };
     let output = &scene.output;
-    let is_asked =
-        some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
+    let is_asked = some(&output.reactions, few[0])
+        || some(&output.sections, few[1])
+        || some(&output.stresses, few[2]);
     scene
         .structures
         .iter()
@@ -86,19 +87,30 @@ pub fn influence_lines(
     solved: &[Option<&SolvedModel>],
 ) -> Result<Vec<Option<ColumnInfluence>>, Error> {
     let few = columns::has_few(scene);
-    let each = scene.structures.iter().zip(built).zip(solved).map(|((structure, built), solved)| {
-        let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
-        let wanted = |kind: Kind, name: &str| {
-            let (pick, few) = match kind {
-                Kind::Reaction => (&scene.output.reactions, few[0]),
-                Kind::Section => (&scene.output.sections, few[1]),
-                Kind::Stress => (&scene.output.stresses, few[2]),
-            };
-            pick.selects(name, few)
-        };
-        ColumnInfluence::new(&structure.name, spec, solved, built, scene.gravity, &wanted)
-            .map_err(|source| Error::Lines { structure: structure.name.clone(), source })
-    });
+    let each =
+        scene
+            .structures
+            .iter()
+            .zip(built)
+            .zip(solved)
+            .map(|((structure, built), solved)| {
+                let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else {
+                    return Ok(None);
+                };
+                let wanted = |kind: Kind, name: &str| {
+                    let (pick, few) = match kind {
+                        Kind::Reaction => (&scene.output.reactions, few[0]),
+                        Kind::Section => (&scene.output.sections, few[1]),
+                        Kind::Stress => (&scene.output.stresses, few[2]),
+                    };
+                    pick.selects(name, few)
+                };
+                ColumnInfluence::new(&structure.name, spec, solved, built, scene.gravity, &wanted)
+                    .map_err(|source| Error::Lines {
+                        structure: structure.name.clone(),
+                        source,
+                    })
+            });
     each.collect()
 }
 
@@ -124,13 +136,27 @@ impl Response {
                 response.add_columns(scene, s, history, &loads, lines, record);
             }
         }
-        response.envelopes = ColumnEnvelope::all(&response.columns, scene, input, history, &loads, record)
-            .map_err(Error::Envelope)?;
+        response.envelopes =
+            ColumnEnvelope::all(&response.columns, scene, input, history, &loads, record)
+                .map_err(Error::Envelope)?;
         for (s, structure) in scene.structures.iter().enumerate() {
-            let failed = |source| Error::Rails { structure: structure.name.clone(), source };
-            let loaded = LoadedStructure { scene, s, history, loads: &loads, built: &built[s] };
-            response.deflections.extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
-            response.drifts.extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
+            let failed = |source| Error::Rails {
+                structure: structure.name.clone(),
+                source,
+            };
+            let loaded = LoadedStructure {
+                scene,
+                s,
+                history,
+                loads: &loads,
+                built: &built[s],
+            };
+            response
+                .deflections
+                .extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
+            response
+                .drifts
+                .extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
         }
         response.uplifts = envelope::uplifts(input, record);
         response.sways = envelope::sways(scene, record);
@@ -147,7 +173,10 @@ impl Response {
         lines: &ColumnInfluence,
         record: &mut NamedColumns,
     ) {
-        let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
+        let start = history
+            .channels()
+            .iter()
+            .position(|c| *c == Channel::Acceleration(s, 0));
         let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
         let mut now = vec![0.0; lines.columns().len()];
         let mut is_incomplete = false;
@@ -155,8 +184,15 @@ impl Response {
             let sample = history.sample(i);
             let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
             let on = loads.at(sample);
-            is_incomplete |= !lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
-            let dead = lines.dead_load().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
+            is_incomplete |= !lines.at(
+                on.iter().filter(|load| load.structure == s),
+                acceleration,
+                &mut now,
+            );
+            let dead = lines
+                .dead_load()
+                .iter()
+                .map(|own| if scene.output.dead_load { *own } else { 0.0 });
             for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
                 column.push(value + dead);
             }
@@ -179,27 +215,48 @@ impl Response {
     pub fn json(&self) -> Map<String, Value> {
         let mut out = Map::new();
         if !self.columns.is_empty() {
-            let dead =
-                self.columns.iter().zip(&self.dead_load).map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
+            let dead = self
+                .columns
+                .iter()
+                .zip(&self.dead_load)
+                .map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
             out.insert("dead_load".into(), Value::Object(dead.collect()));
-            let all = self.envelopes.iter().map(|envelope| (envelope.column.clone(), envelope.json()));
+            let all = self
+                .envelopes
+                .iter()
+                .map(|envelope| (envelope.column.clone(), envelope.json()));
             out.insert("envelopes".into(), Value::Object(all.collect()));
         }
         if !self.deflections.is_empty() {
-            out.insert("deflection_ratios".into(), self.deflections.iter().map(Deflection::json).collect());
+            out.insert(
+                "deflection_ratios".into(),
+                self.deflections.iter().map(Deflection::json).collect(),
+            );
         }
         if !self.drifts.is_empty() {
-            out.insert("drift".into(), self.drifts.iter().map(Drift::json).collect());
+            out.insert(
+                "drift".into(),
+                self.drifts.iter().map(Drift::json).collect(),
+            );
         }
         if !self.uplifts.is_empty() {
-            out.insert("uplift".into(), self.uplifts.iter().map(Uplift::json).collect());
+            out.insert(
+                "uplift".into(),
+                self.uplifts.iter().map(Uplift::json).collect(),
+            );
         }
         if !self.sways.is_empty() {
-            let all = self.sways.iter().map(|sway| (sway.body.clone(), sway.json()));
+            let all = self
+                .sways
+                .iter()
+                .map(|sway| (sway.body.clone(), sway.json()));
             out.insert("sway".into(), Value::Object(all.collect()));
         }
         if !self.modes.is_empty() {
-            out.insert("natural_modes".into(), self.modes.iter().map(SceneMode::json).collect());
+            out.insert(
+                "natural_modes".into(),
+                self.modes.iter().map(SceneMode::json).collect(),
+            );
         }
         out
     }

@@ -45,23 +45,44 @@ impl SceneMode {
     ) -> Vec<SceneMode> {
         let dofs: usize = foundations.iter().map(Foundation::dofs).sum();
         let rules = &input.scene.actuators.rules;
-        let changes_ropes = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
-        let changed = run
-            .fired
-            .iter()
-            .any(|fired| rules.get(fired.rule).is_some_and(|rule| rule.actions.iter().any(changes_ropes)));
-        if scene.analysis != Analysis::Dynamic || !run.status.is_complete() || changed || dofs > MAX_DOFS {
+        let changes_ropes =
+            |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
+        let changed = run.fired.iter().any(|fired| {
+            rules
+                .get(fired.rule)
+                .is_some_and(|rule| rule.actions.iter().any(changes_ropes))
+        });
+        if scene.analysis != Analysis::Dynamic
+            || !run.status.is_complete()
+            || changed
+            || dofs > MAX_DOFS
+        {
             return Vec::new();
         }
         let times = run.history.column(Channel::Time);
-        let Some(last) = times.last() else { return Vec::new() };
-        let at = times.iter().position(|t| *t >= INSTANT * last).unwrap_or(times.len() - 1);
+        let Some(last) = times.last() else {
+            return Vec::new();
+        };
+        let at = times
+            .iter()
+            .position(|t| *t >= INSTANT * last)
+            .unwrap_or(times.len() - 1);
         let places: Vec<f64> = (0..scene.bodies.len())
-            .map(|b| run.history.column(Channel::Displacement(b, BodyDof::X)).get(at).copied())
+            .map(|b| {
+                run.history
+                    .column(Channel::Displacement(b, BodyDof::X))
+                    .get(at)
+                    .copied()
+            })
             .map(Option::unwrap_or_default)
             .collect();
         let found = natural_modes(&input.scene, foundations, times[at], &places);
-        let modes = found.ok().flatten().into_iter().flatten().map(|mode| SceneMode::new(scene, &mode));
+        let modes = found
+            .ok()
+            .flatten()
+            .into_iter()
+            .flatten()
+            .map(|mode| SceneMode::new(scene, &mode));
         modes.filter(|mode| mode.hz * last >= 1.0).collect()
     }
 
@@ -74,29 +95,46 @@ impl SceneMode {
                 ["x", "y", "z", "roll", "yaw", "pitch"]
             };
             fractions.extend(
-                words.iter().zip(own).map(|(word, fraction)| (format!("{}.{word}", body.name), *fraction)),
+                words
+                    .iter()
+                    .zip(own)
+                    .map(|(word, fraction)| (format!("{}.{word}", body.name), *fraction)),
             );
         }
         fractions.sort_by(|a, b| b.1.total_cmp(&a.1));
         fractions.retain(|(_, fraction)| *fraction >= 0.01);
         let most = |(k, (_, fraction)): &(usize, &(String, f64))| *k == 0 || *fraction >= NAMED;
-        let names: Vec<&str> =
-            fractions.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
-        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), fractions }
+        let names: Vec<&str> = fractions
+            .iter()
+            .enumerate()
+            .filter(most)
+            .map(|(_, (name, _))| name.as_str())
+            .collect();
+        SceneMode {
+            hz: mode.omega / TAU,
+            name: names.join(" + "),
+            fractions,
+        }
     }
 
     /// The mode of `modes` whose frequency is nearest to `hz`, if it is within about 10 %.
     #[must_use]
     pub fn of(modes: &[SceneMode], hz: f64) -> Option<&SceneMode> {
         let apart = |mode: &SceneMode| (mode.hz / hz).ln().abs();
-        modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).filter(|mode| apart(mode) < NEAR)
+        modes
+            .iter()
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+            .filter(|mode| apart(mode) < NEAR)
     }
 
     /// As a member of a run's summary.
     #[must_use]
     pub fn json(&self) -> Value {
-        let fractions: serde_json::Map<String, Value> =
-            self.fractions.iter().map(|(name, fraction)| (name.clone(), json!(fraction))).collect();
+        let fractions: serde_json::Map<String, Value> = self
+            .fractions
+            .iter()
+            .map(|(name, fraction)| (name.clone(), json!(fraction)))
+            .collect();
         json!({"hz": self.hz, "mode": self.name, "fractions": fractions})
     }
 }

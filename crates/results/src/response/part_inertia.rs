@@ -8,8 +8,11 @@ use foundations::{RigidParts, roll_inertia};
 
 /// Abscissas and weights of the three-point Gauss rule on -1..1. It is exact for polynomials of degree five;
 /// influence lines are cubic between breaks, and inertia forces are linear along a part.
-const GAUSS: [[f64; 2]; 3] =
-    [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
+const GAUSS: [[f64; 2]; 3] = [
+    [-0.774_596_669_241_483_4, 5.0 / 9.0],
+    [0.0, 8.0 / 9.0],
+    [0.774_596_669_241_483_4, 5.0 / 9.0],
+];
 
 /// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
 ///
@@ -28,7 +31,11 @@ pub fn part_inertia(
     effects: &[Effect],
 ) -> Result<DMatrix<f64>, fea::Error> {
     let lines_at = |height: f64| -> Result<InfluenceLines, fea::Error> {
-        let (model, rail) = Girder { rail_height: height, ..girder.clone() }.model_and_rail()?;
+        let (model, rail) = Girder {
+            rail_height: height,
+            ..girder.clone()
+        }
+        .model_and_rail()?;
         FactoredFrame::new(&model, &[rail])?.influence_lines(&model, effects)
     };
     let [low, high] = [lines_at(0.0)?, lines_at(1.0)?];
@@ -46,10 +53,16 @@ pub fn part_inertia(
         let (centre, length) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0]);
         let roll = roll_inertia(girder, length);
         let mut bounds = vec![ends[0]];
-        bounds.extend(breaks.iter().copied().filter(|x| *x > ends[0] && *x < ends[1]));
+        bounds.extend(
+            breaks
+                .iter()
+                .copied()
+                .filter(|x| *x > ends[0] && *x < ends[1]),
+        );
         bounds.push(ends[1]);
-        for (span, [place, weight]) in
-            bounds.windows(2).flat_map(|span| GAUSS.iter().map(move |g| (span, *g)))
+        for (span, [place, weight]) in bounds
+            .windows(2)
+            .flat_map(|span| GAUSS.iter().map(move |g| (span, *g)))
         {
             let half = 0.5 * (span[1] - span[0]);
             let x = span[0] + half * (1.0 + place);
@@ -58,7 +71,10 @@ pub fn part_inertia(
             let above = unit(&high, x, Axis::Lateral);
             for k in 0..parts.basis.ncols() {
                 let part = |i: usize| parts.basis[(6 * j + i, k)];
-                let [y, z] = [part(1) + part(5) * (x - centre), part(2) - part(4) * (x - centre)];
+                let [y, z] = [
+                    part(1) + part(5) * (x - centre),
+                    part(2) - part(4) * (x - centre),
+                ];
                 let element_mass = mass * half * weight;
                 for e in 0..n {
                     let own = |line: &Option<Vec<f64>>| line.as_ref().map_or(0.0, |line| line[e]);

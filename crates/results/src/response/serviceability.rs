@@ -95,10 +95,19 @@ pub(super) fn deflections(
     loaded: &LoadedStructure<'_>,
     solved: Option<&SolvedModel>,
 ) -> Result<Vec<Deflection>, Error> {
-    let LoadedStructure { scene, s, history, built, .. } = *loaded;
-    let (Origin::Spec { spec, .. }, Some(solved), true, None) =
-        (&scene.structures[s].origin, solved, loaded.is_known(), &built.foundation.parts)
-    else {
+    let LoadedStructure {
+        scene,
+        s,
+        history,
+        built,
+        ..
+    } = *loaded;
+    let (Origin::Spec { spec, .. }, Some(solved), true, None) = (
+        &scene.structures[s].origin,
+        solved,
+        loaded.is_known(),
+        &built.foundation.parts,
+    ) else {
         return Ok(Vec::new());
     };
     let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
@@ -108,25 +117,50 @@ pub(super) fn deflections(
         false => &[(Axis::Vertical, "vertical")],
     };
     let mut found = Vec::new();
-    for (index, rail) in scene.rails.iter().enumerate().filter(|(_, rail)| rail.structure == s) {
+    for (index, rail) in scene
+        .rails
+        .iter()
+        .enumerate()
+        .filter(|(_, rail)| rail.structure == s)
+    {
         let given = scene.output.spans.iter().find(|(known, _)| *known == index);
-        let ends = given
-            .map_or_else(|| spec.spans(&solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
-        for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
+        let ends = given.map_or_else(
+            || spec.spans(&solved.model, &solved.rails, rail.rail),
+            |(_, ends)| ends.clone(),
+        );
+        for span in ends
+            .windows(2)
+            .map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])])
+        {
             let [from, to] = span;
             let inside = |load: &WheelLoad| {
                 load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
             };
-            let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();
+            let rows: Vec<usize> = (0..all.len())
+                .filter(|&i| all[i].iter().any(inside))
+                .collect();
             if from >= to || rows.is_empty() {
                 continue;
             }
-            let places: Vec<f64> =
-                (0..=PLACES + 1).map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64).collect();
+            let places: Vec<f64> = (0..=PLACES + 1)
+                .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
+                .collect();
             for &(axis, direction) in axes {
-                let none =
-                    Deflection { rail: rail.name.clone(), direction, span, value: 0.0, x: from, time: 0.0 };
-                found.push(largest_deflection(loaded, none, (rail.rail, axis), &places, (&rows, &all))?);
+                let none = Deflection {
+                    rail: rail.name.clone(),
+                    direction,
+                    span,
+                    value: 0.0,
+                    x: from,
+                    time: 0.0,
+                };
+                found.push(largest_deflection(
+                    loaded,
+                    none,
+                    (rail.rail, axis),
+                    &places,
+                    (&rows, &all),
+                )?);
             }
         }
     }
@@ -147,14 +181,25 @@ fn largest_deflection(
     let mut largest = none;
     for row in spread(rows.len(), SPAN_TIMES).map(|k| rows[k]) {
         // no deflection is reported in a direction in which the structure is unrestrained
-        let Some(moved) = loaded.displacements(&probes, &all[row], row)? else { break };
+        let Some(moved) = loaded.displacements(&probes, &all[row], row)? else {
+            break;
+        };
         let time = loaded.history.sample(row)[0];
         for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
             let fraction = k as f64 / (PLACES + 1) as f64;
             let sag = (1.0 - fraction) * moved[0] + fraction * moved[PLACES + 1] - moved[k];
-            let value = if axis == Axis::Vertical { sag } else { sag.abs() };
+            let value = if axis == Axis::Vertical {
+                sag
+            } else {
+                sag.abs()
+            };
             if value > largest.value {
-                largest = Deflection { value, x, time, ..largest };
+                largest = Deflection {
+                    value,
+                    x,
+                    time,
+                    ..largest
+                };
             }
         }
     }
@@ -218,37 +263,74 @@ pub(super) fn drifts(
     loaded: &LoadedStructure<'_>,
     solved: Option<&SolvedModel>,
 ) -> Result<Vec<Drift>, Error> {
-    let LoadedStructure { scene, s, history, built, .. } = *loaded;
+    let LoadedStructure {
+        scene,
+        s,
+        history,
+        built,
+        ..
+    } = *loaded;
     let structure = &scene.structures[s];
-    let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =
-        (&structure.origin, solved, loaded.is_known(), &built.foundation.parts, structure.carrier)
-    else {
+    let (Origin::Spec { spec, .. }, Some(solved), true, None, None) = (
+        &structure.origin,
+        solved,
+        loaded.is_known(),
+        &built.foundation.parts,
+        structure.carrier,
+    ) else {
         return Ok(Vec::new());
     };
     if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
         return Ok(Vec::new());
     }
-    let all: Vec<(usize, Vec<WheelLoad>)> =
-        spread(history.len(), FRAME_TIMES).map(|row| (row, loaded.on(row))).collect();
-    let is_loaded = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
+    let all: Vec<(usize, Vec<WheelLoad>)> = spread(history.len(), FRAME_TIMES)
+        .map(|row| (row, loaded.on(row)))
+        .collect();
+    let is_loaded = all
+        .iter()
+        .flat_map(|(_, loads)| loads)
+        .any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();
-    for rail in scene.rails.iter().filter(|rail| rail.structure == s && is_loaded) {
+    for rail in scene
+        .rails
+        .iter()
+        .filter(|rail| rail.structure == s && is_loaded)
+    {
         let columns = spec.spans(&solved.model, &solved.rails, rail.rail);
         let inside = |x: &f64| *x >= rail.range[0] && *x <= rail.range[1];
         let columns: Vec<f64> = columns.into_iter().filter(inside).collect();
         let height = height(&solved.model, &solved.rails, rail.rail).filter(|height| *height > 0.0);
-        let (Some(height), false) = (height, columns.is_empty()) else { continue };
-        let probe = |x: &f64| Probe { rail: rail.rail, x: *x, axis: Axis::Lateral };
+        let (Some(height), false) = (height, columns.is_empty()) else {
+            continue;
+        };
+        let probe = |x: &f64| Probe {
+            rail: rail.rail,
+            x: *x,
+            axis: Axis::Lateral,
+        };
         let probes: Vec<Probe> = columns.iter().map(probe).collect();
         let limits = drift_limits(scene.units, height);
-        let mut largest =
-            Drift { rail: rail.name.clone(), x: columns[0], height, value: 0.0, time: 0.0, limits };
+        let mut largest = Drift {
+            rail: rail.name.clone(),
+            x: columns[0],
+            height,
+            value: 0.0,
+            time: 0.0,
+            limits,
+        };
         for (row, on) in &all {
-            let Some(moved) = loaded.displacements(&probes, on, *row)? else { break };
+            let Some(moved) = loaded.displacements(&probes, on, *row)? else {
+                break;
+            };
             let time = history.sample(*row)[0];
             for (x, moved) in columns.iter().zip(moved) {
                 if moved.abs() > largest.value {
-                    largest = Drift { x: *x, value: moved.abs(), time, ..largest };
+                    largest = Drift {
+                        x: *x,
+                        value: moved.abs(),
+                        time,
+                        ..largest
+                    };
                 }
             }
         }
@@ -263,10 +345,22 @@ pub(super) fn drifts(
 /// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as implemented in a public program: loads without
 /// dynamic factors.
 fn drift_limits(units: Units, height: f64) -> Vec<(CodeClause, &'static str, f64)> {
-    let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
-    let mut limits = vec![(en_1993_6("Table 7.1 b", Evidence::Used), "height/400", height / 400.0)];
+    let metre = Scale {
+        from: units,
+        to: Units::SI,
+    }
+    .factor(Dimension::LENGTH);
+    let mut limits = vec![(
+        en_1993_6("Table 7.1 b", Evidence::Used),
+        "height/400",
+        height / 400.0,
+    )];
     if let Ok(most) = practice::aist::drift(height * metre) {
-        limits.push((aist_2021("5.3", Evidence::Quoted), "height/400, at most 2 in", most / metre));
+        limits.push((
+            aist_2021("5.3", Evidence::Quoted),
+            "height/400, at most 2 in",
+            most / metre,
+        ));
     }
     limits
 }
@@ -278,7 +372,10 @@ fn height(model: &Model, rails: &[Rail], rail: usize) -> Option<f64> {
     let member = model.members.get(segment.member)?;
     let of = |point: [f64; 3]| Vector3::from(point).dot(&up);
     let top = of(*model.points.get(member.points[0])?) + of(member.offsets[0]) + of(segment.offset);
-    let base = model.supports.iter().filter_map(|support| model.points.get(support.point));
+    let base = model
+        .supports
+        .iter()
+        .filter_map(|support| model.points.get(support.point));
     let base = base.map(|point| of(*point)).reduce(f64::min)?;
     Some(top - base)
 }

@@ -14,7 +14,11 @@ use formats::units::Dimension;
 /// The summary of the cases of a document as JSON, with the run of the scene itself first; `comparison` has the
 /// statistics of its runs ([`crate::response::RunComparison::json`]).
 #[must_use]
-pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
+pub fn of_document(
+    document: &Document,
+    outcomes: &[CaseResult],
+    comparison: Map<String, Value>,
+) -> Value {
     let scene = document.scene();
     let mut result = run(scene, &outcomes[0], 1);
     result["format"] = json!("girderway-summary/1");
@@ -26,7 +30,9 @@ pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map
         .zip(outcomes)
         .enumerate()
         .skip(1)
-        .map(|(index, (case, outcome))| (outcome.label.clone(), run(&case.scene, outcome, index + 1)))
+        .map(|(index, (case, outcome))| {
+            (outcome.label.clone(), run(&case.scene, outcome, index + 1))
+        })
         .collect();
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
@@ -51,11 +57,17 @@ pub fn schema() -> Value {
 /// The summary of one run as JSON; `number` is that of its case in the document, from 1.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
-    let CaseResult { run, columns: record, choices, .. } = outcome;
+    let CaseResult {
+        run,
+        columns: record,
+        choices,
+        ..
+    } = outcome;
     let (word, why) = run_error::status(&run.status);
     let structures = scene.structures.iter().enumerate();
-    let structures: Map<String, Value> =
-        structures.map(|(s, one)| (one.name.clone(), foundation(one, choices, s))).collect();
+    let structures: Map<String, Value> = structures
+        .map(|(s, one)| (one.name.clone(), foundation(one, choices, s)))
+        .collect();
     let mut result = json!({
         "status": word,
         "analysis": match scene.analysis { Analysis::Dynamic => "dynamic", Analysis::QuasiStatic => "quasi-static" },
@@ -76,12 +88,22 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
     }
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
-        members
-            .extend(outcome.girders().json(scene, number).map(|extremes| ("extremes".to_owned(), extremes)));
+        members.extend(
+            outcome
+                .girders()
+                .json(scene, number)
+                .map(|extremes| ("extremes".to_owned(), extremes)),
+        );
         let stresses = outcome.girders().stresses.json(scene, number);
         members.extend(stresses.map(|stresses| ("stresses".to_owned(), stresses)));
-        members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
-        members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
+        members
+            .extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
+        members.extend(
+            outcome
+                .codes
+                .as_ref()
+                .map(|codes| ("practice".to_owned(), codes.json())),
+        );
     }
     let warnings = warning::case_warnings(scene, outcome);
     if !warnings.is_empty() {
@@ -111,8 +133,11 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
         });
     }
     if !run.fired.is_empty() {
-        result["events"] =
-            run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
+        result["events"] = run
+            .fired
+            .iter()
+            .map(|fired| event(&scene.events[fired.rule], fired.time))
+            .collect();
     }
     result
 }
@@ -121,7 +146,13 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
 /// gaps of single steps.
 fn gaps(outcome: &CaseResult) -> Value {
     let audit = &outcome.run.audit;
-    let relative = |energy: f64| if audit.peak_stored > 0.0 { energy / audit.peak_stored } else { energy };
+    let relative = |energy: f64| {
+        if audit.peak_stored > 0.0 {
+            energy / audit.peak_stored
+        } else {
+            energy
+        }
+    };
     let sums = &audit.gaps;
     let wheel = |w: usize| outcome.input.wheels[w].name.clone();
     let largest: Vec<Value> = (sums.largest.iter().filter(|gap| gap.energy != 0.0))
@@ -170,7 +201,11 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
             entry["quantity"] = json!(choice.quantity);
         }
         if !choice.failed.is_empty() {
-            entry["failed"] = choice.failed.iter().map(|one| foundations::fidelity_name(*one)).collect();
+            entry["failed"] = choice
+                .failed
+                .iter()
+                .map(|one| foundations::fidelity_name(*one))
+                .collect();
         }
     }
     entry
@@ -206,7 +241,12 @@ fn tried(tried: &FidelityTrial) -> Value {
 fn peaks(record: &NamedColumns) -> Value {
     let time = record.values("time");
     let mut peaks = Map::new();
-    for column in record.columns.iter().skip(1).filter(|column| !column.values.is_empty()) {
+    for column in record
+        .columns
+        .iter()
+        .skip(1)
+        .filter(|column| !column.values.is_empty())
+    {
         let mut at = [0, 0];
         for (i, value) in column.values.iter().enumerate() {
             if *value > column.values[at[0]] {
@@ -226,9 +266,17 @@ fn peaks(record: &NamedColumns) -> Value {
 #[must_use]
 pub fn units(scene: &Scene, record: &NamedColumns) -> Value {
     let label = |dimension: Dimension| {
-        if dimension == Dimension::NUMBER { "rad".to_owned() } else { scene.units.label(dimension) }
+        if dimension == Dimension::NUMBER {
+            "rad".to_owned()
+        } else {
+            scene.units.label(dimension)
+        }
     };
     Value::Object(
-        record.columns.iter().map(|column| (column.name.clone(), json!(label(column.dimension)))).collect(),
+        record
+            .columns
+            .iter()
+            .map(|column| (column.name.clone(), json!(label(column.dimension))))
+            .collect(),
     )
 }

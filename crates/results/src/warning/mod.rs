@@ -41,9 +41,12 @@ fn of_second_order<'a>(
     outcome: &'a CaseResult,
     is_warning: bool,
 ) -> impl Iterator<Item = String> + use<'a> {
-    let all =
-        outcome.second_order.get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
-    all.iter().filter(move |doubt| doubt.is_warning == is_warning).map(|doubt| doubt.text.clone())
+    let all = outcome
+        .second_order
+        .get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
+    all.iter()
+        .filter(move |doubt| doubt.is_warning == is_warning)
+        .map(|doubt| doubt.text.clone())
 }
 
 /// The warnings of a case: of its run, and of the foundations chosen for it.
@@ -94,7 +97,11 @@ pub struct Message {
 
 impl std::fmt::Display for Message {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(if self.is_warning { "warning: " } else { "note: " })?;
+        f.write_str(if self.is_warning {
+            "warning: "
+        } else {
+            "note: "
+        })?;
         if !self.runs.is_empty() {
             write!(f, "{}: ", self.runs.join(", "))?;
         }
@@ -107,16 +114,28 @@ impl std::fmt::Display for Message {
 pub fn messages(outcomes: &[CaseResult], document: &Document) -> Vec<Message> {
     let mut all: Vec<Message> = Vec::new();
     let mut add = |is_warning: bool, label: &str, text: String| {
-        let same = all.iter_mut().find(|known| known.is_warning == is_warning && known.text == text);
+        let same = all
+            .iter_mut()
+            .find(|known| known.is_warning == is_warning && known.text == text);
         match same {
             Some(known) => known.runs.push(label.to_owned()),
-            None => all.push(Message { is_warning, runs: vec![label.to_owned()], text }),
+            None => all.push(Message {
+                is_warning,
+                runs: vec![label.to_owned()],
+                text,
+            }),
         }
     };
     for is_warning in [true, false] {
         for (outcome, case) in outcomes.iter().zip(&document.cases) {
-            let of_case = if is_warning { case_warnings } else { case_notes };
-            of_case(&case.scene, outcome).into_iter().for_each(|text| add(is_warning, &outcome.label, text));
+            let of_case = if is_warning {
+                case_warnings
+            } else {
+                case_notes
+            };
+            of_case(&case.scene, outcome)
+                .into_iter()
+                .for_each(|text| add(is_warning, &outcome.label, text));
         }
     }
     for message in &mut all {
@@ -127,7 +146,12 @@ pub fn messages(outcomes: &[CaseResult], document: &Document) -> Vec<Message> {
     all
 }
 
-fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
+fn warnings(
+    scene: &Scene,
+    input: &SimulationInput,
+    record: &NamedColumns,
+    run: &Run,
+) -> Vec<String> {
     let mut all = Vec::new();
     if let (Some((abandoned, t)), Some(method)) = (run.abandoned, run.method) {
         all.push(format!(
@@ -152,8 +176,16 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
     }
     all.extend(slack::slack_cables(scene, input, record));
     all.extend(scene::scene_warnings(scene, record));
-    let of_rail = |rail| Wheels { input, record, rail };
-    let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
+    let of_rail = |rail| Wheels {
+        input,
+        record,
+        rail,
+    };
+    let each = scene
+        .rails
+        .iter()
+        .enumerate()
+        .map(|(r, rail)| (rail, of_rail(r)));
     for (rail, wheels) in each {
         all.extend(large_deflection(scene, rail, &wheels));
         all.extend(axial_tension(scene, rail, &wheels));
@@ -171,7 +203,12 @@ fn largest_gap(input: &SimulationInput, run: &Run) -> String {
     if gap.energy == 0.0 || run.audit.peak_stored == 0.0 {
         return String::new();
     }
-    let name = |w: usize| input.wheels.get(w).map_or("a wheel", |wheel| wheel.name.as_str());
+    let name = |w: usize| {
+        input
+            .wheels
+            .get(w)
+            .map_or("a wheel", |wheel| wheel.name.as_str())
+    };
     let place = match gap.cause {
         GapCause::Step => String::new(),
         GapCause::Flange(w) => format!(", where the flange of {} touches or separates", name(w)),
@@ -179,7 +216,10 @@ fn largest_gap(input: &SimulationInput, run: &Run) -> String {
         GapCause::Break => ", at a corner of a motion or load".to_owned(),
     };
     let share = gap.energy / run.audit.peak_stored;
-    format!("; the largest part of one step is {share:.1e} at t = {:.6} s{place}", gap.time)
+    format!(
+        "; the largest part of one step is {share:.1e} at t = {:.6} s{place}",
+        gap.time
+    )
 }
 
 /// The wheels of one rail.
@@ -192,12 +232,18 @@ struct Wheels<'a> {
 impl<'a> Wheels<'a> {
     fn histories(&self, part: &'a str) -> impl Iterator<Item = &'a [f64]> {
         let (record, rail) = (self.record, self.rail);
-        self.input.wheels.iter().filter(move |w| w.rail == rail).map(move |w| record.part(&w.name, part))
+        self.input
+            .wheels
+            .iter()
+            .filter(move |w| w.rail == rail)
+            .map(move |w| record.part(&w.name, part))
     }
 
     /// Largest vertical displacement of the rail under the wheels.
     fn deepest(&self) -> f64 {
-        self.histories("rail_deflection").flatten().fold(0.0, |most, value| most.max(value.abs()))
+        self.histories("rail_deflection")
+            .flatten()
+            .fold(0.0, |most, value| most.max(value.abs()))
     }
 }
 
@@ -205,12 +251,19 @@ impl<'a> Wheels<'a> {
 fn span(scene: &Scene, rail: &SceneRail) -> f64 {
     let longest = match &scene.structures[rail.structure].origin {
         Origin::Spec { spec, .. } => match &spec.form {
-            Form::Girder(girder) => girder.spans.iter().fold(0.0, |most, span| f64::max(most, *span)),
+            Form::Girder(girder) => girder
+                .spans
+                .iter()
+                .fold(0.0, |most, span| f64::max(most, *span)),
             Form::Frame(_) => 0.0,
         },
         Origin::Tables { .. } => 0.0,
     };
-    if longest > 0.0 { longest } else { rail.range[1] - rail.range[0] }
+    if longest > 0.0 {
+        longest
+    } else {
+        rail.range[1] - rail.range[0]
+    }
 }
 
 /// A rail whose deflection is large relative to its span.
@@ -218,7 +271,11 @@ fn large_deflection(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<
     let deepest = wheels.deepest();
     let span = span(scene, rail);
     let ratio = deepest / span;
-    let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
+    let what = if span < rail.range[1] - rail.range[0] {
+        "span"
+    } else {
+        "length"
+    };
     (ratio > LARGE_DEFLECTION).then(|| {
         format!(
             "{} deflects by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: the assumption of small \
@@ -230,8 +287,12 @@ fn large_deflection(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<
 
 /// A rail that is restrained lengthwise at both ends, so that bending stretches it.
 fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
-    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
-    let Form::Frame(frame) = &spec.form else { return None };
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else {
+        return None;
+    };
+    let Form::Frame(frame) = &spec.form else {
+        return None;
+    };
     let (_, carried) = frame.rails.get(rail.rail)?;
     let growth = tension::stiffness_growth(&frame.model, carried, wheels.deepest());
     let growth = growth.filter(|growth| *growth > TENSION)?;
@@ -248,8 +309,12 @@ fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
 fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
     let is_massless = structure.foundation == Foundation::Influence;
-    let Origin::Spec { spec, .. } = &structure.origin else { return None };
-    let Form::Girder(girder) = &spec.form else { return None };
+    let Origin::Spec { spec, .. } = &structure.origin else {
+        return None;
+    };
+    let Form::Girder(girder) = &spec.form else {
+        return None;
+    };
     let mass = girder.mass_per_length.filter(|mass| *mass > 0.0)?;
     if !is_massless || structure.auto || scene.analysis != Analysis::Dynamic {
         return None;
@@ -257,10 +322,18 @@ fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Opti
     let critical = PI / span(scene, rail) * (girder.e * girder.i_vertical / mass).sqrt();
     let time = wheels.record.values("time");
     let largest_speed = |x: &[f64]| {
-        let steps = x.windows(2).zip(time.windows(2)).filter(|(_, t)| t[1] > t[0]);
-        steps.fold(0.0_f64, |most, (x, t)| most.max(((x[1] - x[0]) / (t[1] - t[0])).abs()))
+        let steps = x
+            .windows(2)
+            .zip(time.windows(2))
+            .filter(|(_, t)| t[1] > t[0]);
+        steps.fold(0.0_f64, |most, (x, t)| {
+            most.max(((x[1] - x[0]) / (t[1] - t[0])).abs())
+        })
     };
-    let alpha = wheels.histories("x").fold(0.0_f64, |most, x| most.max(largest_speed(x))) / critical;
+    let alpha = wheels
+        .histories("x")
+        .fold(0.0_f64, |most, x| most.max(largest_speed(x)))
+        / critical;
     (alpha > FAST).then(|| {
         format!(
             "wheels on {} run at {alpha:.2} of the critical speed, more than {FAST}, over a girder whose mass is \
@@ -273,17 +346,27 @@ fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Opti
 /// A table that is zero at an end of the rail, with wheels between this end and the next station.
 fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let Origin::Tables { tables, .. } = &structure.origin else { return None };
+    let Origin::Tables { tables, .. } = &structure.origin else {
+        return None;
+    };
     let (values, stations) = (tables.vertical.as_ref()?, &tables.stations);
     let last = stations.len().checked_sub(1).filter(|last| *last > 0)?;
     if structure.foundation == Foundation::Rigid {
         return None;
     }
-    let ends = [(0, [stations[0], stations[1]]), (last, [stations[last - 1], stations[last]])];
+    let ends = [
+        (0, [stations[0], stations[1]]),
+        (last, [stations[last - 1], stations[last]]),
+    ];
     let used: Vec<String> = ends
         .into_iter()
         .filter(|(end, _)| values[*end].iter().all(|value| *value == 0.0))
-        .filter(|(_, bay)| wheels.histories("x").flatten().any(|x| *x >= bay[0] && *x <= bay[1]))
+        .filter(|(_, bay)| {
+            wheels
+                .histories("x")
+                .flatten()
+                .any(|x| *x >= bay[0] && *x <= bay[1])
+        })
         .map(|(end, _)| stations[end].to_string())
         .collect();
     (!used.is_empty()).then(|| {
@@ -299,9 +382,13 @@ fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
 /// A body that rolls freely along a rail whose interpolation is not symmetric and therefore not conservative.
 fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let is_unsymmetric =
-        matches!(structure.interpolation, TableInterpolation::Akispl | TableInterpolation::Cubspl);
-    if !is_unsymmetric || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic
+    let is_unsymmetric = matches!(
+        structure.interpolation,
+        TableInterpolation::Akispl | TableInterpolation::Cubspl
+    );
+    if !is_unsymmetric
+        || structure.foundation != Foundation::Influence
+        || scene.analysis != Analysis::Dynamic
     {
         return None;
     }
@@ -309,7 +396,11 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
         let root = &scene.bodies[root_body(scene, body).0];
         root.motion.is_free().then_some(&root.name)
     };
-    let own = wheels.input.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
+    let own = wheels
+        .input
+        .wheels
+        .iter()
+        .filter(|wheel| wheel.rail == wheels.rail);
     let body = own.filter_map(|wheel| free(wheel.body)).next()?;
     Some(format!(
         "{body} rolls freely over {}, read by {}, which is not symmetric: energy is not conserved; \"natural\" and \
@@ -321,21 +412,39 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
 
 /// Wheels that are off their rails at some output times; the one that is off most often is named.
 fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Option<String> {
-    let off = |name: &str| record.part(name, "vertical").iter().filter(|force| **force == 0.0).count();
-    let lifted: Vec<(&str, usize)> =
-        (input.wheels.iter().map(|wheel| (wheel.name.as_str(), off(&wheel.name))))
-            .filter(|(_, count)| *count > 0)
-            .collect();
-    let (name, most) = lifted.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let off = |name: &str| {
+        record
+            .part(name, "vertical")
+            .iter()
+            .filter(|force| **force == 0.0)
+            .count()
+    };
+    let lifted: Vec<(&str, usize)> = (input
+        .wheels
+        .iter()
+        .map(|wheel| (wheel.name.as_str(), off(&wheel.name))))
+    .filter(|(_, count)| *count > 0)
+    .collect();
+    let (name, most) = lifted
+        .iter()
+        .copied()
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let forces = record.part(name, "vertical");
-    let first =
-        forces.iter().position(|force| *force == 0.0).and_then(|first| record.values("time").get(first));
+    let first = forces
+        .iter()
+        .position(|force| *force == 0.0)
+        .and_then(|first| record.values("time").get(first));
     let first = number(rounded(first.copied().unwrap_or_default(), 6));
-    let times = format!("at {most} of {} output times, first at {first} s", forces.len());
+    let times = format!(
+        "at {most} of {} output times, first at {first} s",
+        forces.len()
+    );
     Some(match lifted.len() {
         1 => format!("{name} is off its rail {times}"),
         count => {
-            format!("{count} wheels are off their rails at some output times, most often {name}, {times}")
+            format!(
+                "{count} wheels are off their rails at some output times, most often {name}, {times}"
+            )
         }
     })
 }

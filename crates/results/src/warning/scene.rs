@@ -75,13 +75,23 @@ fn implausible(
     usual: &str,
     scene: &Scene,
 ) -> Option<String> {
-    let si = value * Scale { from: scene.units, to: Units::SI }.factor(dimension);
+    let si = value
+        * Scale {
+            from: scene.units,
+            to: Units::SI,
+        }
+        .factor(dimension);
     (value != 0.0 && !(low..=high).contains(&si)).then(|| {
-        let in_units = |value: f64, units: Units| format!("{} {}", number(value), units.label(dimension));
+        let in_units =
+            |value: f64, units: Units| format!("{} {}", number(value), units.label(dimension));
         let own = in_units(rounded(value, 6), scene.units);
         let in_si = in_units(rounded(si, 3), Units::SI);
         // a scene in m and s has the same text twice
-        let both = if own == in_si { own } else { format!("{own}, {in_si}") };
+        let both = if own == in_si {
+            own
+        } else {
+            format!("{own}, {in_si}")
+        };
         format!("{what} is {both}: check its unit; {usual}")
     })
 }
@@ -92,8 +102,14 @@ fn idle_brakes(scene: &Scene) -> Option<String> {
     if scene.bodies.iter().any(|body| body.brake.is_some()) {
         return None;
     }
-    let kind = scene.wheels.iter().find(|kind| kind.braked && !kind.driven)?;
-    let truck = scene.trucks.iter().find(|truck| scene.wheels[truck.wheel].name == kind.name);
+    let kind = scene
+        .wheels
+        .iter()
+        .find(|kind| kind.braked && !kind.driven)?;
+    let truck = scene
+        .trucks
+        .iter()
+        .find(|truck| scene.wheels[truck.wheel].name == kind.name);
     let body = truck.map_or("...", |truck| &scene.bodies[truck.body].name);
     let friction = match kind.friction {
         Some(_) => "",
@@ -110,11 +126,18 @@ fn idle_brakes(scene: &Scene) -> Option<String> {
 /// Wheels that sink deep into their rails at the start; the deepest is named.
 fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
     let ratio = |wheel: &NamedWheel| {
-        let first = record.part(&wheel.name, "penetration").first().copied().unwrap_or_default();
+        let first = record
+            .part(&wheel.name, "penetration")
+            .first()
+            .copied()
+            .unwrap_or_default();
         first / scene.wheels[wheel.kind].radius
     };
     let wheels = wheels(scene);
-    let soft: Vec<&NamedWheel> = wheels.iter().filter(|wheel| ratio(wheel) > PENETRATION).collect();
+    let soft: Vec<&NamedWheel> = wheels
+        .iter()
+        .filter(|wheel| ratio(wheel) > PENETRATION)
+        .collect();
     let deepest = soft.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))?;
     let others = match soft.len() - 1 {
         0 => String::new(),
@@ -124,7 +147,10 @@ fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
     Some(format!(
         "{}{others} sink into the rail at the start by {} {}, {} of the radius: check `k` of the contact, force / length",
         deepest.name,
-        number(rounded(ratio(deepest) * scene.wheels[deepest.kind].radius, 3)),
+        number(rounded(
+            ratio(deepest) * scene.wheels[deepest.kind].radius,
+            3
+        )),
         scene.units.label(Dimension::LENGTH),
         number(rounded(ratio(deepest), 2))
     ))
@@ -135,7 +161,10 @@ fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
 fn large_rotation(body: &Body, record: &NamedColumns) -> Option<String> {
     let turned = ["roll", "yaw", "pitch"].map(|part| {
         let angles = record.part(&body.name, part).iter();
-        (part, angles.fold(0.0_f64, |most, angle| most.max(angle.abs())))
+        (
+            part,
+            angles.fold(0.0_f64, |most, angle| most.max(angle.abs())),
+        )
     });
     let (part, most) = turned.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     (most > LARGE_ROTATION).then(|| {
@@ -150,15 +179,24 @@ fn large_rotation(body: &Body, record: &NamedColumns) -> Option<String> {
 /// A mass that is too heavy for its wheels, probably a weight entered as a mass.
 fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     let (root, _) = root_body(scene, b);
-    let below = scene.trucks.iter().filter(|truck| root_body(scene, truck.body).0 == root);
+    let below = scene
+        .trucks
+        .iter()
+        .filter(|truck| root_body(scene, truck.body).0 == root);
     let squares: Vec<f64> = below
         .flat_map(|truck| {
             let diameter = 2.0 * scene.wheels[truck.wheel].radius;
-            truck.wheel_offsets().into_iter().map(move |_| diameter * diameter)
+            truck
+                .wheel_offsets()
+                .into_iter()
+                .map(move |_| diameter * diameter)
         })
         .collect();
     let weight = body.mass * scene.gravity;
-    let scale = Scale { from: scene.units, to: Units::SI };
+    let scale = Scale {
+        from: scene.units,
+        to: Units::SI,
+    };
     let pressure = weight / squares.iter().sum::<f64>() * scale.factor(Dimension::STRESS);
     let [force, mass] = [Dimension::FORCE, Dimension::MASS].map(|of| scene.units.label(of));
     (body.by_mass && !squares.is_empty() && pressure > WHEEL_PRESSURE).then(|| {
@@ -176,8 +214,10 @@ fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
 /// A body that is free to rotate about axes about which it has no moment of inertia.
 fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
     let words = ["roll", "yaw", "pitch"].into_iter().enumerate();
-    let free: Vec<&str> =
-        words.filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0).map(|(_, word)| word).collect();
+    let free: Vec<&str> = words
+        .filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0)
+        .map(|(_, word)| word)
+        .collect();
     (scene.analysis == Analysis::Dynamic && !free.is_empty()).then(|| {
         format!(
             "{} can {}, but its `inertia` in this motion is 0: it rotates as if all its mass were concentrated at \
@@ -191,7 +231,9 @@ fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
 /// A structure on a body whose supports extend beyond the wheels of the body.
 fn overhanging(scene: &Scene, s: usize) -> Option<String> {
     let structure = &scene.structures[s];
-    let (on, Origin::Spec { spec, .. }) = (structure.carrier?, &structure.origin) else { return None };
+    let (on, Origin::Spec { spec, .. }) = (structure.carrier?, &structure.origin) else {
+        return None;
+    };
     let (model, _) = spec.model().ok()?;
     let (root, own) = root_body(scene, on.body);
     let wheels: Vec<[f64; 3]> = scene
@@ -206,22 +248,25 @@ fn overhanging(scene: &Scene, s: usize) -> Option<String> {
         .collect();
     let supported = model.supports.iter().map(|support| support.point);
     let supported = supported.chain(model.springs.iter().map(|spring| spring.point));
-    let supports: Vec<[f64; 3]> =
-        supported.map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k])).collect();
-    let outside = [(0, "along"), (2, "across")].into_iter().find_map(|(k, word)| {
-        let [low, high] = range(&wheels, k);
-        let [from, to] = range(&supports, k);
-        let slack = OVERHANG * (high - low);
-        (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
-            format!(
-                "{word} its track from {} to {}, but its wheels stand from {} to {}",
-                number(rounded(from, 6)),
-                number(rounded(to, 6)),
-                number(rounded(low, 6)),
-                number(rounded(high, 6))
-            )
-        })
-    });
+    let supports: Vec<[f64; 3]> = supported
+        .map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k]))
+        .collect();
+    let outside = [(0, "along"), (2, "across")]
+        .into_iter()
+        .find_map(|(k, word)| {
+            let [low, high] = range(&wheels, k);
+            let [from, to] = range(&supports, k);
+            let slack = OVERHANG * (high - low);
+            (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
+                format!(
+                    "{word} its track from {} to {}, but its wheels stand from {} to {}",
+                    number(rounded(from, 6)),
+                    number(rounded(to, 6)),
+                    number(rounded(low, 6)),
+                    number(rounded(high, 6))
+                )
+            })
+        });
     let body = &scene.bodies[on.body].name;
     outside.map(|outside| {
         format!(
@@ -235,7 +280,9 @@ fn overhanging(scene: &Scene, s: usize) -> Option<String> {
 /// The smallest and the largest coordinate `k`.
 fn range(places: &[[f64; 3]], k: usize) -> [f64; 2] {
     let all = places.iter().map(|place| place[k]);
-    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+        [low.min(at), high.max(at)]
+    })
 }
 
 /// Ropes whose strain exceeds [`BREAKING_STRAIN`].

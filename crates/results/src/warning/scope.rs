@@ -12,7 +12,9 @@ use crate::case_result::CaseResult;
 #[must_use]
 pub fn accuracy_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let CaseResult { run, input, .. } = outcome;
-    let own = many_bounces(scene, run).into_iter().chain(after_strike(scene, input, run));
+    let own = many_bounces(scene, run)
+        .into_iter()
+        .chain(after_strike(scene, input, run));
     own.chain(outcome.girders().notes.iter().cloned())
         .chain(outcome.girders().stresses.notes(scene))
         .collect()
@@ -41,12 +43,21 @@ fn after_strike(scene: &Scene, input: &SimulationInput, run: &Run) -> Option<Str
         StruckBy::Flange(wheel) => {
             format!(
                 "the flange of {}",
-                input.wheels.get(wheel).map_or("a wheel", |wheel| wheel.name.as_str())
+                input
+                    .wheels
+                    .get(wheel)
+                    .map_or("a wheel", |wheel| wheel.name.as_str())
             )
         }
         StruckBy::Stop(index) => {
-            let names = scene.stops.iter().flat_map(|stop| stop.points.iter().map(|_| stop.name.as_str()));
-            format!("the stop {}", names.into_iter().nth(index).unwrap_or("of a body"))
+            let names = scene
+                .stops
+                .iter()
+                .flat_map(|stop| stop.points.iter().map(|_| stop.name.as_str()));
+            format!(
+                "the stop {}",
+                names.into_iter().nth(index).unwrap_or("of a body")
+            )
         }
     };
     Some(format!(

@@ -20,7 +20,9 @@ pub(super) fn second_order(
     input: &SimulationInput,
     record: &NamedColumns,
 ) -> Vec<FirstOrderDoubt> {
-    (0..scene.structures.len()).filter_map(|index| of_structure(scene, index, input, record)).collect()
+    (0..scene.structures.len())
+        .filter_map(|index| of_structure(scene, index, input, record))
+        .collect()
 }
 
 fn of_structure(
@@ -30,7 +32,9 @@ fn of_structure(
     record: &NamedColumns,
 ) -> Option<FirstOrderDoubt> {
     let structure = &scene.structures[index];
-    let Origin::Spec { spec, .. } = &structure.origin else { return None };
+    let Origin::Spec { spec, .. } = &structure.origin else {
+        return None;
+    };
     if spec.preload.is_some() || structure.foundation == Foundation::Rigid {
         return None;
     }
@@ -45,7 +49,10 @@ fn of_structure(
         .collect();
     let at = |of: &[f64], row: usize| of.get(row).copied().unwrap_or(0.0);
     let total = |row: usize| -> f64 {
-        wheels.iter().map(|(_, [_, vertical, lateral])| at(vertical, row).hypot(at(lateral, row))).sum()
+        wheels
+            .iter()
+            .map(|(_, [_, vertical, lateral])| at(vertical, row).hypot(at(lateral, row)))
+            .sum()
     };
     let times = record.values("time");
     let row = (0..times.len()).max_by(|&a, &b| total(a).total_cmp(&total(b)))?;
@@ -54,15 +61,28 @@ fn of_structure(
         x: at(x, row),
         force: [0.0, -at(vertical, row), at(lateral, row)],
     };
-    let rails: Vec<RailForce> = wheels.iter().map(force).filter(|own| own.force != [0.0; 3]).collect();
+    let rails: Vec<RailForce> = wheels
+        .iter()
+        .map(force)
+        .filter(|own| own.force != [0.0; 3])
+        .collect();
     if rails.is_empty() {
         return None;
     }
     let (model, own) = spec.unloaded_model().ok()?;
     let size = model.up.iter().map(|a| a * a).sum::<f64>().sqrt();
-    let weight =
-        model.up.map(|a| if spec.has_mass() && size > 0.0 { -scene.gravity * a / size } else { 0.0 });
-    let loads = Preload { acceleration: weight, points: Vec::new(), rails };
+    let weight = model.up.map(|a| {
+        if spec.has_mass() && size > 0.0 {
+            -scene.gravity * a / size
+        } else {
+            0.0
+        }
+    });
+    let loads = Preload {
+        acceleration: weight,
+        points: Vec::new(),
+        rails,
+    };
     let time = number(rounded(times[row], 6));
     let change = match second_order_change(&model, &own, &loads) {
         Ok(change) => change,
@@ -80,7 +100,10 @@ fn of_structure(
         Err(_) => return None,
     };
     let turned = 0.5 * change.rotation * change.rotation;
-    let most = change.of_displacements().max(change.force).max(change.moment);
+    let most = change
+        .of_displacements()
+        .max(change.force)
+        .max(change.moment);
     (most >= NOTED).then(|| FirstOrderDoubt {
         is_warning: most >= WARNED,
         text: format!(

@@ -28,26 +28,56 @@ impl Cables {
         if members.is_empty() {
             return None;
         }
-        let axial =
-            |&member: &usize| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
+        let axial = |&member: &usize| Effect::InternalForce {
+            member,
+            place: 0.5,
+            component: ForceComponent::Axial,
+        };
         let effects: Vec<Effect> = members.iter().map(axial).collect();
         let lines = frame.influence_lines(&model, &effects).ok()?;
-        let mut tension: Vec<f64> = members.iter().map(|&member| model.members[member].tension).collect();
+        let mut tension: Vec<f64> = members
+            .iter()
+            .map(|&member| model.members[member].tension)
+            .collect();
         let mut one = vec![0.0; members.len()];
         for wheel in &preload.wheels {
-            lines.fill(Probe { rail: wheel.rail, x: wheel.x, axis: Axis::Vertical }, &mut one).ok()?;
-            tension.iter_mut().zip(&one).for_each(|(sum, effect)| *sum -= effect * wheel.force[1]);
+            lines
+                .fill(
+                    Probe {
+                        rail: wheel.rail,
+                        x: wheel.x,
+                        axis: Axis::Vertical,
+                    },
+                    &mut one,
+                )
+                .ok()?;
+            tension
+                .iter_mut()
+                .zip(&one)
+                .for_each(|(sum, effect)| *sum -= effect * wheel.force[1]);
         }
-        Some(Cables { members, lines, tension })
+        Some(Cables {
+            members,
+            lines,
+            tension,
+        })
     }
 }
 
 /// Warnings about cables that lose their tension at any recorded time.
-pub(super) fn slack_cables(scene: &Scene, input: &SimulationInput, record: &NamedColumns) -> Vec<String> {
+pub(super) fn slack_cables(
+    scene: &Scene,
+    input: &SimulationInput,
+    record: &NamedColumns,
+) -> Vec<String> {
     let mut all = Vec::new();
     for (index, structure) in scene.structures.iter().enumerate() {
-        let Origin::Spec { spec, .. } = &structure.origin else { continue };
-        let Some(cables) = Cables::of(spec) else { continue };
+        let Origin::Spec { spec, .. } = &structure.origin else {
+            continue;
+        };
+        let Some(cables) = Cables::of(spec) else {
+            continue;
+        };
         let wheels: Vec<(usize, &[f64], &[f64])> = input
             .wheels
             .iter()
@@ -64,10 +94,19 @@ pub(super) fn slack_cables(scene: &Scene, input: &SimulationInput, record: &Name
         for (t, time) in times.iter().enumerate().step_by(stride) {
             let mut tension = cables.tension.clone();
             for (rail, x, force) in &wheels {
-                let (Some(&x), Some(&force)) = (x.get(t), force.get(t)) else { continue };
-                let at = Probe { rail: *rail, x, axis: Axis::Vertical };
+                let (Some(&x), Some(&force)) = (x.get(t), force.get(t)) else {
+                    continue;
+                };
+                let at = Probe {
+                    rail: *rail,
+                    x,
+                    axis: Axis::Vertical,
+                };
                 if force != 0.0 && cables.lines.fill(at, &mut one).is_ok() {
-                    tension.iter_mut().zip(&one).for_each(|(sum, effect)| *sum -= effect * force);
+                    tension
+                        .iter_mut()
+                        .zip(&one)
+                        .for_each(|(sum, effect)| *sum -= effect * force);
                 }
             }
             for (first, tension) in first.iter_mut().zip(tension) {

@@ -17,7 +17,10 @@ use fea::{Dof, Member, MemberKind, Model};
 /// (1950).
 pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
     let translations = [Dof::Ux, Dof::Uy, Dof::Uz];
-    let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let size = rail
+        .axis
+        .iter()
+        .fold(0.0_f64, |most, part| most.max(part.abs()));
     let along = (0..3).find(|&k| rail.axis[k].abs() == size)?;
     let restrained: BTreeSet<usize> = model
         .supports
@@ -25,8 +28,11 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         .filter(|support| support.fixed[translations[along] as usize])
         .map(|support| support.point)
         .collect();
-    let mut members: Vec<&Member> =
-        rail.segments.iter().map(|segment| &model.members[segment.member]).collect();
+    let mut members: Vec<&Member> = rail
+        .segments
+        .iter()
+        .map(|segment| &model.members[segment.member])
+        .collect();
     let place = |point: usize| model.points[point][along];
     members.sort_by(|a, b| place(a.points[0]).total_cmp(&place(b.points[0])));
 
@@ -38,7 +44,10 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         if place(from) > place(to) {
             std::mem::swap(&mut from, &mut to);
         }
-        let is_released = member.releases.iter().any(|released| released[Dof::Ux as usize]);
+        let is_released = member
+            .releases
+            .iter()
+            .any(|released| released[Dof::Ux as usize]);
         if restrained.contains(&from) {
             chain.clear();
             chain.push(member);
@@ -53,7 +62,11 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         if restrained.contains(&to) {
             for member in chain.drain(..) {
                 let section = &model.sections[member.section];
-                let inertia = if is_upright(member, model) { section.iz } else { section.iy };
+                let inertia = if is_upright(member, model) {
+                    section.iz
+                } else {
+                    section.iy
+                };
                 if inertia > 0.0 {
                     let growth = section.area * delta * delta / (4.0 * inertia);
                     largest = Some(largest.map_or(growth, |most| most.max(growth)));
@@ -87,16 +100,39 @@ mod tests {
         let model = Model {
             up: [0.0, 1.0, 0.0],
             points: vec![[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]],
-            members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0]), Member::beam([1, 2], 0, [0.0, 0.0, 1.0])],
-            sections: vec![CrossSection { area: 0.2, iy: 0.01, iz: 0.05, ..CrossSection::default() }],
+            members: vec![
+                Member::beam([0, 1], 0, [0.0, 1.0, 0.0]),
+                Member::beam([1, 2], 0, [0.0, 0.0, 1.0]),
+            ],
+            sections: vec![CrossSection {
+                area: 0.2,
+                iy: 0.01,
+                iz: 0.05,
+                ..CrossSection::default()
+            }],
             supports: vec![
                 Support { point: 0, fixed },
-                Support { point: 2, fixed: [is_last_restrained, true, true, false, false, false] },
+                Support {
+                    point: 2,
+                    fixed: [is_last_restrained, true, true, false, false, false],
+                },
             ],
             ..Model::default()
         };
-        let segments = (0..2).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
-        (model, Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() })
+        let segments = (0..2)
+            .map(|member| RailSegment {
+                member,
+                offset: [0.0; 3],
+            })
+            .collect();
+        (
+            model,
+            Rail {
+                axis: [1.0, 0.0, 0.0],
+                segments,
+                ..Rail::default()
+            },
+        )
     }
 
     /// Analytic: 0.2 x 0.1^2 / (4 x 0.01) by the member that lies flat.

@@ -39,8 +39,18 @@ impl Mesh {
         let size = 2 * (cells + 1);
         let (mut k, mut m) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
         let h = step;
-        let stiff =
-            [12.0, 6.0 * h, -12.0, 6.0 * h, 4.0 * h * h, -6.0 * h, 2.0 * h * h, 12.0, -6.0 * h, 4.0 * h * h];
+        let stiff = [
+            12.0,
+            6.0 * h,
+            -12.0,
+            6.0 * h,
+            4.0 * h * h,
+            -6.0 * h,
+            2.0 * h * h,
+            12.0,
+            -6.0 * h,
+            4.0 * h * h,
+        ];
         let heavy = [
             156.0,
             22.0 * h,
@@ -58,7 +68,11 @@ impl Mesh {
             for i in 0..4 {
                 for j in i..4 {
                     let (a, b) = (2 * cell + i, 2 * cell + j);
-                    for (a, b) in if a == b { vec![(a, b)] } else { vec![(a, b), (b, a)] } {
+                    for (a, b) in if a == b {
+                        vec![(a, b)]
+                    } else {
+                        vec![(a, b), (b, a)]
+                    } {
                         k[(a, b)] += stiff[entry] * beam.bending / h.powi(3);
                         m[(a, b)] += heavy[entry] * beam.mass * h / 420.0;
                     }
@@ -66,10 +80,12 @@ impl Mesh {
                 }
             }
         }
-        let held = [beam.overhang, beam.overhang + beam.span].map(|x| 2 * (x / step).round() as usize);
+        let held =
+            [beam.overhang, beam.overhang + beam.span].map(|x| 2 * (x / step).round() as usize);
         let free: Vec<usize> = (0..size).filter(|i| !held.contains(i)).collect();
-        let pick =
-            |full: &DMatrix<f64>| DMatrix::from_fn(free.len(), free.len(), |i, j| full[(free[i], free[j])]);
+        let pick = |full: &DMatrix<f64>| {
+            DMatrix::from_fn(free.len(), free.len(), |i, j| full[(free[i], free[j])])
+        };
         let lower = pick(&m).cholesky()?.l();
         let inverse = lower.try_inverse()?;
         let eigen = SymmetricEigen::new(&inverse * pick(&k) * inverse.transpose());
@@ -83,8 +99,17 @@ impl Mesh {
                 shapes[(*row, column)] = *value;
             }
         }
-        let omega = order.iter().map(|&mode| eigen.eigenvalues[mode].sqrt()).collect();
-        Some(Mesh { first: -beam.overhang, step, count: cells, shapes, omega })
+        let omega = order
+            .iter()
+            .map(|&mode| eigen.eigenvalues[mode].sqrt())
+            .collect();
+        Some(Mesh {
+            first: -beam.overhang,
+            step,
+            count: cells,
+            shapes,
+            omega,
+        })
     }
 
     fn row(&self, x: f64, value: &mut [f64], slope: &mut [f64]) {
@@ -164,9 +189,15 @@ impl Beam {
         let mesh = Arc::new(Mesh::new(self, step, modes)?);
         let range = exact.range(0);
         Some(Foundation {
-            rails: vec![Extent { range, breaks: vec![0.0, self.span] }],
+            rails: vec![Extent {
+                range,
+                breaks: vec![0.0, self.span],
+            }],
             structure: Some(Structure {
-                dynamics: Dynamics::Modes { omega: mesh.omega.clone(), ratio: vec![0.0; mesh.omega.len()] },
+                dynamics: Dynamics::Modes {
+                    omega: mesh.omega.clone(),
+                    ratio: vec![0.0; mesh.omega.len()],
+                },
                 shapes: Box::new(Sides(Arc::clone(&mesh))),
             }),
             compliance: Some(Box::new(Rest { exact, mesh })),

@@ -15,7 +15,10 @@ pub(crate) struct ActiveSet {
 impl ActiveSet {
     /// The active set with the initial flags `begin` and `verticals` vertical contacts, which are the first elements.
     pub fn new(begin: Vec<bool>, verticals: usize) -> Self {
-        ActiveSet { active: begin, stored: vec![None; verticals] }
+        ActiveSet {
+            active: begin,
+            stored: vec![None; verticals],
+        }
     }
 
     /// Whether element `i` is active.

@@ -19,7 +19,12 @@ impl<'a> BrakeForce<'a> {
     pub fn all(mechanics: &Mechanics<'a>) -> Vec<Self> {
         let brakes = mechanics.scene.actuators.brakes.iter().enumerate();
         brakes
-            .flat_map(|(index, brake)| brake.contacts.iter().map(move |contact| (index, brake, contact)))
+            .flat_map(|(index, brake)| {
+                brake
+                    .contacts
+                    .iter()
+                    .map(move |contact| (index, brake, contact))
+            })
             .map(|(index, brake, contact)| {
                 let grip = Grip::new(mechanics, std::slice::from_ref(contact), true);
                 BrakeForce { brake, index, grip }
@@ -34,7 +39,9 @@ impl Element for BrakeForce<'_> {
     }
 
     fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
-        local.is_on = at.switches.is_braking(&at.mechanics.scene.actuators, self.index, at.t);
+        local.is_on = at
+            .switches
+            .is_braking(&at.mechanics.scene.actuators, self.index, at.t);
         *row.rate_offset = -0.0;
     }
 
@@ -66,7 +73,11 @@ impl Element for BrakeForce<'_> {
         let share = (query.rate / self.brake.speed).tanh();
         self.grip.couple(query.index, query.force, share, couplings);
         let by_rate = traction * (1.0 - share * share) / self.brake.speed;
-        Some(Law { force: traction * share, by_rate, ..Law::default() })
+        Some(Law {
+            force: traction * share,
+            by_rate,
+            ..Law::default()
+        })
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
@@ -81,7 +92,13 @@ impl Element for BrakeForce<'_> {
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {
         let count = self.grip.wheels.len() as f64;
-        let wheels = self.grip.wheels.iter().map(|&w| (Channel::Traction(w), count));
-        wheels.chain([(Channel::Brake(self.brake.body), -1.0)]).collect()
+        let wheels = self
+            .grip
+            .wheels
+            .iter()
+            .map(|&w| (Channel::Traction(w), count));
+        wheels
+            .chain([(Channel::Brake(self.brake.body), -1.0)])
+            .collect()
     }
 }

@@ -14,7 +14,10 @@ pub(crate) struct Candidates {
 impl Candidates {
     /// All of `count` elements.
     pub fn all(count: usize) -> Self {
-        Candidates { list: (0..count).collect(), has: vec![true; count] }
+        Candidates {
+            list: (0..count).collect(),
+            has: vec![true; count],
+        }
     }
 
     /// Sets the elements to those for which `may_act` returns true.

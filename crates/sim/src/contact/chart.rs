@@ -74,7 +74,11 @@ impl Local {
     /// J^-1 w.
     pub fn solve(&self, w: Vector3<f64>) -> [f64; 3] {
         let [u, across, over] = self.along;
-        [u.dot(&w), across.dot(&w) / (self.span * self.cos_squared), over.dot(&w) / self.span]
+        [
+            u.dot(&w),
+            across.dot(&w) / (self.span * self.cos_squared),
+            over.dot(&w) / self.span,
+        ]
     }
 }
 
@@ -85,12 +89,22 @@ impl Chart {
         Some(if self.forward { [from, to] } else { [to, from] })
     }
 
-    pub fn anchor<'s>(&self, system: &'s System, switches: &Switches, t: f64) -> Option<Anchor<'s>> {
+    pub fn anchor<'s>(
+        &self,
+        system: &'s System,
+        switches: &Switches,
+        t: f64,
+    ) -> Option<Anchor<'s>> {
         let [point, _] = self.ends(system)?;
         let mut given = [Vector3::zeros(); 2];
         for (b, body) in system.scene.bodies.iter().enumerate() {
-            let Some(profile) = &body.motion else { continue };
-            if point.body.is_some_and(|own| system.mechanics.kinematics.root(own) == b) {
+            let Some(profile) = &body.motion else {
+                continue;
+            };
+            if point
+                .body
+                .is_some_and(|own| system.mechanics.kinematics.root(own) == b)
+            {
                 let at = profile.at(t);
                 given[0].x += at.v;
                 given[1].x += at.a;
@@ -98,14 +112,26 @@ impl Chart {
         }
         let actuators = &system.scene.actuators;
         let [length, rate] = switches.unstretched(actuators, self.rope, t);
-        let unstretched = [length, rate, switches.unstretched_acceleration(actuators, self.rope, t)];
-        Some(Anchor { point, given, unstretched })
+        let unstretched = [
+            length,
+            rate,
+            switches.unstretched_acceleration(actuators, self.rope, t),
+        ];
+        Some(Anchor {
+            point,
+            given,
+            unstretched,
+        })
     }
 
     /// Position of the body in space minus its degrees of freedom X, Y and Z.
     pub fn offset(&self, system: &System) -> Option<Vector3<f64>> {
         let [_, own] = self.ends(system)?;
-        Some(own.place(&system.mechanics, 0.0, &DVector::zeros(system.mechanics.dofs)))
+        Some(own.place(
+            &system.mechanics,
+            0.0,
+            &DVector::zeros(system.mechanics.dofs),
+        ))
     }
 
     pub fn vector(&self, of: &DVector<f64>) -> Vector3<f64> {
@@ -123,10 +149,14 @@ impl Chart {
     ) -> Option<Local> {
         let [e0, e1, e2] = self.frame;
         let [length, length_rate, length_acceleration] = anchor.unstretched;
-        let span = self.vector(q) + self.offset(system)? - anchor.point.place(&system.mechanics, t, q);
+        let span =
+            self.vector(q) + self.offset(system)? - anchor.point.place(&system.mechanics, t, q);
         let speed = self.vector(v) - anchor.point.rate(v) - anchor.given[0];
         let r = span.norm();
-        let (alpha, beta) = (span.dot(&e1).atan2(span.dot(&e0)), (span.dot(&e2) / r).clamp(-1.0, 1.0).asin());
+        let (alpha, beta) = (
+            span.dot(&e1).atan2(span.dot(&e0)),
+            (span.dot(&e2) / r).clamp(-1.0, 1.0).asin(),
+        );
         let ((sa, ca), (sb, cb)) = (alpha.sin_cos(), beta.sin_cos());
         let (radial, around) = (e0 * ca + e1 * sa, e1 * ca - e0 * sa);
         let u = radial * cb + e2 * sb;
@@ -177,11 +207,16 @@ impl Chart {
         let speed = chart.vector(&from.v) - anchor.point.rate(&from.v) - anchor.given[0];
         let across = speed - along * along.dot(&speed);
         let least = axes[along.iamin()];
-        let across = if across.norm() > 1e-9 * (1.0 + speed.norm()) { across } else { along.cross(&least) };
+        let across = if across.norm() > 1e-9 * (1.0 + speed.norm()) {
+            across
+        } else {
+            along.cross(&least)
+        };
         let across = across.normalize();
         chart.frame = [along, across, along.cross(&across)];
         let local = chart.local(system, &anchor, from.t, &from.q, &from.v)?;
-        let acceleration = chart.vector(&from.a) - anchor.point.rate(&from.a) - anchor.given[1] - local.curve;
+        let acceleration =
+            chart.vector(&from.a) - anchor.point.rate(&from.a) - anchor.given[1] - local.curve;
         chart.start = [local.y, local.rate];
         chart.acceleration = local.solve(acceleration);
         Some(chart)
@@ -189,8 +224,17 @@ impl Chart {
 
     /// Sets the position and the velocity of the body in `at` from the coordinates `y` and their `rate`; the other
     /// end of the rope is at its position in `at`.
-    pub fn place(&self, system: &System, switches: &Switches, y: [f64; 3], rate: [f64; 3], at: &mut State) {
-        let (Some(anchor), Some(offset)) = (self.anchor(system, switches, at.t), self.offset(system)) else {
+    pub fn place(
+        &self,
+        system: &System,
+        switches: &Switches,
+        y: [f64; 3],
+        rate: [f64; 3],
+        at: &mut State,
+    ) {
+        let (Some(anchor), Some(offset)) =
+            (self.anchor(system, switches, at.t), self.offset(system))
+        else {
             return;
         };
         let [e0, e1, e2] = self.frame;

@@ -35,11 +35,14 @@ impl Charts {
         while grows {
             grows = false;
             left.retain(|&rope| {
-                let Some([a, b]) = system.rope(rope).and_then(|(_, rope)| rope.ends()) else { return false };
+                let Some([a, b]) = system.rope(rope).and_then(|(_, rope)| rope.ends()) else {
+                    return false;
+                };
                 if a.is_carried() || b.is_carried() {
                     return false;
                 }
-                let charted = |numbers: [usize; 3]| self.0.iter().any(|chart| chart.numbers == numbers);
+                let charted =
+                    |numbers: [usize; 3]| self.0.iter().any(|chart| chart.numbers == numbers);
                 let (low, high) = (hangs(a), hangs(b));
                 let carries = |end: Option<[usize; 3]>| end.is_none_or(charted);
                 let (forward, numbers) = match (low, high) {
@@ -82,25 +85,45 @@ impl Charts {
     }
 
     /// Reads the constant terms of a stage in local coordinates from `known`, and sets `at` to a guess of its end.
-    pub fn guess(&mut self, system: &System, switches: &Switches, g: f64, known: &Known, at: &mut State) {
+    pub fn guess(
+        &mut self,
+        system: &System,
+        switches: &Switches,
+        g: f64,
+        known: &Known,
+        at: &mut State,
+    ) {
         for chart in &mut self.0 {
             chart.known = [&known.q, &known.v].map(|of| chart.numbers.map(|number| of[number]));
-            let rate: [f64; 3] = std::array::from_fn(|k| chart.known[1][k] + g * chart.acceleration[k]);
+            let rate: [f64; 3] =
+                std::array::from_fn(|k| chart.known[1][k] + g * chart.acceleration[k]);
             let y = std::array::from_fn(|k| chart.known[0][k] + g * rate[k]);
             chart.place(system, switches, y, rate, at);
         }
     }
 
     /// Sets the constant terms of hanging bodies in X, Y and Z, linearised about the guess `at`.
-    pub fn linearise(&self, system: &System, switches: &Switches, g: f64, known: &mut Known, at: &State) {
+    pub fn linearise(
+        &self,
+        system: &System,
+        switches: &Switches,
+        g: f64,
+        known: &mut Known,
+        at: &State,
+    ) {
         for chart in &self.0 {
-            let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
-            let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { continue };
+            let Some(anchor) = chart.anchor(system, switches, at.t) else {
+                continue;
+            };
+            let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {
+                continue;
+            };
             let apart = std::array::from_fn(|k| chart.known[0][k] - local.y[k]);
             let drift = anchor.given[0] + local.along[0] * anchor.unstretched[1];
             let span = chart.vector(&at.q) - anchor.point.place(&system.mechanics, at.t, &at.q);
             let q =
-                anchor.point.place(&system.mechanics, at.t, &known.q) + span + local.apply(apart) - drift * g;
+                anchor.point.place(&system.mechanics, at.t, &known.q) + span + local.apply(apart)
+                    - drift * g;
             let v = anchor.point.rate(&known.v) + drift + local.apply(chart.known[1])
                 - (anchor.given[1] + local.curve) * g;
             for (k, &number) in chart.numbers.iter().enumerate() {
@@ -119,9 +142,14 @@ impl Charts {
         [v, a]: [&mut DVector<f64>; 2],
     ) {
         for chart in &mut self.0 {
-            let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
-            let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { continue };
-            let acceleration = chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
+            let Some(anchor) = chart.anchor(system, switches, at.t) else {
+                continue;
+            };
+            let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {
+                continue;
+            };
+            let acceleration =
+                chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
             chart.acceleration = local.solve(acceleration);
             for (k, &number) in chart.numbers.iter().enumerate() {
                 (v[number], a[number]) = (local.rate[k], chart.acceleration[k]);
@@ -142,8 +170,12 @@ impl Charts {
     ) {
         for chart in &self.0 {
             let t = at.t.next_down();
-            let Some(anchor) = chart.anchor(system, switches, t) else { continue };
-            let Some(local) = chart.local(system, &anchor, t, &at.q, &at.v) else { continue };
+            let Some(anchor) = chart.anchor(system, switches, t) else {
+                continue;
+            };
+            let Some(local) = chart.local(system, &anchor, t, &at.q, &at.v) else {
+                continue;
+            };
             let errors = chart.numbers.map(&of);
             let [dq, dv] = [0, 1].map(|i| local.apply(errors.map(|error| error[i])));
             for (k, &number) in chart.numbers.iter().enumerate() {
@@ -165,11 +197,21 @@ impl Charts {
         for chart in &self.0 {
             let mut ends = [State::zeros(3, 0, 0), State::zeros(3, 0, 0)];
             // Prescribed motions may jump at the end of a step, so the left-hand limit is used there.
-            for ((end, state), t) in ends.iter_mut().zip([from, to]).zip([from.t, to.t.next_down()]) {
-                let Some(anchor) = chart.anchor(system, switches, t) else { return };
-                let Some(local) = chart.local(system, &anchor, t, &state.q, &state.v) else { return };
-                let acceleration =
-                    chart.vector(&state.a) - anchor.point.rate(&state.a) - anchor.given[1] - local.curve;
+            for ((end, state), t) in ends
+                .iter_mut()
+                .zip([from, to])
+                .zip([from.t, to.t.next_down()])
+            {
+                let Some(anchor) = chart.anchor(system, switches, t) else {
+                    return;
+                };
+                let Some(local) = chart.local(system, &anchor, t, &state.q, &state.v) else {
+                    return;
+                };
+                let acceleration = chart.vector(&state.a)
+                    - anchor.point.rate(&state.a)
+                    - anchor.given[1]
+                    - local.curve;
                 end.t = state.t;
                 end.q.copy_from_slice(&local.y);
                 end.v.copy_from_slice(&local.rate);

@@ -61,18 +61,32 @@ struct Provider {
 impl RailCompliance {
     pub fn new(mechanics: &Mechanics, probes: &Probes, elements: usize) -> Self {
         let complies = |s: usize| mechanics.foundations[s].compliance.is_some();
-        let compliant = probes.entries.iter().enumerate().filter(|(s, _)| complies(*s));
+        let compliant = probes
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(s, _)| complies(*s));
         let mut bears = vec![None; elements];
         let has_shared_rows = compliant
             .flat_map(|(s, entries)| entries.iter().map(move |entry| (s, entry.element)))
             .any(|(s, element)| bears[element].replace(s).is_some_and(|other| other != s));
-        let own = mechanics.foundations.iter().zip(&probes.entries).zip(&probes.is_direct);
+        let own = mechanics
+            .foundations
+            .iter()
+            .zip(&probes.entries)
+            .zip(&probes.is_direct);
         let providers = own.map(|((foundation, entries), is_direct)| {
-            let prescribed =
-                if *is_direct { PrescribedPath::new(mechanics, foundation, entries) } else { None };
+            let prescribed = if *is_direct {
+                PrescribedPath::new(mechanics, foundation, entries)
+            } else {
+                None
+            };
             let has_other_rule = has_shared_rows || prescribed.is_some();
-            let path =
-                if has_other_rule { None } else { CompliancePath::new(mechanics, foundation, entries) };
+            let path = if has_other_rule {
+                None
+            } else {
+                CompliancePath::new(mechanics, foundation, entries)
+            };
             Provider {
                 influence: Influence::zeros(entries.len()),
                 probes: entries.iter().map(|entry| entry.probe).collect(),
@@ -108,12 +122,19 @@ impl RailCompliance {
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         self.near = NEAR * tolerance;
         let beside = (BESIDE * tolerance).sqrt() * radius;
-        self.path = PathLimits { beside, error: ALONG * tolerance };
+        self.path = PathLimits {
+            beside,
+            error: ALONG * tolerance,
+        };
     }
 
     /// Whether interpolation along paths is useful.
     pub fn wants_paths(&self) -> bool {
-        self.path.beside != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
+        self.path.beside != 0.0
+            && self
+                .providers
+                .iter()
+                .any(|provider| provider.path.is_some())
     }
 
     /// Takes the polynomials along the prescribed ways of the wheels that `other` has found.
@@ -138,11 +159,23 @@ impl RailCompliance {
         elements: &Candidates,
     ) -> Result<(), Error> {
         let m = probes.slots.len();
-        let RailCompliance { matrices, providers, has_shared_rows, near, path: limits } = self;
+        let RailCompliance {
+            matrices,
+            providers,
+            has_shared_rows,
+            near,
+            path: limits,
+        } = self;
         let mut has_stale_sums = false;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
-            let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
-            if provider.prescribed.as_ref().is_some_and(|path| path.follow(entries, x, matrices)) {
+            let Some(compliance) = &mechanics.foundations[s].compliance else {
+                continue;
+            };
+            if provider
+                .prescribed
+                .as_ref()
+                .is_some_and(|path| path.follow(entries, x, matrices))
+            {
                 provider.is_on_path = true;
                 continue;
             }
@@ -153,7 +186,11 @@ impl RailCompliance {
                 continue;
             }
             let (farthest, has_changed) = provider.move_to(mechanics, entries, x);
-            let allowed = if compliance.is_symmetric() { *near } else { 0.0 };
+            let allowed = if compliance.is_symmetric() {
+                *near
+            } else {
+                0.0
+            };
             let is_near = provider.is_evaluated && farthest <= allowed;
             if is_near && !has_changed {
                 continue;
@@ -165,7 +202,10 @@ impl RailCompliance {
                 }
                 compliance
                     .fill(&provider.probes, &mut provider.influence)
-                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                    .map_err(|source| Error::Compliance {
+                        structure: s,
+                        source,
+                    })?;
                 provider.is_evaluated = true;
                 if let Some(path) = &mut provider.prescribed {
                     path.note(mechanics, s, compliance.as_ref(), entries, x);
@@ -182,7 +222,12 @@ impl RailCompliance {
             }
         }
         if has_stale_sums {
-            let evaluated = || providers.iter().zip(&probes.entries).filter(|(own, _)| own.is_evaluated);
+            let evaluated = || {
+                providers
+                    .iter()
+                    .zip(&probes.entries)
+                    .filter(|(own, _)| own.is_evaluated)
+            };
             evaluated().for_each(|(_, entries)| clear(entries, m, matrices));
             evaluated().for_each(|(own, entries)| own.add_extrapolated(entries, m, matrices));
         }
@@ -191,12 +236,19 @@ impl RailCompliance {
 
     /// Sets the paths of all wheels from `from` to `beyond`, or to `to` if a rail element ends before `beyond`. A
     /// path that already contains `from` and `to` is kept.
-    pub fn set_paths(&mut self, mechanics: &Mechanics, probes: &Probes, [from, to, beyond]: [&[f64]; 3]) {
+    pub fn set_paths(
+        &mut self,
+        mechanics: &Mechanics,
+        probes: &Probes,
+        [from, to, beyond]: [&[f64]; 3],
+    ) {
         let limits = self.path;
         let reach = limits.beside;
         for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
             let foundation = &mechanics.foundations[s];
-            let Some(path) = &mut provider.path else { continue };
+            let Some(path) = &mut provider.path else {
+                continue;
+            };
             if path.leads_to(from, reach) && path.leads_to(to, reach) {
                 continue;
             }
@@ -205,13 +257,21 @@ impl RailCompliance {
                 let shares = entries.iter().filter_map(|Entry { wheel, probe, .. }| {
                     let (start, end) = (start[*wheel], end[*wheel]);
                     let place = mechanics.breaks.between(s, probe.rail, start, end).next()?;
-                    Some(if end == start { 0.0 } else { (place - start) / (end - start) })
+                    Some(if end == start {
+                        0.0
+                    } else {
+                        (place - start) / (end - start)
+                    })
                 });
                 shares.fold(1.0, f64::min)
             };
             let is_free = |start: &[f64], end: &[f64]| free(start, end) == 1.0;
             let inner = |end: &[f64]| -> [Vec<f64>; 2] {
-                let of = |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], reach)[k]).collect();
+                let of = |k: usize| {
+                    (0..from.len())
+                        .map(|w| within([from[w], end[w]], reach)[k])
+                        .collect()
+                };
                 [of(0), of(1)]
             };
             // The path ends before the break of a rail, where this is beyond the end of the step.
@@ -221,10 +281,18 @@ impl RailCompliance {
             // An error of the rail is ignored here, because the step itself reports it.
             let leads_on = |[start, end]: &[Vec<f64>; 2]| is_free(start, end);
             let ends = [&nearer[..], to].map(inner).into_iter().find(leads_on);
-            let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
-                let goes_on = is_free(path.second(), &ends[0]);
-                path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), limits, goes_on).is_ok()
-            });
+            let is_set =
+                ends.zip(foundation.compliance.as_ref())
+                    .is_some_and(|(ends, compliance)| {
+                        let goes_on = is_free(path.second(), &ends[0]);
+                        path.set(
+                            compliance.as_ref(),
+                            ends.each_ref().map(Vec::as_slice),
+                            limits,
+                            goes_on,
+                        )
+                        .is_ok()
+                    });
             if !is_set {
                 path.clear();
             }
@@ -256,9 +324,17 @@ impl Provider {
 
     /// Adds the compliance between the probes of each two elements, extrapolated by the slopes: G + dG/dx dx.
     fn add_extrapolated(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
-        let RailMatrices { value: sums, slope: rates, tangential, .. } = matrices;
+        let RailMatrices {
+            value: sums,
+            slope: rates,
+            tangential,
+            ..
+        } = matrices;
         let (count, moved) = (entries.len(), &self.moved);
-        let (values, slopes) = (self.influence.value.as_slice(), self.influence.slope.as_slice());
+        let (values, slopes) = (
+            self.influence.value.as_slice(),
+            self.influence.slope.as_slice(),
+        );
         for (i, row) in entries.iter().enumerate() {
             let span = row.element * m..(row.element + 1) * m;
             let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
@@ -268,7 +344,8 @@ impl Provider {
             for (j, column) in entries.iter().enumerate() {
                 let weight = row.weight * column.weight;
                 let (value, slope) = (values[i + j * count], slopes[i + j * count]);
-                sums[column.element] += weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
+                sums[column.element] +=
+                    weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
                 rates[column.element] += weight * slope;
                 if let Some(own) = row.tangential {
                     tangential[own * m + column.element] += weight * slope;
@@ -280,7 +357,12 @@ impl Provider {
 
 /// Sets the rows of the elements of a structure to zero.
 fn clear(entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
-    let RailMatrices { value, slope, tangential, .. } = matrices;
+    let RailMatrices {
+        value,
+        slope,
+        tangential,
+        ..
+    } = matrices;
     for row in entries {
         value[row.element * m..(row.element + 1) * m].fill(0.0);
         slope[row.element * m..(row.element + 1) * m].fill(0.0);
@@ -307,7 +389,9 @@ fn transpose(from: &[f64], to: &mut [f64], m: usize) {
         for left in (0..size).step_by(TILE) {
             for i in rows.clone() {
                 let row = &mut to[i * m + left..i * m + (left + TILE).min(size)];
-                row.iter_mut().enumerate().for_each(|(j, to)| *to = from[(left + j) * size + i]);
+                row.iter_mut()
+                    .enumerate()
+                    .for_each(|(j, to)| *to = from[(left + j) * size + i]);
             }
         }
     }

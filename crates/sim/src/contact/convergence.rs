@@ -46,7 +46,11 @@ pub(crate) struct Convergence {
 
 impl Default for Convergence {
     fn default() -> Self {
-        Convergence { scales: None, allowed: [0.0; 2], ratio: f64::INFINITY }
+        Convergence {
+            scales: None,
+            allowed: [0.0; 2],
+            ratio: f64::INFINITY,
+        }
     }
 }
 
@@ -109,7 +113,11 @@ impl Convergence {
             (false, false) => MARGIN[0] * self.ratio,
             (false, true) => MARGIN[1] * self.ratio.max(USUAL),
         };
-        let left = if ratio < 1.0 { change * ratio / (1.0 - ratio) } else { f64::INFINITY };
+        let left = if ratio < 1.0 {
+            change * ratio / (1.0 - ratio)
+        } else {
+            f64::INFINITY
+        };
         let ease = if is_correction && !is_own { EASE } else { 1.0 };
         Verdict {
             has_ended: self.scales.is_some() && left < ease * self.allowed[usize::from(!is_own)],

@@ -1,6 +1,8 @@
 //! A drive with speed control: D = clip(gain (v_ref - v), limit) along x. The limit is its own or that of traction.
 
-use super::element::{At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Where};
+use super::element::{
+    At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Where,
+};
 use super::energy::{Exchanged, Stored};
 use super::grip::Grip;
 use super::rows::RowMut;
@@ -24,9 +26,12 @@ impl<'a> DriveForce<'a> {
         let drives = scene.actuators.drives.iter().enumerate();
         drives
             .map(|(index, drive)| {
-                let mut kinds =
-                    drive.contacts.iter().map(|&contact| &scene.wheels[scene.contacts[contact].wheel]);
-                let is_gripped = !drive.contacts.is_empty() && kinds.all(|kind| kind.friction.is_some());
+                let mut kinds = drive
+                    .contacts
+                    .iter()
+                    .map(|&contact| &scene.wheels[scene.contacts[contact].wheel]);
+                let is_gripped =
+                    !drive.contacts.is_empty() && kinds.all(|kind| kind.friction.is_some());
                 DriveForce {
                     drive,
                     index,
@@ -51,7 +56,9 @@ impl Element for DriveForce<'_> {
     }
 
     fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
-        let reference = at.switches.drive_speed(&at.mechanics.scene.actuators, self.index, at.t);
+        let reference = at
+            .switches
+            .drive_speed(&at.mechanics.scene.actuators, self.index, at.t);
         local.is_on = reference.is_some();
         *row.rate_offset = -reference.unwrap_or(0.0);
     }
@@ -89,12 +96,23 @@ impl Element for DriveForce<'_> {
         let wanted = force + (gain * query.rate - force) / stiffness;
         let (limit, slips) = self.limit(self.grip.traction(query.force));
         if wanted.abs() <= limit {
-            couplings.push(Coupling { element: i, by: i, slope: 1.0 - 1.0 / stiffness });
-            return Some(Law { force: wanted, by_rate: gain / stiffness, ..Law::default() });
+            couplings.push(Coupling {
+                element: i,
+                by: i,
+                slope: 1.0 - 1.0 / stiffness,
+            });
+            return Some(Law {
+                force: wanted,
+                by_rate: gain / stiffness,
+                ..Law::default()
+            });
         }
         let by_traction = if slips { wanted.signum() } else { 0.0 };
         self.grip.couple(i, query.force, by_traction, couplings);
-        Some(Law { force: limit.copysign(wanted), ..Law::default() })
+        Some(Law {
+            force: limit.copysign(wanted),
+            ..Law::default()
+        })
     }
 
     fn guard_kind(&self) -> Option<GuardKind> {
@@ -104,26 +122,47 @@ impl Element for DriveForce<'_> {
     /// Two guards: the excess of the demanded force over the limit, and, while the force is limited, the excess of
     /// the traction over the drive's own limit.
     fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
-        let Drive { gain, max_force, body, .. } = *self.drive;
+        let Drive {
+            gain,
+            max_force,
+            body,
+            ..
+        } = *self.drive;
         let (state, mechanics) = (at.state, at.mechanics);
-        let reference = at.switches.drive_speed(&mechanics.scene.actuators, self.index, state.t);
+        let reference = at
+            .switches
+            .drive_speed(&mechanics.scene.actuators, self.index, state.t);
         let speed = if mechanics.has_sliding_rails() {
             at.slip() - at.rows.rate_offset[at.index]
         } else {
-            dot(&self.grip.row, &mechanics.body(body, state.t, &state.q, &state.v).1)
+            dot(
+                &self.grip.row,
+                &mechanics.body(body, state.t, &state.q, &state.v).1,
+            )
         };
         let margins = match reference {
             Some(reference) => {
                 let traction = self.grip.traction(&state.force);
-                let limit = if self.is_gripped { traction.min(max_force) } else { max_force };
+                let limit = if self.is_gripped {
+                    traction.min(max_force)
+                } else {
+                    max_force
+                };
                 let beyond = (gain * (reference - speed)).abs() - limit;
-                let spare = if self.is_gripped && beyond > 0.0 { traction - max_force } else { 0.0 };
+                let spare = if self.is_gripped && beyond > 0.0 {
+                    traction - max_force
+                } else {
+                    0.0
+                };
                 [beyond, spare].map(|margin| if margin.is_finite() { margin } else { 0.0 })
             }
             None => [0.0; 2],
         };
         for value in margins {
-            put(Guard { value, stiffness: 1.0 });
+            put(Guard {
+                value,
+                stiffness: 1.0,
+            });
         }
     }
 
@@ -139,7 +178,13 @@ impl Element for DriveForce<'_> {
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {
         let count = self.grip.wheels.len() as f64;
-        let wheels = self.grip.wheels.iter().map(|&w| (Channel::Traction(w), count));
-        wheels.chain([(Channel::Drive(self.drive.body), -1.0)]).collect()
+        let wheels = self
+            .grip
+            .wheels
+            .iter()
+            .map(|&w| (Channel::Traction(w), count));
+        wheels
+            .chain([(Channel::Drive(self.drive.body), -1.0)])
+            .collect()
     }
 }

@@ -265,7 +265,12 @@ pub(crate) struct Local {
 
 impl Default for Local {
     fn default() -> Self {
-        Local { fraction: [1.0, 0.0], is_on: false, spring: Spring::default(), shape: ShapeCell::default() }
+        Local {
+            fraction: [1.0, 0.0],
+            is_on: false,
+            spring: Spring::default(),
+            shape: ShapeCell::default(),
+        }
     }
 }
 
@@ -440,7 +445,14 @@ impl At<'_> {
             return own;
         }
         let rail = self.probes.slots[self.index].map_or(0.0, |slot| self.state.p_rate[slot]);
-        own - rail + passing(self.mechanics, self.probes, self.rails, self.state, self.index)
+        own - rail
+            + passing(
+                self.mechanics,
+                self.probes,
+                self.rails,
+                self.state,
+                self.index,
+            )
     }
 }
 
@@ -464,6 +476,12 @@ pub(crate) fn tangential_of<'s>(
     at: &'s State,
     i: usize,
 ) -> impl Iterator<Item = (usize, f64)> + 's {
-    let own = probes.tangential.iter().enumerate().filter(move |(_, contact)| contact.element == i);
-    own.map(|(contact, TangentialContact { wheel, .. })| (contact, mechanics.speed_along(*wheel, at)))
+    let own = probes
+        .tangential
+        .iter()
+        .enumerate()
+        .filter(move |(_, contact)| contact.element == i);
+    own.map(|(contact, TangentialContact { wheel, .. })| {
+        (contact, mechanics.speed_along(*wheel, at))
+    })
 }

@@ -102,7 +102,13 @@ mod tests {
     fn every_term_counts_once_as_a_loss_or_as_supplied() {
         assert_eq!(exchanged().supplied(), 64.0 + 128.0 + 256.0 + 512.0);
         assert_eq!(exchanged().net_loss(), 63.0 - 960.0);
-        let stored = Stored { kinetic: 1.0, gravity: 2.0, contact: 4.0, structure: 8.0, ropes: 16.0 };
+        let stored = Stored {
+            kinetic: 1.0,
+            gravity: 2.0,
+            contact: 4.0,
+            structure: 8.0,
+            ropes: 16.0,
+        };
         assert_eq!(stored.total(), 31.0);
     }
 
@@ -110,7 +116,10 @@ mod tests {
     fn every_power_is_added_with_its_weight() {
         let mut sum = exchanged();
         sum.add(&exchanged(), 0.5);
-        assert_eq!((sum.supplied(), sum.net_loss()), (1.5 * 960.0, 1.5 * (63.0 - 960.0)));
+        assert_eq!(
+            (sum.supplied(), sum.net_loss()),
+            (1.5 * 960.0, 1.5 * (63.0 - 960.0))
+        );
         sum.add(&exchanged(), -1.5);
         assert_eq!(sum, Exchanged::default());
     }

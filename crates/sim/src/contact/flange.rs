@@ -3,7 +3,9 @@
 use nalgebra::DVector;
 use splines::Axis;
 
-use super::element::{At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Role, Where};
+use super::element::{
+    At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Role, Where,
+};
 use super::energy::{Exchanged, Stored};
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
@@ -36,7 +38,12 @@ impl<'a> FlangeContact<'a> {
             .filter_map(|(w, wheel)| {
                 let kind = &mechanics.scene.wheels[wheel.kind];
                 let vertical = mechanics.groups_of(w).next().unwrap_or(0);
-                Some(FlangeContact { flange: kind.flange.as_ref()?, wheel: w, radius: kind.radius, vertical })
+                Some(FlangeContact {
+                    flange: kind.flange.as_ref()?,
+                    wheel: w,
+                    radius: kind.radius,
+                    vertical,
+                })
             })
             .collect()
     }
@@ -46,7 +53,12 @@ impl Element for FlangeContact<'_> {
     /// The row for a wheel of zero height.
     fn constant_row(&self, mechanics: &Mechanics, row: &mut RowMut) {
         let wheel = &mechanics.wheels[self.wheel];
-        row.add_approach(&mechanics.kinematics, wheel.body, arm_rows(wheel.hub)[2], 1.0);
+        row.add_approach(
+            &mechanics.kinematics,
+            wheel.body,
+            arm_rows(wheel.hub)[2],
+            1.0,
+        );
     }
 
     /// The rail is below the hub by the height of the wheel; the lateral irregularity of the rail reduces the
@@ -62,7 +74,9 @@ impl Element for FlangeContact<'_> {
         if at.is_uneven
             && let Some(shape) = at.mechanics.irregularity(w)
         {
-            let [place, slope] = local.shape.at(shape, LATERAL, at.places.piece[w], at.places.x[w]);
+            let [place, slope] = local
+                .shape
+                .at(shape, LATERAL, at.places.piece[w], at.places.x[w]);
             *row.approach_offset -= place;
             *row.rise = -slope;
         }
@@ -73,7 +87,12 @@ impl Element for FlangeContact<'_> {
     }
 
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
-        vec![ElementProbe { wheel: self.wheel, weight: 1.0, axis: Axis::Lateral, part: None }]
+        vec![ElementProbe {
+            wheel: self.wheel,
+            weight: 1.0,
+            axis: Axis::Lateral,
+            part: None,
+        }]
     }
 
     fn body(&self, mechanics: &Mechanics) -> Option<usize> {
@@ -122,7 +141,11 @@ impl Element for FlangeContact<'_> {
 
     fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {
         let flange = self.flange;
-        let mut overlap = if query.is_active { flange.overlap(query.penetration()) } else { 0.0 };
+        let mut overlap = if query.is_active {
+            flange.overlap(query.penetration())
+        } else {
+            0.0
+        };
         // An extrapolated force may have the sign of the other side.
         if overlap == 0.0 && query.continues && query.force[query.index] != 0.0 {
             overlap = query.penetration() - flange.clearance.copysign(query.penetration());
@@ -146,7 +169,10 @@ impl Element for FlangeContact<'_> {
     /// The overlap with the rail, negative if the flange is free.
     fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
         let e = at.approach() - at.deflection();
-        put(Guard { value: e.abs() - self.flange.clearance, stiffness: self.flange.stiffness });
+        put(Guard {
+            value: e.abs() - self.flange.clearance,
+            stiffness: self.flange.stiffness,
+        });
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
@@ -182,7 +208,11 @@ impl Element for FlangeContact<'_> {
 
     fn resistance(&self, at: &At, b: usize) -> f64 {
         let body = at.mechanics.wheels[self.wheel].body;
-        if at.mechanics.kinematics.root(body) == b { -(at.rail_slope() * at.force()) } else { 0.0 }
+        if at.mechanics.kinematics.root(body) == b {
+            -(at.rail_slope() * at.force())
+        } else {
+            0.0
+        }
     }
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {

@@ -69,25 +69,42 @@ impl<'a> FreeMotion<'a> {
     ///
     /// # Errors
     /// A mass that is not positive definite.
-    pub fn move_in_stage(&mut self, system: &System, g: f64, known: &Known, at: &State) -> Result<(), Error> {
+    pub fn move_in_stage(
+        &mut self,
+        system: &System,
+        g: f64,
+        known: &Known,
+        at: &State,
+    ) -> Result<(), Error> {
         self.fill_given(system, at);
         self.set_mass(system, true)?;
-        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
+        self.load
+            .as_mut_slice()
+            .copy_from_slice(self.given.as_slice());
         if system.mechanics.has_structures() {
             self.q.copy_from(&known.q);
             self.q.axpy(g, &known.v, 1.0);
             for block in &system.mechanics.blocks {
-                block.resist(known.v.as_slice(), self.q.as_slice(), self.load.as_mut_slice());
+                block.resist(
+                    known.v.as_slice(),
+                    self.q.as_slice(),
+                    self.load.as_mut_slice(),
+                );
             }
         }
-        self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
+        self.stage
+            .apply(self.load.as_slice(), self.a.as_mut_slice());
         self.follow(g, known);
         Ok(())
     }
 
     /// Sets V = v* + g A and Q = q* + g V from the present accelerations A.
     fn follow(&mut self, g: f64, known: &Known) {
-        let (a, v, q) = (self.a.as_slice(), self.v.as_mut_slice(), self.q.as_mut_slice());
+        let (a, v, q) = (
+            self.a.as_slice(),
+            self.v.as_mut_slice(),
+            self.q.as_mut_slice(),
+        );
         for (v, (known, a)) in v.iter_mut().zip(known.v.as_slice().iter().zip(a)) {
             *v = known + g * a;
         }
@@ -108,9 +125,15 @@ impl<'a> FreeMotion<'a> {
         acting: &[usize],
         force_row: impl Fn(usize) -> &'r [f64],
     ) {
-        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
+        self.load
+            .as_mut_slice()
+            .copy_from_slice(self.given.as_slice());
         if let Some(constant) = system.mechanics.blocks[0].body_mass() {
-            let mass = if system.mechanics.carried.is_empty() { constant } else { &self.mass };
+            let mass = if system.mechanics.carried.is_empty() {
+                constant
+            } else {
+                &self.mass
+            };
             let columns = at.a.iter().map(|a| -a).zip(columns_of(mass));
             add_lines(columns, &mut self.load.as_mut_slice()[..mass.nrows()]);
         }
@@ -119,14 +142,22 @@ impl<'a> FreeMotion<'a> {
             self.follow(g, known);
             for block in &system.mechanics.blocks {
                 block.resist_acceleration(self.a.as_slice(), self.load.as_mut_slice());
-                block.resist(self.v.as_slice(), self.q.as_slice(), self.load.as_mut_slice());
+                block.resist(
+                    self.v.as_slice(),
+                    self.q.as_slice(),
+                    self.load.as_mut_slice(),
+                );
             }
             for coupling in &system.mechanics.couplings {
                 coupling.resist_acceleration(self.a.as_slice(), self.load.as_mut_slice());
             }
         }
-        add_lines(acting.iter().map(|&j| (-at.force[j], force_row(j))), self.load.as_mut_slice());
-        self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
+        add_lines(
+            acting.iter().map(|&j| (-at.force[j], force_row(j))),
+            self.load.as_mut_slice(),
+        );
+        self.stage
+            .apply(self.load.as_slice(), self.a.as_mut_slice());
         for (a, own) in self.a.as_mut_slice().iter_mut().zip(at.a.as_slice()) {
             *a += own;
         }
@@ -137,36 +168,52 @@ impl<'a> FreeMotion<'a> {
     ///
     /// # Errors
     /// A mass that is not positive definite.
-    pub fn accelerate(&mut self, system: &System, at: &mut State, rows: &[f64]) -> Result<(), Error> {
+    pub fn accelerate(
+        &mut self,
+        system: &System,
+        at: &mut State,
+        rows: &[f64],
+    ) -> Result<(), Error> {
         self.fill_given(system, at);
         self.set_mass(system, false)?;
-        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
+        self.load
+            .as_mut_slice()
+            .copy_from_slice(self.given.as_slice());
         for block in &system.mechanics.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
         let rows = rows.chunks_exact(self.load.len().max(1));
-        add_lines(at.force.iter().map(|force| -force).zip(rows), self.load.as_mut_slice());
-        self.inverse.apply(self.load.as_slice(), at.a.as_mut_slice());
+        add_lines(
+            at.force.iter().map(|force| -force).zip(rows),
+            self.load.as_mut_slice(),
+        );
+        self.inverse
+            .apply(self.load.as_slice(), at.a.as_mut_slice());
         Ok(())
     }
 
     /// M^-1 times the forces at `t` that are independent of the elements.
     pub fn accelerations(&mut self, system: &System, t: f64) -> &DVector<f64> {
         self.fill_loads(system, t);
-        self.inverse.apply(self.given.as_slice(), self.a.as_mut_slice());
+        self.inverse
+            .apply(self.given.as_slice(), self.a.as_mut_slice());
         &self.a
     }
 
     /// Weights, loads, and the inertia forces of a prescribed x on the other degrees of freedom.
     fn fill_loads(&mut self, system: &System, t: f64) {
-        self.given.as_mut_slice().copy_from_slice(system.mechanics.gravity.as_slice());
+        self.given
+            .as_mut_slice()
+            .copy_from_slice(system.mechanics.gravity.as_slice());
         for load in &system.scene.actuators.loads {
             if let Some(number) = system.mechanics.loaded(load) {
                 self.given[number] += load.value.at(t);
             }
         }
         for (b, body) in system.scene.bodies.iter().enumerate() {
-            let Some(profile) = &body.motion else { continue };
+            let Some(profile) = &body.motion else {
+                continue;
+            };
             let acceleration = profile.at(t).a;
             if acceleration == 0.0 {
                 continue;
@@ -182,10 +229,19 @@ impl<'a> FreeMotion<'a> {
     pub fn fill_given(&mut self, system: &System, at: &State) {
         self.fill_loads(system, at.t);
         let mechanics = &system.mechanics;
-        let Some(constant) = changed_mass(mechanics) else { return };
-        self.mass.as_mut_slice().copy_from_slice(constant.as_slice());
+        let Some(constant) = changed_mass(mechanics) else {
+            return;
+        };
+        self.mass
+            .as_mut_slice()
+            .copy_from_slice(constant.as_slice());
         let sums = (&mut self.mass, &mut self.given);
-        mechanics.carried.add(&mechanics.kinematics, (at.t, &at.q, &at.v), sums, &mut self.columns);
+        mechanics.carried.add(
+            &mechanics.kinematics,
+            (at.t, &at.q, &at.v),
+            sums,
+            &mut self.columns,
+        );
     }
 
     /// Updates the mobility of a stage, or M^-1, to the mass matrix, where carried bodies change it.
@@ -193,12 +249,18 @@ impl<'a> FreeMotion<'a> {
         if changed_mass(&system.mechanics).is_none() {
             return Ok(());
         }
-        let mobility = if in_stage { &mut self.stage } else { &mut self.inverse };
+        let mobility = if in_stage {
+            &mut self.stage
+        } else {
+            &mut self.inverse
+        };
         mobility.set_mass(&self.mass)
     }
 }
 
 /// The constant part of the mass matrix of the bodies, where carried bodies change the matrix.
 fn changed_mass<'a>(mechanics: &'a Mechanics<'_>) -> Option<&'a DMatrix<f64>> {
-    mechanics.blocks[0].body_mass().filter(|_| !mechanics.carried.is_empty())
+    mechanics.blocks[0]
+        .body_mass()
+        .filter(|_| !mechanics.carried.is_empty())
 }

@@ -104,7 +104,11 @@ impl Geometry {
             switches: Switches::new(&system.scene.actuators),
             rail_slope: vec![0.0; m],
             along_rail: rows_along_rails(system),
-            shapes: ShapeSlopes { all: vec![0.0; m * n], value: vec![0.0; n], slope: vec![0.0; n] },
+            shapes: ShapeSlopes {
+                all: vec![0.0; m * n],
+                value: vec![0.0; n],
+                slope: vec![0.0; n],
+            },
             is_built: false,
             near: 0.0,
             height: vec![0.0; system.mechanics.wheels.len()],
@@ -222,7 +226,13 @@ impl Geometry {
     ///
     /// # Errors
     /// Errors of the rail models.
-    pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+    pub fn update(
+        &mut self,
+        system: &System,
+        t: f64,
+        q: &DVector<f64>,
+        force: &[f64],
+    ) -> Result<(), Error> {
         self.update_some(system, (t, q), force, &system.all)
     }
 
@@ -243,10 +253,13 @@ impl Geometry {
         self.places.move_to(mechanics, t, q);
         if system.traits.has_parts {
             for (element, local) in system.elements.iter().zip(&mut self.local) {
-                local.fraction = element.fraction(mechanics, &self.places).unwrap_or(local.fraction);
+                local.fraction = element
+                    .fraction(mechanics, &self.places)
+                    .unwrap_or(local.fraction);
             }
         }
-        self.rails.update(mechanics, &system.probes, &self.places.x, elements)?;
+        self.rails
+            .update(mechanics, &system.probes, &self.places.x, elements)?;
         let rows_stay = self.is_built && system.traits.has_constant_rows;
         self.is_built = true;
         if rows_stay {
@@ -273,7 +286,11 @@ impl Geometry {
         }
         // Shapes of structures are added to the rows of all elements together.
         let has_structures = system.mechanics.has_structures();
-        let elements = if has_structures { &system.all } else { &system.by_height };
+        let elements = if has_structures {
+            &system.all
+        } else {
+            &system.by_height
+        };
         self.update_rows(system, (t, q), elements)?;
         self.update_force_rows(system, q, force, &system.all);
         Ok(())
@@ -288,14 +305,29 @@ impl Geometry {
         let mechanics = &system.mechanics;
         let is_uneven = system.traits.is_uneven;
         self.height.copy_from_slice(&self.places.height);
-        let Geometry { places, rows, local, switches, .. } = self;
-        let at = Where { mechanics, t, q, places, switches, is_uneven };
+        let Geometry {
+            places,
+            rows,
+            local,
+            switches,
+            ..
+        } = self;
+        let at = Where {
+            mechanics,
+            t,
+            q,
+            places,
+            switches,
+            is_uneven,
+        };
         let has_structures = mechanics.has_structures();
         for &i in elements.list() {
             rows.reset(
                 i,
                 &self.constant,
-                system.fixed[i].row_changes.map(|changes| changes || has_structures),
+                system.fixed[i]
+                    .row_changes
+                    .map(|changes| changes || has_structures),
             );
             system.elements[i].update_row(&at, &mut rows.row_mut(i), &mut local[i]);
         }
@@ -311,19 +343,31 @@ impl Geometry {
         let ShapeSlopes { all, value, slope } = &mut self.shapes;
         all.fill(0.0);
         for (s, entries) in system.probes.entries.iter().enumerate() {
-            let Some(structure) = &system.foundations[s].structure else { continue };
+            let Some(structure) = &system.foundations[s].structure else {
+                continue;
+            };
             let range = system.mechanics.structures[s].clone();
             let size = range.len();
             for entry in entries.iter().filter(|entry| elements.has(entry.element)) {
-                let at = Probe { x: self.places.x[entry.wheel], ..entry.probe };
+                let at = Probe {
+                    x: self.places.x[entry.wheel],
+                    ..entry.probe
+                };
                 let (value, slope) = (&mut value[..size], &mut slope[..size]);
                 structure
                     .shapes
                     .row(at, value, slope)
-                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                    .map_err(|source| Error::Compliance {
+                        structure: s,
+                        source,
+                    })?;
                 let span = entry.element * n + range.start..entry.element * n + range.end;
                 let is_along = system.fixed[entry.element].is_tangential;
-                let rows = if is_along { &mut self.rows.rate } else { &mut self.rows.approach };
+                let rows = if is_along {
+                    &mut self.rows.rate
+                } else {
+                    &mut self.rows.approach
+                };
                 for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
                 }
@@ -356,21 +400,32 @@ impl Geometry {
 
     /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
     /// slope of the rail times the rows of the wheel's x.
-    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
+    fn update_force_rows(
+        &mut self,
+        system: &System,
+        q: &DVector<f64>,
+        force: &[f64],
+        elements: &Candidates,
+    ) {
         let moves_freely = system.mechanics.moves_freely;
         if moves_freely {
             self.update_rail_slope(system, q, force);
         }
         for &i in elements.list() {
             let span = self.rows.span(i);
-            let own = if system.fixed[i].is_tangential { &self.rows.rate } else { &self.rows.approach };
+            let own = if system.fixed[i].is_tangential {
+                &self.rows.rate
+            } else {
+                &self.rows.approach
+            };
             let (row, own) = (&mut self.rows.force[span.clone()], &own[span.clone()]);
             if !moves_freely {
                 row.copy_from_slice(own);
                 continue;
             }
             let slope = self.rail_slope[i];
-            for (entry, (own, along)) in row.iter_mut().zip(own.iter().zip(&self.along_rail[span])) {
+            for (entry, (own, along)) in row.iter_mut().zip(own.iter().zip(&self.along_rail[span]))
+            {
                 *entry = own - slope * along;
             }
         }
@@ -389,7 +444,11 @@ impl Geometry {
                 self.places.height[w] = self.places.height[w - 1];
                 continue;
             }
-            let deepest = system.mechanics.groups_of(w).map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
+            let deepest = system
+                .mechanics
+                .groups_of(w)
+                .map(|i| at.p[i])
+                .fold(f64::NEG_INFINITY, f64::max);
             let height = system.scene.wheels[system.mechanics.wheels[w].kind].radius - deepest;
             moved = moved.max((height - self.places.height[w]).abs() / height.abs());
             self.places.height[w] = height;
@@ -434,7 +493,18 @@ impl Geometry {
         }
         let mechanics = &system.mechanics;
         let Geometry {
-            drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, near, ..
+            drift:
+                Drift {
+                    wheels,
+                    change,
+                    by_others,
+                },
+            places,
+            rails,
+            rows,
+            shapes,
+            near,
+            ..
         } = self;
         let moved = |w: usize| places.of_wheel(mechanics, w, q) - places.x[w];
         let mut leads = (0..wheels.len()).filter(|&w| !mechanics.follows_in_contact(w));
@@ -442,7 +512,11 @@ impl Geometry {
             return;
         }
         for w in 0..wheels.len() {
-            wheels[w] = if mechanics.follows_in_contact(w) { wheels[w - 1] } else { moved(w) };
+            wheels[w] = if mechanics.follows_in_contact(w) {
+                wheels[w - 1]
+            } else {
+                moved(w)
+            };
         }
         let rails = rails.matrices();
         let moved = |i: usize| system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);
@@ -482,12 +556,17 @@ impl Geometry {
             return Nearness::Far;
         }
         let by_height = system.by_height.list().iter();
-        let raised = by_height.filter_map(|&i| Some((i, system.first_wheel[i]?))).map(|(i, wheel)| {
-            let raised = (self.places.height[wheel] - self.height[wheel]).abs();
-            let arm =
-                if system.fixed[i].is_tangential { 1.0 } else { system.mechanics.roll(wheel, now).abs() };
-            raised * arm
-        });
+        let raised = by_height
+            .filter_map(|&i| Some((i, system.first_wheel[i]?)))
+            .map(|(i, wheel)| {
+                let raised = (self.places.height[wheel] - self.height[wheel]).abs();
+                let arm = if system.fixed[i].is_tangential {
+                    1.0
+                } else {
+                    system.mechanics.roll(wheel, now).abs()
+                };
+                raised * arm
+            });
         let farthest = raised.fold(farthest, f64::max);
         if farthest <= self.near {
             Nearness::Near
@@ -500,7 +579,13 @@ impl Geometry {
 
     /// Updates the rows of the forces of `elements` to the displacements `q` and the forces `force`, at the positions
     /// of the last update.
-    pub fn turn_forces(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
+    pub fn turn_forces(
+        &mut self,
+        system: &System,
+        q: &DVector<f64>,
+        force: &[f64],
+        elements: &Candidates,
+    ) {
         if !system.traits.has_constant_rows {
             self.update_force_rows(system, q, force, elements);
         }
@@ -510,7 +595,11 @@ impl Geometry {
     /// `tolerance`; `radius` is the radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         // Without wheels the radius is infinite.
-        self.near = if radius.is_finite() { NEAR * tolerance * radius } else { 0.0 };
+        self.near = if radius.is_finite() {
+            NEAR * tolerance * radius
+        } else {
+            0.0
+        };
         self.rails.set_accuracy(tolerance, radius);
     }
 
@@ -525,9 +614,15 @@ impl Geometry {
         let mechanics = &system.mechanics;
         let places = ends.map(|(t, q)| {
             self.places.travel_to(mechanics, t);
-            (0..mechanics.wheels.len()).map(|w| self.places.of_wheel(mechanics, w, q)).collect::<Vec<_>>()
+            (0..mechanics.wheels.len())
+                .map(|w| self.places.of_wheel(mechanics, w, q))
+                .collect::<Vec<_>>()
         });
-        self.rails.set_paths(mechanics, &system.probes, places.each_ref().map(Vec::as_slice));
+        self.rails.set_paths(
+            mechanics,
+            &system.probes,
+            places.each_ref().map(Vec::as_slice),
+        );
     }
 
     /// Takes what `other` knows of the compliance along the prescribed ways of the wheels ([`RailCompliance::take_paths`]).
@@ -542,7 +637,13 @@ impl Geometry {
 
     /// Sets the rail coordinates of wheels that cross at constant `speed` from their coordinates `start`, at time
     /// `t`. No other data are updated, except the travel of a body whose index and start are `root`.
-    pub fn move_uniformly(&mut self, start: &[f64], speed: f64, t: f64, root: Option<(usize, f64)>) {
+    pub fn move_uniformly(
+        &mut self,
+        start: &[f64],
+        speed: f64,
+        t: f64,
+        root: Option<(usize, f64)>,
+    ) {
         let way = speed * t;
         for (x, place) in self.places.x.iter_mut().zip(start) {
             *x = place + way;
@@ -575,8 +676,13 @@ fn rows_along_rails(system: &System) -> Vec<f64> {
     }
     let mut rows = vec![0.0; system.elements.len() * n];
     for (element, row) in system.elements.iter().zip(rows.chunks_exact_mut(n.max(1))) {
-        let Some(wheel) = element.tilted_wheel().map(|w| &mechanics.wheels[w]) else { continue };
-        for (number, share) in mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]) {
+        let Some(wheel) = element.tilted_wheel().map(|w| &mechanics.wheels[w]) else {
+            continue;
+        };
+        for (number, share) in mechanics
+            .kinematics
+            .combine(wheel.body, &arm_rows(wheel.hub)[0])
+        {
             row[number] = share;
         }
     }

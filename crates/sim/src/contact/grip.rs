@@ -20,20 +20,42 @@ impl Grip {
     /// The grip of `contacts`. If `is_limited` is true, the traction (the sum of mu N) limits the force.
     pub fn new(mechanics: &Mechanics, contacts: &[usize], is_limited: bool) -> Grip {
         let all = mechanics.wheels.iter().enumerate();
-        let wheels = all.filter(|(_, wheel)| contacts.contains(&wheel.contact)).map(|(w, _)| w).collect();
-        let pressed = if is_limited { pressed(mechanics, contacts) } else { Vec::new() };
-        Grip { row: tread_row(mechanics, contacts), wheels, pressed }
+        let wheels = all
+            .filter(|(_, wheel)| contacts.contains(&wheel.contact))
+            .map(|(w, _)| w)
+            .collect();
+        let pressed = if is_limited {
+            pressed(mechanics, contacts)
+        } else {
+            Vec::new()
+        };
+        Grip {
+            row: tread_row(mechanics, contacts),
+            wheels,
+            pressed,
+        }
     }
 
     /// Traction: the sum of mu N over contacts with N > 0.
     pub fn traction(&self, force: &[f64]) -> f64 {
-        self.pressed.iter().map(|&(vertical, mu)| mu * force[vertical].max(0.0)).sum()
+        self.pressed
+            .iter()
+            .map(|&(vertical, mu)| mu * force[vertical].max(0.0))
+            .sum()
     }
 
     /// Adds the couplings of a law whose derivative with respect to the traction is `slope`.
     pub fn couple(&self, element: usize, force: &[f64], slope: f64, couplings: &mut Vec<Coupling>) {
-        for &(vertical, mu) in self.pressed.iter().filter(|(vertical, _)| force[*vertical] > 0.0) {
-            couplings.push(Coupling { element, by: vertical, slope: slope * mu });
+        for &(vertical, mu) in self
+            .pressed
+            .iter()
+            .filter(|(vertical, _)| force[*vertical] > 0.0)
+        {
+            couplings.push(Coupling {
+                element,
+                by: vertical,
+                slope: slope * mu,
+            });
         }
     }
 
@@ -41,13 +63,24 @@ impl Grip {
     pub fn probes(&self) -> Vec<ElementProbe> {
         let weight = 1.0 / self.wheels.len() as f64;
         let wheels = self.wheels.iter();
-        wheels.map(|&wheel| ElementProbe { wheel, weight, axis: Axis::Longitudinal, part: None }).collect()
+        wheels
+            .map(|&wheel| ElementProbe {
+                wheel,
+                weight,
+                axis: Axis::Longitudinal,
+                part: None,
+            })
+            .collect()
     }
 }
 
 /// Mean of the tread rows of the wheels of `contacts`; the row of the body's origin if there are none.
 fn tread_row(mechanics: &Mechanics, contacts: &[usize]) -> [f64; 6] {
-    let wheels: Vec<_> = mechanics.wheels.iter().filter(|wheel| contacts.contains(&wheel.contact)).collect();
+    let wheels: Vec<_> = mechanics
+        .wheels
+        .iter()
+        .filter(|wheel| contacts.contains(&wheel.contact))
+        .collect();
     if wheels.is_empty() {
         return arm_rows([0.0; 3])[0];
     }
@@ -55,14 +88,28 @@ fn tread_row(mechanics: &Mechanics, contacts: &[usize]) -> [f64; 6] {
     for wheel in &wheels {
         let [x, y, z] = wheel.hub;
         let row = arm_rows([x, y - mechanics.scene.wheels[wheel.kind].radius, z])[0];
-        mean.iter_mut().zip(row).for_each(|(mean, entry)| *mean += entry / wheels.len() as f64);
+        mean.iter_mut()
+            .zip(row)
+            .for_each(|(mean, entry)| *mean += entry / wheels.len() as f64);
     }
     mean
 }
 
 fn pressed(mechanics: &Mechanics, contacts: &[usize]) -> Vec<(usize, f64)> {
-    let groups = mechanics.groups.iter().enumerate().filter(|(_, group)| contacts.contains(&group.contact));
+    let groups = mechanics
+        .groups
+        .iter()
+        .enumerate()
+        .filter(|(_, group)| contacts.contains(&group.contact));
     groups
-        .filter_map(|(i, group)| Some((i, mechanics.scene.wheels[group.kind].friction.as_ref()?.coefficient)))
+        .filter_map(|(i, group)| {
+            Some((
+                i,
+                mechanics.scene.wheels[group.kind]
+                    .friction
+                    .as_ref()?
+                    .coefficient,
+            ))
+        })
         .collect()
 }

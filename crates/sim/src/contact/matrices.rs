@@ -31,10 +31,16 @@ impl RailMatrices {
     pub fn zeros(elements: usize, probes: &Probes, complies: impl Fn(usize) -> bool) -> Self {
         let tangential = probes.tangential.len();
         let mut spans = vec![0..0; elements];
-        let compliant = probes.entries.iter().enumerate().filter(|(s, _)| complies(*s));
+        let compliant = probes
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(s, _)| complies(*s));
         for (_, entries) in compliant {
             let all = || entries.iter().map(|entry| entry.element);
-            let (Some(first), Some(last)) = (all().min(), all().max()) else { continue };
+            let (Some(first), Some(last)) = (all().min(), all().max()) else {
+                continue;
+            };
             for i in all() {
                 let known = spans[i].clone();
                 spans[i] = if known.is_empty() {
@@ -49,7 +55,11 @@ impl RailMatrices {
             slope: vec![0.0; elements * elements],
             tangential: vec![0.0; elements * tangential],
             elements,
-            tangential_spans: probes.tangential.iter().map(|own| spans[own.element].clone()).collect(),
+            tangential_spans: probes
+                .tangential
+                .iter()
+                .map(|own| spans[own.element].clone())
+                .collect(),
             spans,
         }
     }
@@ -84,7 +94,12 @@ impl RailMatrices {
     /// Slope of the displacement of the rail at tangential contact `contact` under the forces `force`.
     #[inline]
     pub fn tangential_slope(&self, contact: usize, force: &[f64]) -> f64 {
-        self.product(&self.tangential, contact, self.tangential_spans[contact].clone(), force)
+        self.product(
+            &self.tangential,
+            contact,
+            self.tangential_spans[contact].clone(),
+            force,
+        )
     }
 
     /// Adds `share` times row `i` of the slopes to `sum`.
@@ -92,7 +107,10 @@ impl RailMatrices {
     pub fn add_slopes(&self, i: usize, share: f64, sum: &mut [f64]) {
         let span = self.span(i);
         let row = &self.slope[i * self.elements..][span.clone()];
-        sum[span].iter_mut().zip(row).for_each(|(sum, slope)| *sum += share * slope);
+        sum[span]
+            .iter_mut()
+            .zip(row)
+            .for_each(|(sum, slope)| *sum += share * slope);
     }
 
     #[inline]

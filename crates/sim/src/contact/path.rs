@@ -107,7 +107,11 @@ pub(crate) struct CompliancePath {
 impl CompliancePath {
     /// Creates the path of the probes `entries`, which is not set yet. Returns `None` if direct evaluation of the
     /// compliance is as fast, if the compliance is not symmetric, or if the structure consists of rigid parts.
-    pub fn new(mechanics: &Mechanics, foundation: &Foundation, entries: &[Entry]) -> Option<CompliancePath> {
+    pub fn new(
+        mechanics: &Mechanics,
+        foundation: &Foundation,
+        entries: &[Entry],
+    ) -> Option<CompliancePath> {
         let compliance = foundation.compliance.as_ref()?;
         if entries.len() < MANY || !compliance.is_symmetric() || foundation.parts.is_some() {
             return None;
@@ -120,9 +124,18 @@ impl CompliancePath {
         for (place, element) in elements.iter().enumerate() {
             let known = groups.len();
             for entry in entries.iter().filter(|entry| entry.element == *element) {
-                if !groups[known..].iter().any(|group| contact(group.wheel) == contact(entry.wheel)) {
-                    let Entry { wheel, tangential, .. } = *entry;
-                    groups.push(Group { element: place, wheel, tangential });
+                if !groups[known..]
+                    .iter()
+                    .any(|group| contact(group.wheel) == contact(entry.wheel))
+                {
+                    let Entry {
+                        wheel, tangential, ..
+                    } = *entry;
+                    groups.push(Group {
+                        element: place,
+                        wheel,
+                        tangential,
+                    });
                 }
             }
         }
@@ -133,25 +146,51 @@ impl CompliancePath {
             })
             .collect();
         let (mut members, mut probes, mut wheels) = (Vec::new(), Vec::<Probe>::new(), Vec::new());
-        for Entry { element, weight, wheel, probe, .. } in entries {
+        for Entry {
+            element,
+            weight,
+            wheel,
+            probe,
+            ..
+        } in entries
+        {
             let same = |known: &Group| {
                 elements[known.element] == *element && contact(known.wheel) == contact(*wheel)
             };
-            let group = groups.iter().position(same).expect("every entry has a group");
-            let own =
-                |(at, of): (&Probe, &usize)| at.rail == probe.rail && at.axis == probe.axis && of == wheel;
-            let place = probes.iter().zip(&wheels).position(own).unwrap_or(probes.len());
+            let group = groups
+                .iter()
+                .position(same)
+                .expect("every entry has a group");
+            let own = |(at, of): (&Probe, &usize)| {
+                at.rail == probe.rail && at.axis == probe.axis && of == wheel
+            };
+            let place = probes
+                .iter()
+                .zip(&wheels)
+                .position(own)
+                .unwrap_or(probes.len());
             if place == probes.len() {
                 probes.push(*probe);
                 wheels.push(*wheel);
             }
-            members.push(GroupMember { group, probe: place, weight: *weight });
+            members.push(GroupMember {
+                group,
+                probe: place,
+                weight: *weight,
+            });
         }
         let columns = elements[0]..elements[elements.len() - 1] + 1;
         let (count, width) = (groups.len(), columns.len().div_ceil(4));
-        let node = || PathNode { x: vec![0.0; count], influence: Influence::zeros(count) };
+        let node = || PathNode {
+            x: vec![0.0; count],
+            influence: Influence::zeros(count),
+        };
         Some(CompliancePath {
-            loads: ProbeGroups { count, probes, members },
+            loads: ProbeGroups {
+                count,
+                probes,
+                members,
+            },
             kept: KeptProducts::default(),
             wheels,
             nodes: [node(), node()],
@@ -189,8 +228,11 @@ impl CompliancePath {
         goes_on: bool,
     ) -> Result<(), splines::Error> {
         let was_set = std::mem::replace(&mut self.is_set, false);
-        let mut second =
-            self.limited(&self.last, &between(&self.last, to, 1.0 / (1.0 + BEYOND)), self.longest);
+        let mut second = self.limited(
+            &self.last,
+            &between(&self.last, to, 1.0 / (1.0 + BEYOND)),
+            self.longest,
+        );
         let before = norm(&self.length);
         let expected = (goes_on && was_set).then(|| self.continued(&second));
         self.nodes.swap(0, 1);
@@ -225,10 +267,21 @@ impl CompliancePath {
 
     /// The place on the way from `first` to `second` at which a path between these nodes has the length `longest` at most.
     fn limited(&self, first: &[f64], second: &[f64], longest: f64) -> Vec<f64> {
-        let way: Vec<f64> =
-            self.groups.iter().map(|group| second[group.wheel] - first[group.wheel]).collect();
+        let way: Vec<f64> = self
+            .groups
+            .iter()
+            .map(|group| second[group.wheel] - first[group.wheel])
+            .collect();
         let length = norm(&way);
-        between(first, second, if length > longest { longest / length } else { 1.0 })
+        between(
+            first,
+            second,
+            if length > longest {
+                longest / length
+            } else {
+                1.0
+            },
+        )
     }
 
     /// s at `places`, which may be far beyond the nodes, and the compliance of every element under its own force there by the
@@ -254,8 +307,15 @@ impl CompliancePath {
         let (count, values) = (self.groups.len(), self.nodes[1].influence.value.as_slice());
         let of_quartic = (norm(&self.length) / before).powi(4) / (16.0 * (s * (s - 1.0)).powi(2));
         let mut largest_error = 0.0_f64;
-        for ((groups, largest), expected) in self.groups_of.iter().zip(&mut self.largest).zip(expected) {
-            let row = |i: usize| groups.clone().map(move |j| values[i + j * count]).sum::<f64>();
+        for ((groups, largest), expected) in
+            self.groups_of.iter().zip(&mut self.largest).zip(expected)
+        {
+            let row = |i: usize| {
+                groups
+                    .clone()
+                    .map(move |j| values[i + j * count])
+                    .sum::<f64>()
+            };
             let own = groups.clone().map(row).sum::<f64>();
             *largest = largest.max(own);
             if *largest > 0.0 {
@@ -282,7 +342,12 @@ impl CompliancePath {
 
     /// Sets the distances of the groups from the first node to the positions `second` of all wheels.
     fn set_length(&mut self, second: &[f64]) {
-        for ((length, group), x) in self.length.iter_mut().zip(&self.groups).zip(&self.nodes[0].x) {
+        for ((length, group), x) in self
+            .length
+            .iter_mut()
+            .zip(&self.groups)
+            .zip(&self.nodes[0].x)
+        {
             *length = second[group.wheel] - x;
         }
     }
@@ -328,11 +393,17 @@ impl CompliancePath {
                 let (there, back) = (i + count * j, j + count * i);
                 let (x, y) = (length[i], length[j]);
                 let along = |slopes: &[f64]| slopes[there] * x + slopes[back] * y;
-                let value =
-                    cubic([from_values[there], to_values[there]], [along(from_slopes), along(to_slopes)]);
+                let value = cubic(
+                    [from_values[there], to_values[there]],
+                    [along(from_slopes), along(to_slopes)],
+                );
                 // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
                 let squares = x * x + y * y;
-                let bend = if squares > 0.0 { -3.0 * value[3] / squares } else { 0.0 };
+                let bend = if squares > 0.0 {
+                    -3.0 * value[3] / squares
+                } else {
+                    0.0
+                };
                 let slope = |pair: usize, length: f64| {
                     let (line, by) = (to_slopes[pair] - from_slopes[pair], bend * length);
                     [from_slopes[pair], line + by, -by]
@@ -358,14 +429,21 @@ impl CompliancePath {
     /// The same for s from `least` to `most`.
     fn project_within(&mut self, places: &[f64], [least, most]: [f64; 2]) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
-        for ((group, offset), (start, length)) in
-            self.groups.iter().zip(&mut self.offset).zip(self.nodes[0].x.iter().zip(&self.length))
+        for ((group, offset), (start, length)) in self
+            .groups
+            .iter()
+            .zip(&mut self.offset)
+            .zip(self.nodes[0].x.iter().zip(&self.length))
         {
             *offset = places[group.wheel] - start;
             along += *offset * length;
             squares += length * length;
         }
-        let s = if squares > 0.0 { (along / squares).clamp(least, most) } else { 0.0 };
+        let s = if squares > 0.0 {
+            (along / squares).clamp(least, most)
+        } else {
+            0.0
+        };
         let mut farthest = 0.0_f64;
         for (offset, length) in self.offset.iter_mut().zip(&self.length) {
             *offset -= s * length;
@@ -394,16 +472,37 @@ impl CompliancePath {
         if farthest > reach {
             return false;
         }
-        let RailMatrices { value, slope, tangential, .. } = matrices;
-        let CompliancePath { elements: own, groups, groups_of, columns, width, .. } = self;
-        let CompliancePath { values, slopes, offset, wanted, line, beside, .. } = self;
+        let RailMatrices {
+            value,
+            slope,
+            tangential,
+            ..
+        } = matrices;
+        let CompliancePath {
+            elements: own,
+            groups,
+            groups_of,
+            columns,
+            width,
+            ..
+        } = self;
+        let CompliancePath {
+            values,
+            slopes,
+            offset,
+            wanted,
+            line,
+            beside,
+            ..
+        } = self;
         wanted.clear();
         wanted.extend((0..own.len()).filter(|&i| elements.has(own[i])));
         let span = |row: usize| row * m + columns.start..row * m + columns.end;
         for &i in &*wanted {
             let beside = &mut beside[i * *width..(i + 1) * *width];
             for (number, group) in groups_of[i].clone().enumerate() {
-                let (terms, offset) = (&slopes[group * *width..(group + 1) * *width], offset[group]);
+                let (terms, offset) =
+                    (&slopes[group * *width..(group + 1) * *width], offset[group]);
                 let rates = &mut slope[span(own[i])];
                 // The first group of an element sets the row, the others add to it.
                 if number == 0 {
@@ -423,12 +522,19 @@ impl CompliancePath {
                         rates,
                         |sum, slopes| std::array::from_fn(|k| sum[k] + slopes[k]),
                         |four, slopes| {
-                            beside[four] = std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
+                            beside[four] =
+                                std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
                         },
                     );
                 }
                 if let Some(contact) = groups[group].tangential {
-                    put_slopes(terms, s, &mut tangential[span(contact)], |_, slopes| slopes, |_, _| {});
+                    put_slopes(
+                        terms,
+                        s,
+                        &mut tangential[span(contact)],
+                        |_, slopes| slopes,
+                        |_, _| {},
+                    );
                 }
             }
         }
@@ -471,8 +577,9 @@ fn put_slopes(
     with: impl Fn([f64; 4], [f64; 4]) -> [f64; 4],
     mut each: impl FnMut(usize, [f64; 4]),
 ) {
-    let at =
-        |[p, q, r]: &Polynomials<3>| -> [f64; 4] { std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k])) };
+    let at = |[p, q, r]: &Polynomials<3>| -> [f64; 4] {
+        std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k]))
+    };
     let (fours, rest) = row.as_chunks_mut::<4>();
     for (four, (there, terms)) in fours.iter_mut().zip(terms).enumerate() {
         let slopes = at(terms);
@@ -491,5 +598,7 @@ fn put_slopes(
 /// Adds the coefficients of a polynomial to column `column` of a row.
 fn add<const N: usize>(row: &mut [Polynomials<N>], column: usize, coefficients: [f64; N]) {
     let sums = &mut row[column / 4];
-    sums.iter_mut().zip(coefficients).for_each(|(sum, own)| sum[column % 4] += own);
+    sums.iter_mut()
+        .zip(coefficients)
+        .for_each(|(sum, own)| sum[column % 4] += own);
 }

@@ -70,7 +70,11 @@ impl Places {
     fn motion_of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
         let coordinate = &mechanics.coordinates[w];
         let travel = coordinate.driven.map_or(0.0, |root| self.travel[root].x);
-        let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * q[number]).sum();
+        let moved: f64 = coordinate
+            .terms
+            .iter()
+            .map(|&(number, share)| share * q[number])
+            .sum();
         travel + moved
     }
 }

@@ -71,7 +71,11 @@ struct Piece {
 impl PrescribedPath {
     /// The path of the probes `entries`, whose compliance is that between the elements. `None` where the wheels are not moved
     /// by one prescribed motion, where they are too many, or where the compliance is no polynomial.
-    pub fn new(mechanics: &Mechanics, foundation: &Foundation, entries: &[Entry]) -> Option<PrescribedPath> {
+    pub fn new(
+        mechanics: &Mechanics,
+        foundation: &Foundation,
+        entries: &[Entry],
+    ) -> Option<PrescribedPath> {
         if !foundation.compliance.as_ref()?.is_cubic() {
             return None;
         }
@@ -93,7 +97,10 @@ impl PrescribedPath {
     pub fn take(&mut self, other: &PrescribedPath) {
         self.is_polynomial &= other.is_polynomial;
         if let Some(piece) = &other.piece
-            && !self.piece.as_ref().is_some_and(|own| Arc::ptr_eq(own, piece))
+            && !self
+                .piece
+                .as_ref()
+                .is_some_and(|own| Arc::ptr_eq(own, piece))
         {
             self.piece = Some(piece.clone());
         }
@@ -102,7 +109,11 @@ impl PrescribedPath {
     /// Writes values and slopes for the positions `x` of all wheels into the `matrices` of the `entries`; returns false if the
     /// wheels are not in the known piece.
     pub fn follow(&self, entries: &[Entry], x: &[f64], matrices: &mut RailMatrices) -> bool {
-        let Some(piece) = self.piece.as_deref().filter(|piece| are_within(&piece.bounds, entries, x)) else {
+        let Some(piece) = self
+            .piece
+            .as_deref()
+            .filter(|piece| are_within(&piece.bounds, entries, x))
+        else {
             return false;
         };
         let at = (x[entries[0].wheel] - piece.middle) / piece.half;
@@ -129,8 +140,9 @@ impl PrescribedPath {
         if self.bounds.is_empty() || !are_within(&self.bounds, entries, x) {
             (self.begun, self.evaluations) = (place, 0);
             self.bounds.clear();
-            let around =
-                |Entry { wheel, probe, .. }: &Entry| mechanics.breaks.around(s, probe.rail, x[*wheel]);
+            let around = |Entry { wheel, probe, .. }: &Entry| {
+                mechanics.breaks.around(s, probe.rail, x[*wheel])
+            };
             self.bounds.extend(entries.iter().map_while(around));
             if self.bounds.len() < entries.len() {
                 self.bounds.clear();
@@ -141,7 +153,8 @@ impl PrescribedPath {
         let (way, [back, ahead]) = (place - self.begun, free_way(&self.bounds, entries, x));
         let to_come = self.evaluations as f64 * (if way < 0.0 { back } else { ahead }) / way;
         if self.evaluations >= RATED && to_come.is_finite() && to_come >= WORTH {
-            self.piece = Piece::new(compliance, std::mem::take(&mut self.bounds), entries, x).map(Arc::new);
+            self.piece =
+                Piece::new(compliance, std::mem::take(&mut self.bounds), entries, x).map(Arc::new);
             self.is_polynomial = self.piece.is_some();
         }
     }
@@ -170,24 +183,35 @@ impl Piece {
             compliance.fill(&probes, &mut influence).ok()?;
             at_places.push(influence);
         }
-        let values_at =
-            |entry: usize| -> [f64; TERMS] { std::array::from_fn(|k| at_places[k].value.as_slice()[entry]) };
-        let slopes_at =
-            |entry: usize| -> [f64; TERMS] { std::array::from_fn(|k| at_places[k].slope.as_slice()[entry]) };
+        let values_at = |entry: usize| -> [f64; TERMS] {
+            std::array::from_fn(|k| at_places[k].value.as_slice()[entry])
+        };
+        let slopes_at = |entry: usize| -> [f64; TERMS] {
+            std::array::from_fn(|k| at_places[k].slope.as_slice()[entry])
+        };
         let size = count * count;
         let mut values = vec![[[0.0; 4]; TERMS]; size.div_ceil(4)];
         let mut slopes = vec![[[0.0; 4]; TERMS - 1]; size.div_ceil(4)];
         let largest = |of: fn(&Influence) -> &[f64]| {
-            at_places.iter().flat_map(of).fold(0.0_f64, |largest, own| largest.max(own.abs()))
+            at_places
+                .iter()
+                .flat_map(of)
+                .fold(0.0_f64, |largest, own| largest.max(own.abs()))
         };
-        let allowed = [largest(|own| own.value.as_slice()), largest(|own| own.slope.as_slice())]
-            .map(|largest| ROUNDING * largest);
+        let allowed = [
+            largest(|own| own.value.as_slice()),
+            largest(|own| own.slope.as_slice()),
+        ]
+        .map(|largest| ROUNDING * largest);
         for i in 0..count {
             for j in 0..count {
                 let (there, back, out) = (i + count * j, j + count * i, i * count + j);
                 let value = differences(values_at(there));
                 let [slope @ .., last] = differences(slopes_at(there));
-                let rates = slopes_at(there).into_iter().zip(slopes_at(back)).zip(PLACES);
+                let rates = slopes_at(there)
+                    .into_iter()
+                    .zip(slopes_at(back))
+                    .zip(PLACES);
                 let is_alike = rates.into_iter().all(|((own, other), place)| {
                     ((own + other) * half - derivative(&value, place)).abs() <= allowed[0]
                 });
@@ -198,7 +222,13 @@ impl Piece {
                 (0..TERMS - 1).for_each(|k| slopes[out / 4][k][out % 4] = slope[k]);
             }
         }
-        Some(Piece { bounds, middle: own(&entries[0]) + middle, half, values, slopes })
+        Some(Piece {
+            bounds,
+            middle: own(&entries[0]) + middle,
+            half,
+            values,
+            slopes,
+        })
     }
 }
 
@@ -213,8 +243,13 @@ fn are_within(bounds: &[[f64; 2]], entries: &[Entry], x: &[f64]) -> bool {
 
 /// The ways, one negative and one positive, in which no wheel at `x` reaches its bounds.
 fn free_way(bounds: &[[f64; 2]], entries: &[Entry], x: &[f64]) -> [f64; 2] {
-    let ways = bounds.iter().zip(entries).map(|(bounds, entry)| bounds.map(|bound| bound - x[entry.wheel]));
-    ways.fold([f64::NEG_INFINITY, f64::INFINITY], |[back, ahead], way| [back.max(way[0]), ahead.min(way[1])])
+    let ways = bounds
+        .iter()
+        .zip(entries)
+        .map(|(bounds, entry)| bounds.map(|bound| bound - x[entry.wheel]));
+    ways.fold([f64::NEG_INFINITY, f64::INFINITY], |[back, ahead], way| {
+        [back.max(way[0]), ahead.min(way[1])]
+    })
 }
 
 /// Divided differences of the `values` at [`PLACES`].
@@ -251,7 +286,10 @@ fn put<const N: usize>(terms: &[Polynomials<N>], gaps: [f64; TERMS], out: &mut [
     };
     let (fours, rest) = out.as_chunks_mut::<4>();
     let (whole, last) = terms.split_at(fours.len());
-    fours.iter_mut().zip(whole).for_each(|(four, terms)| *four = at(terms));
+    fours
+        .iter_mut()
+        .zip(whole)
+        .for_each(|(four, terms)| *four = at(terms));
     if let Some(terms) = last.first() {
         rest.copy_from_slice(&at(terms)[..rest.len()]);
     }
@@ -273,13 +311,18 @@ mod tests {
             length: 10.0,
             frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             offset: [0.0; 3],
-            flexibility: Flexibility { bending_z: 1e-3, tension, ..Flexibility::default() },
+            flexibility: Flexibility {
+                bending_z: 1e-3,
+                tension,
+                ..Flexibility::default()
+            },
             member: None,
         };
         let mut nodal = nalgebra::DMatrix::<f64>::zeros(18, 18);
         // rotations of the three nodes under moments there, EI/l = 100
-        let stiffness =
-            nalgebra::Matrix3::<f64>::new(400.0, 200.0, 0.0, 200.0, 800.0, 200.0, 0.0, 200.0, 400.0);
+        let stiffness = nalgebra::Matrix3::<f64>::new(
+            400.0, 200.0, 0.0, 200.0, 800.0, 200.0, 0.0, 200.0, 400.0,
+        );
         let compliance = stiffness.try_inverse().expect("three supports");
         (0..9).for_each(|k| nodal[(6 * (k / 3) + 5, 6 * (k % 3) + 5)] = compliance[(k / 3, k % 3)]);
         let rails = Rails::new(vec![element(0), element(1)]).expect("two elements");
@@ -287,8 +330,18 @@ mod tests {
     }
 
     fn entries(count: usize) -> Vec<Entry> {
-        let probe = Probe { rail: 0, x: 0.0, axis: Axis::Vertical };
-        let entry = |wheel| Entry { element: wheel, weight: -1.0, wheel, probe, tangential: None };
+        let probe = Probe {
+            rail: 0,
+            x: 0.0,
+            axis: Axis::Vertical,
+        };
+        let entry = |wheel| Entry {
+            element: wheel,
+            weight: -1.0,
+            wheel,
+            probe,
+            tangential: None,
+        };
         (0..count).map(entry).collect()
     }
 
@@ -324,16 +377,26 @@ mod tests {
             for way in [-0.49, -0.2, 0.0, 0.31, 0.7, 0.99] {
                 let x: Vec<f64> = starts.iter().map(|x| x + way).collect();
                 assert!(path.follow(&on, &x, &mut matrices), "{way}");
-                let probes: Vec<Probe> =
-                    on.iter().zip(&x).map(|(entry, x)| Probe { x: *x, ..entry.probe }).collect();
+                let probes: Vec<Probe> = on
+                    .iter()
+                    .zip(&x)
+                    .map(|(entry, x)| Probe {
+                        x: *x,
+                        ..entry.probe
+                    })
+                    .collect();
                 let mut exact = Influence::zeros(count);
                 surface.fill(&probes, &mut exact).expect("on the rail");
-                for (found, exact) in
-                    [(&matrices.value, exact.value.transpose()), (&matrices.slope, exact.slope.transpose())]
-                {
+                for (found, exact) in [
+                    (&matrices.value, exact.value.transpose()),
+                    (&matrices.slope, exact.slope.transpose()),
+                ] {
                     let largest = exact.amax();
                     for (found, exact) in found.iter().zip(exact.iter()) {
-                        assert!((found - exact).abs() < 2e-14 * largest, "{way}: {found} for {exact}");
+                        assert!(
+                            (found - exact).abs() < 2e-14 * largest,
+                            "{way}: {found} for {exact}"
+                        );
                     }
                 }
             }

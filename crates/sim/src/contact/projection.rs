@@ -62,7 +62,11 @@ impl Projection {
     /// Elements of the columns, with the entries of `row` Z B^T.
     pub fn product(&mut self, row: &[f64]) -> impl Iterator<Item = (&usize, &f64)> {
         self.other.resize(self.columns.len(), 0.0);
-        product(row, &self.spread[..self.dofs * self.columns.len()], &mut self.other);
+        product(
+            row,
+            &self.spread[..self.dofs * self.columns.len()],
+            &mut self.other,
+        );
         self.columns.iter().zip(&self.other)
     }
 
@@ -80,7 +84,8 @@ impl Projection {
         // Constant products include all elements, because they are used for every later active set.
         let all = system.traits.has_constant_rows && system.mechanics.carried.is_empty();
         self.columns.clear();
-        self.columns.extend((0..idle.len()).filter(|&j| all || !idle[j]));
+        self.columns
+            .extend((0..idle.len()).filter(|&j| all || !idle[j]));
         let count = self.columns.len();
         let answers = self.answers.chunks_exact_mut(self.dofs.max(1));
         for (column, (&j, answer)) in self.columns.iter().zip(answers).enumerate() {
@@ -92,7 +97,11 @@ impl Projection {
         let spread = &self.spread[..self.dofs * count];
         for &i in elements {
             let span = i * count..(i + 1) * count;
-            product(rows.approach_row(i), spread, &mut self.approach[span.clone()]);
+            product(
+                rows.approach_row(i),
+                spread,
+                &mut self.approach[span.clone()],
+            );
             if system.fixed[i].feels_rates {
                 product(rows.rate_row(i), spread, &mut self.rate[span]);
             }
@@ -104,7 +113,10 @@ impl Projection {
     pub fn add_forces(&self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
         a.as_mut_slice().copy_from_slice(free.as_slice());
         let shares = self.columns.iter().map(|&j| sign * force[j]);
-        add_lines(shares.zip(self.answers.chunks_exact(self.dofs.max(1))), a.as_mut_slice());
+        add_lines(
+            shares.zip(self.answers.chunks_exact(self.dofs.max(1))),
+            a.as_mut_slice(),
+        );
     }
 }
 

@@ -25,8 +25,16 @@ impl<'a> RopeForce<'a> {
         ropes
             .map(|(index, rope)| {
                 let from = Some(Point::new(mechanics, &rope.from));
-                let points = PointPair { from, to: Point::new(mechanics, &rope.to), swings: true };
-                RopeForce { rope, index, points: Box::new(points) }
+                let points = PointPair {
+                    from,
+                    to: Point::new(mechanics, &rope.to),
+                    swings: true,
+                };
+                RopeForce {
+                    rope,
+                    index,
+                    points: Box::new(points),
+                }
             })
             .collect()
     }
@@ -39,9 +47,14 @@ impl<'a> RopeForce<'a> {
 
 impl Element for RopeForce<'_> {
     fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
-        let Some([from, to]) = self.ends() else { return };
+        let Some([from, to]) = self.ends() else {
+            return;
+        };
         let (mechanics, hold) = (at.mechanics, &mut local.spring);
-        let (a, b) = (from.position(mechanics, at.t, at.q), to.position(mechanics, at.t, at.q));
+        let (a, b) = (
+            from.position(mechanics, at.t, at.q),
+            to.position(mechanics, at.t, at.q),
+        );
         let reach = difference(b, a);
         hold.length = reach[0].hypot(reach[1]).hypot(reach[2]);
         if hold.length > 0.0 {
@@ -49,15 +62,25 @@ impl Element for RopeForce<'_> {
         } else {
             hold.direction = [0.0, -1.0, 0.0];
         }
-        hold.unstretched = at.switches.unstretched(&mechanics.scene.actuators, self.index, at.t);
+        hold.unstretched = at
+            .switches
+            .unstretched(&mechanics.scene.actuators, self.index, at.t);
         hold.stiffness = self.rope.stiffness / hold.unstretched[0];
         hold.damping = self.rope.damping;
-        let size = a.iter().chain(&b).fold(hold.length, |max, c| max.max(c.abs()));
+        let size = a
+            .iter()
+            .chain(&b)
+            .fold(hold.length, |max, c| max.max(c.abs()));
         hold.noise = spring::ROUNDING * hold.stiffness * size;
         let travel = &at.places.travel;
-        let drift =
-            difference(to.drift(mechanics, travel, at.t, at.q), from.drift(mechanics, travel, at.t, at.q));
-        let moved = [hold.length - hold.unstretched[0], scalar(hold.direction, drift) - hold.unstretched[1]];
+        let drift = difference(
+            to.drift(mechanics, travel, at.t, at.q),
+            from.drift(mechanics, travel, at.t, at.q),
+        );
+        let moved = [
+            hold.length - hold.unstretched[0],
+            scalar(hold.direction, drift) - hold.unstretched[1],
+        ];
         spring::write_row(&self.points, at, hold.direction, moved, row);
     }
 
@@ -90,7 +113,11 @@ impl Element for RopeForce<'_> {
     }
 
     fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
-        Some(if self.is_released(at.switches) { -1.0 } else { spring::switch(at, active) })
+        Some(if self.is_released(at.switches) {
+            -1.0
+        } else {
+            spring::switch(at, active)
+        })
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {

@@ -58,7 +58,12 @@ impl Rows {
     /// Copies the offset of the approach of element `i` from `constant`, and approach and rate where they have
     /// changed; sets its `rise` to zero.
     #[inline]
-    pub fn reset(&mut self, i: usize, constant: &Rows, [approach_has_changed, rate_has_changed]: [bool; 2]) {
+    pub fn reset(
+        &mut self,
+        i: usize,
+        constant: &Rows,
+        [approach_has_changed, rate_has_changed]: [bool; 2],
+    ) {
         let span = self.span(i);
         if approach_has_changed {
             self.approach[span.clone()].copy_from_slice(&constant.approach[span.clone()]);
@@ -116,13 +121,19 @@ impl Rows {
     /// R_i times a vector over the degrees of freedom.
     #[inline]
     pub fn approach_along(&self, i: usize, vector: &DVector<f64>) -> f64 {
-        dot(&self.approach[self.span(i)], &vector.as_slice()[self.spans[i].clone()])
+        dot(
+            &self.approach[self.span(i)],
+            &vector.as_slice()[self.spans[i].clone()],
+        )
     }
 
     /// R'_i times a vector over the degrees of freedom.
     #[inline]
     pub fn rate_along(&self, i: usize, vector: &DVector<f64>) -> f64 {
-        dot(&self.rate[self.span(i)], &vector.as_slice()[self.spans[i].clone()])
+        dot(
+            &self.rate[self.span(i)],
+            &vector.as_slice()[self.spans[i].clone()],
+        )
     }
 
     /// Rate for the damper or the friction law of element `i` at the speeds `v`.
@@ -135,7 +146,13 @@ impl Rows {
 impl RowMut<'_> {
     /// Adds `scale` times the linear combination `line` of the displacements of a body to the approach. The constant
     /// part of x is omitted because it is the position along the rail.
-    pub fn add_approach(&mut self, kinematics: &Kinematics, body: usize, line: [f64; 6], scale: f64) {
+    pub fn add_approach(
+        &mut self,
+        kinematics: &Kinematics,
+        body: usize,
+        line: [f64; 6],
+        scale: f64,
+    ) {
         let (terms, constant) = (kinematics.terms(body), kinematics.constant(body));
         for (i, entry) in line.into_iter().enumerate() {
             for &(number, coefficient) in &terms[i] {

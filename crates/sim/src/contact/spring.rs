@@ -38,7 +38,11 @@ pub(crate) fn law(query: &Query) -> Option<Law> {
 pub(crate) fn switch(at: &At, active: &ActiveSet) -> f64 {
     let spring = &at.local().spring;
     let margin = spring.margin(at.approach(), at.rate());
-    if active.has(at.index) { -margin - spring.noise } else { margin - spring.noise }
+    if active.has(at.index) {
+        -margin - spring.noise
+    } else {
+        margin - spring.noise
+    }
 }
 
 /// Adds the elastic energy of an active spring.
@@ -57,7 +61,12 @@ pub(crate) fn dissipate(at: &At, power: &mut Exchanged) {
 /// Contribution of an active spring to the force required for the prescribed motion of root body `b`.
 pub(crate) fn resistance(points: &PointPair, at: &At, b: usize) -> f64 {
     let state = at.state;
-    let by_travel = points.by_travel(at.mechanics, b, (state.t, &state.q), at.local().spring.direction);
+    let by_travel = points.by_travel(
+        at.mechanics,
+        b,
+        (state.t, &state.q),
+        at.local().spring.direction,
+    );
     by_travel * at.force()
 }
 

@@ -30,14 +30,41 @@ impl<'a> StopForce<'a> {
         let stops = mechanics.scene.actuators.stops.iter().enumerate();
         stops
             .map(|(index, stop)| {
-                let to = Point::on_track(mechanics, &RopeEnd { body: Some(stop.body), at: stop.at });
+                let to = Point::on_track(
+                    mechanics,
+                    &RopeEnd {
+                        body: Some(stop.body),
+                        at: stop.at,
+                    },
+                );
                 let rest = DVector::zeros(mechanics.dofs);
                 let from = stop.against.map(|b| {
-                    let origin = Point::on_track(mechanics, &RopeEnd { body: Some(b), at: [0.0; 3] });
-                    let apart = to.place(mechanics, 0.0, &rest) - origin.place(mechanics, 0.0, &rest);
-                    Point::on_track(mechanics, &RopeEnd { body: Some(b), at: [0.0, apart.y, apart.z] })
+                    let origin = Point::on_track(
+                        mechanics,
+                        &RopeEnd {
+                            body: Some(b),
+                            at: [0.0; 3],
+                        },
+                    );
+                    let apart =
+                        to.place(mechanics, 0.0, &rest) - origin.place(mechanics, 0.0, &rest);
+                    Point::on_track(
+                        mechanics,
+                        &RopeEnd {
+                            body: Some(b),
+                            at: [0.0, apart.y, apart.z],
+                        },
+                    )
                 });
-                StopForce { stop, index, points: Box::new(PointPair { from, to, swings: false }) }
+                StopForce {
+                    stop,
+                    index,
+                    points: Box::new(PointPair {
+                        from,
+                        to,
+                        swings: false,
+                    }),
+                }
             })
             .collect()
     }
@@ -46,17 +73,31 @@ impl<'a> StopForce<'a> {
 impl Element for StopForce<'_> {
     fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
         let (stop, mechanics, hold) = (self.stop, at.mechanics, &mut local.spring);
-        let PointPair { from: bearer, to: point, .. } = &*self.points;
+        let PointPair {
+            from: bearer,
+            to: point,
+            ..
+        } = &*self.points;
         let place = point.position(mechanics, at.t, at.q)[stop.axis];
-        let borne = bearer.as_ref().map_or(0.0, |bearer| bearer.position(mechanics, at.t, at.q)[stop.axis]);
+        let borne = bearer.as_ref().map_or(0.0, |bearer| {
+            bearer.position(mechanics, at.t, at.q)[stop.axis]
+        });
         hold.direction = [0.0; 3];
         hold.direction[stop.axis] = stop.side;
         hold.length = stop.side * (place - borne - stop.place);
         (hold.stiffness, hold.damping) = (stop.stiffness, stop.damping);
-        hold.noise = spring::ROUNDING * hold.stiffness * place.abs().max(stop.place.abs()).max(borne.abs());
-        let drift =
-            |point: &Point| scalar(hold.direction, point.drift(mechanics, &at.places.travel, at.t, at.q));
-        let moved = [hold.length, drift(point) - bearer.as_ref().map_or(0.0, drift)];
+        hold.noise =
+            spring::ROUNDING * hold.stiffness * place.abs().max(stop.place.abs()).max(borne.abs());
+        let drift = |point: &Point| {
+            scalar(
+                hold.direction,
+                point.drift(mechanics, &at.places.travel, at.t, at.q),
+            )
+        };
+        let moved = [
+            hold.length,
+            drift(point) - bearer.as_ref().map_or(0.0, drift),
+        ];
         spring::write_row(&self.points, at, hold.direction, moved, row);
     }
 

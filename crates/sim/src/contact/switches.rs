@@ -39,21 +39,30 @@ impl Switches {
         match action {
             Action::Brake { body, on } => {
                 let own = self.brakes.iter_mut().zip(&actuators.brakes);
-                own.filter(|(_, brake)| brake.body == body).for_each(|(command, _)| *command = Some(on));
+                own.filter(|(_, brake)| brake.body == body)
+                    .for_each(|(command, _)| *command = Some(on));
             }
             Action::Drive { body, speed } => {
                 let own = self.drives.iter_mut().zip(&actuators.drives);
-                own.filter(|(_, drive)| drive.body == body).for_each(|(command, _)| *command = Some(speed));
+                own.filter(|(_, drive)| drive.body == body)
+                    .for_each(|(command, _)| *command = Some(speed));
             }
             Action::Hoist { rope, speed } => {
                 let left = self.unstretched(actuators, rope, t)[0];
                 let found = left - speed * (scene.end - t);
                 if found <= 0.0 {
                     let what = "length of a rope that is hoisted";
-                    return Err(Error::Number { what, wanted: "positive until the end", found });
+                    return Err(Error::Number {
+                        what,
+                        wanted: "positive until the end",
+                        found,
+                    });
                 }
-                self.hoists[rope] =
-                    Some(Hoist { speed, since: t, taken: actuators.ropes[rope].length - left });
+                self.hoists[rope] = Some(Hoist {
+                    speed,
+                    since: t,
+                    taken: actuators.ropes[rope].length - left,
+                });
             }
             Action::Release { rope } => self.released[rope] = true,
             Action::End => return Ok(true),
@@ -76,14 +85,21 @@ impl Switches {
     pub fn unstretched(&self, actuators: &Actuators, rope: usize, t: f64) -> [f64; 2] {
         let given = &actuators.ropes[rope];
         match self.hoists[rope] {
-            Some(hoist) => [given.length - hoist.taken - hoist.speed * (t - hoist.since), -hoist.speed],
+            Some(hoist) => [
+                given.length - hoist.taken - hoist.speed * (t - hoist.since),
+                -hoist.speed,
+            ],
             None => [given.length - given.speed.integral(t), -given.speed.at(t)],
         }
     }
 
     /// Second time derivative of the unstretched length of a rope at `t`.
     pub fn unstretched_acceleration(&self, actuators: &Actuators, rope: usize, t: f64) -> f64 {
-        if self.hoists[rope].is_some() { 0.0 } else { -actuators.ropes[rope].speed.slope(t) }
+        if self.hoists[rope].is_some() {
+            0.0
+        } else {
+            -actuators.ropes[rope].speed.slope(t)
+        }
     }
 
     /// Whether rope `rope` has been released.

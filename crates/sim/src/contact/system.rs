@@ -83,22 +83,36 @@ impl<'a> System<'a> {
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         let mechanics = Mechanics::new(scene, foundations)?;
         let elements = ForceElement::all(&mechanics);
-        let with = |role: Role| (0..elements.len()).filter(|&i| elements[i].role() == role).collect();
+        let with = |role: Role| {
+            (0..elements.len())
+                .filter(|&i| elements[i].role() == role)
+                .collect()
+        };
         let (guides, springs) = (with(Role::Guides), with(Role::Spring));
         let guarded = |kind: GuardKind| {
-            (0..elements.len()).filter(|&i| elements[i].guard_kind() == Some(kind)).collect()
+            (0..elements.len())
+                .filter(|&i| elements[i].guard_kind() == Some(kind))
+                .collect()
         };
         let (touching, cornered) = (guarded(GuardKind::Touch), guarded(GuardKind::Corner));
         let is_rope = |i: &usize| matches!(elements[*i], ForceElement::Rope(_));
         let ropes = (0..elements.len()).filter(is_rope).collect();
         let probes = find_probes(&mechanics, &elements);
         let traits = find_traits(&mechanics, &elements);
-        let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
+        let fixed = elements
+            .iter()
+            .map(|element| Fixed::of(&**element))
+            .collect();
         let follows_motion = find_moved_rails(&mechanics);
         let mut by_height = Candidates::all(elements.len());
         by_height.choose(|i| elements[i].uses_height());
-        let first_wheel = elements.iter().map(|element| first_wheel(&mechanics, element)).collect();
-        let row_spans = (0..elements.len()).map(|i| row_span(&mechanics, &elements, &probes, i)).collect();
+        let first_wheel = elements
+            .iter()
+            .map(|element| first_wheel(&mechanics, element))
+            .collect();
+        let row_spans = (0..elements.len())
+            .map(|i| row_span(&mechanics, &elements, &probes, i))
+            .collect();
         Ok(System {
             scene,
             foundations,
@@ -179,12 +193,16 @@ impl<'a> System<'a> {
             ForceElement::Traction(traction) => traction.wheel() == w,
             _ => false,
         };
-        self.elements.iter().position(is_own).map_or(0.0, |i| at.force[i])
+        self.elements
+            .iter()
+            .position(is_own)
+            .map_or(0.0, |i| at.force[i])
     }
 
     /// Speed along the rail of the wheels of vertical contact `i`.
     pub fn contact_speed(&self, i: usize, at: &State) -> f64 {
-        self.mechanics.speed_along(self.mechanics.groups[i].wheels.start, at)
+        self.mechanics
+            .speed_along(self.mechanics.groups[i].wheels.start, at)
     }
 
     /// The state zero.
@@ -196,21 +214,44 @@ impl<'a> System<'a> {
 
 /// The first wheel on which `element` acts.
 fn first_wheel(mechanics: &Mechanics, element: &ForceElement) -> Option<usize> {
-    element.channels(mechanics).into_iter().find_map(|(channel, _)| match channel {
-        Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => Some(wheel),
-        _ => None,
-    })
+    element
+        .channels(mechanics)
+        .into_iter()
+        .find_map(|(channel, _)| match channel {
+            Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => {
+                Some(wheel)
+            }
+            _ => None,
+        })
 }
 
 /// Degrees of freedom from the first to the last on which the row of element `i` depends: those of its body, the
 /// spins of the body's wheels, and those of the structures on which it has probes; a multiple of four of them where
 /// there are as many, because products are formed four entries at a time.
-fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i: usize) -> Range<usize> {
-    let Some(body) = elements[i].body(mechanics) else { return 0..mechanics.dofs };
-    let own = mechanics.kinematics.terms(body).iter().flatten().map(|&(number, _)| number);
-    let spins = mechanics.wheels.iter().filter(|wheel| wheel.body == body).filter_map(|wheel| wheel.spin);
+fn row_span(
+    mechanics: &Mechanics,
+    elements: &[ForceElement],
+    probes: &Probes,
+    i: usize,
+) -> Range<usize> {
+    let Some(body) = elements[i].body(mechanics) else {
+        return 0..mechanics.dofs;
+    };
+    let own = mechanics
+        .kinematics
+        .terms(body)
+        .iter()
+        .flatten()
+        .map(|&(number, _)| number);
+    let spins = mechanics
+        .wheels
+        .iter()
+        .filter(|wheel| wheel.body == body)
+        .filter_map(|wheel| wheel.spin);
     let on = |s: &usize| probes.entries[*s].iter().any(|entry| entry.element == i);
-    let structures = (0..probes.entries.len()).filter(on).flat_map(|s| mechanics.structures[s].clone());
+    let structures = (0..probes.entries.len())
+        .filter(on)
+        .flat_map(|s| mechanics.structures[s].clone());
     let numbers = own.chain(spins).chain(structures);
     let hull = |known: Option<Range<usize>>, number: usize| {
         let known = known.unwrap_or(number..number + 1);
@@ -223,14 +264,22 @@ fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i
 
 /// Lists the probes of all elements.
 fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
-    let of_elements: Vec<Vec<ElementProbe>> =
-        elements.iter().map(|element| element.probes(mechanics)).collect();
+    let of_elements: Vec<Vec<ElementProbe>> = elements
+        .iter()
+        .map(|element| element.probes(mechanics))
+        .collect();
     let slides = mechanics.has_sliding_rails();
-    let sliding: Vec<usize> =
-        (0..elements.len()).filter(|&i| slides && elements[i].is_tangential()).collect();
+    let sliding: Vec<usize> = (0..elements.len())
+        .filter(|&i| slides && elements[i].is_tangential())
+        .collect();
     let verticals = mechanics.groups.len();
     let slot = |i: usize| {
-        let place = || sliding.iter().position(|&element| element == i).map(|k| verticals + k);
+        let place = || {
+            sliding
+                .iter()
+                .position(|&element| element == i)
+                .map(|k| verticals + k)
+        };
         if i < verticals { Some(i) } else { place() }
     };
     let slots = (0..elements.len()).map(slot).collect();
@@ -247,7 +296,10 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     for (element, probes) in of_elements.iter().enumerate() {
         for &ElementProbe { wheel, axis, .. } in probes {
             let is_dragged = mechanics.foundations[structure_of(wheel)].is_loaded_along;
-            if axis == Axis::Longitudinal && is_dragged && find(&tangential, element, wheel).is_none() {
+            if axis == Axis::Longitudinal
+                && is_dragged
+                && find(&tangential, element, wheel).is_none()
+            {
                 tangential.push(TangentialContact { element, wheel });
             }
         }
@@ -256,7 +308,13 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
         let foundation = &mechanics.foundations[s];
         let mut entries = Vec::new();
         for (element, probes) in of_elements.iter().enumerate() {
-            for &ElementProbe { wheel, weight, axis, part } in probes {
+            for &ElementProbe {
+                wheel,
+                weight,
+                axis,
+                part,
+            } in probes
+            {
                 let complies = match axis {
                     Axis::Vertical => true,
                     Axis::Lateral => foundation.parts.is_none(),
@@ -270,9 +328,19 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
                     (Some(chains), Some(part)) => chains[rail].rail(part),
                     _ => rail,
                 };
-                let own = if axis == Axis::Longitudinal { find(&tangential, element, wheel) } else { None };
+                let own = if axis == Axis::Longitudinal {
+                    find(&tangential, element, wheel)
+                } else {
+                    None
+                };
                 let probe = Probe { rail, x: 0.0, axis };
-                entries.push(Entry { element, weight, wheel, probe, tangential: own });
+                entries.push(Entry {
+                    element,
+                    weight,
+                    wheel,
+                    probe,
+                    tangential: own,
+                });
             }
         }
         entries
@@ -280,11 +348,21 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     let entries: Vec<Vec<Entry>> = (0..mechanics.foundations.len()).map(entries_of).collect();
     let is_direct = |entries: &Vec<Entry>| {
         entries.len() == elements.len()
-            && entries.iter().enumerate().all(|(i, entry)| entry.element == i && entry.weight == -1.0)
+            && entries
+                .iter()
+                .enumerate()
+                .all(|(i, entry)| entry.element == i && entry.weight == -1.0)
     };
     let is_direct = entries.iter().map(is_direct).collect();
     let states = (0..elements.len()).filter(|&i| slot(i).is_some()).collect();
-    Probes { entries, is_direct, tangential, slots, sliding, states }
+    Probes {
+        entries,
+        is_direct,
+        tangential,
+        slots,
+        sliding,
+        states,
+    }
 }
 
 /// Whether the rail below each vertical contact has no compliance of its own, and is neither carried nor divided into
@@ -295,7 +373,11 @@ fn find_moved_rails(mechanics: &Mechanics) -> Vec<bool> {
         let own = &mechanics.foundations[mechanics.scene.contacts[contact].structure];
         is_grounded && own.compliance.is_none() && own.parts.is_none() && own.carrier.is_none()
     };
-    mechanics.groups.iter().map(|group| follows(group.contact)).collect()
+    mechanics
+        .groups
+        .iter()
+        .map(|group| follows(group.contact))
+        .collect()
 }
 
 /// Determines which simplifications apply.
@@ -305,17 +387,34 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
     let has_constant_rows = !mechanics.moves_freely
         && !is_uneven
         && is_vertical
-        && mechanics.foundations.iter().all(|foundation| foundation.structure.is_none());
+        && mechanics
+            .foundations
+            .iter()
+            .all(|foundation| foundation.structure.is_none());
     let scene = mechanics.scene;
-    let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
+    let laws = || {
+        scene
+            .contacts
+            .iter()
+            .map(|contact| &scene.wheels[contact.wheel].normal)
+    };
     let ratio = |law: &NormalLaw| law.damping / law.stiffness;
     let grounded = laws().find(|law| !law.has_memory());
-    let mut compliances = mechanics.foundations.iter().filter_map(|f| f.compliance.as_ref());
+    let mut compliances = mechanics
+        .foundations
+        .iter()
+        .filter_map(|f| f.compliance.as_ref());
     let has_symmetric_rails = compliances.all(|compliance| compliance.is_symmetric());
     let is_symmetric = !mechanics.moves_freely
         && has_symmetric_rails
         && grounded.is_none_or(|first| {
-            laws().all(|law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) })
+            laws().all(|law| {
+                if law.has_memory() {
+                    ratio(first) == 0.0
+                } else {
+                    ratio(law) == ratio(first)
+                }
+            })
         });
     let has_linear_laws = laws().all(NormalLaw::is_linear);
     let uses_heights = elements.iter().any(|element| element.uses_height());
@@ -325,7 +424,10 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
     Traits {
         is_uneven,
         has_constant_rows,
-        has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
+        has_parts: mechanics
+            .foundations
+            .iter()
+            .any(|foundation| foundation.parts.is_some()),
         has_motions: scene.bodies.iter().any(|body| body.motion.is_some()),
         is_vertical,
         has_linear_laws,

@@ -52,7 +52,9 @@ impl Element for Traction<'_> {
         if let Some(spin) = wheel.spin {
             row.rate[spin] += at.places.height[w];
         }
-        let spin = mechanics.turn(w, at.t).map_or(0.0, |turn| turn.v * at.places.height[w]);
+        let spin = mechanics
+            .turn(w, at.t)
+            .map_or(0.0, |turn| turn.v * at.places.height[w]);
         let travel = at.places.travel[mechanics.kinematics.root(wheel.body)].v;
         *row.rate_offset = travel + spin;
     }
@@ -62,7 +64,12 @@ impl Element for Traction<'_> {
     }
 
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
-        vec![ElementProbe { wheel: self.wheel, weight: 1.0, axis: Axis::Longitudinal, part: None }]
+        vec![ElementProbe {
+            wheel: self.wheel,
+            weight: 1.0,
+            axis: Axis::Longitudinal,
+            part: None,
+        }]
     }
 
     fn body(&self, mechanics: &Mechanics) -> Option<usize> {
@@ -83,12 +90,24 @@ impl Element for Traction<'_> {
 
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law> {
         let mu = self.friction.coefficient;
-        let load: f64 = self.verticals.iter().map(|&(n, count)| query.force[n] / count).sum();
+        let load: f64 = self
+            .verticals
+            .iter()
+            .map(|&(n, count)| query.force[n] / count)
+            .sum();
         let (share, by_slip) = self.friction.fraction(query.rate);
         for &(n, count) in &self.verticals {
-            couplings.push(Coupling { element: query.index, by: n, slope: mu * share / count });
+            couplings.push(Coupling {
+                element: query.index,
+                by: n,
+                slope: mu * share / count,
+            });
         }
-        Some(Law { force: mu * load * share, by_rate: mu * load * by_slip, ..Law::default() })
+        Some(Law {
+            force: mu * load * share,
+            by_rate: mu * load * by_slip,
+            ..Law::default()
+        })
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
@@ -103,7 +122,11 @@ impl Element for Traction<'_> {
 
     fn resistance(&self, at: &At, b: usize) -> f64 {
         let body = at.mechanics.wheels[self.wheel].body;
-        if at.mechanics.kinematics.root(body) == b { at.force() } else { 0.0 }
+        if at.mechanics.kinematics.root(body) == b {
+            at.force()
+        } else {
+            0.0
+        }
     }
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {

@@ -81,9 +81,17 @@ impl<'a> Vertical<'a> {
         if let Some(left) = self.relaxed(active.stored(i), at.t) {
             return law.spring(at.p[i] - left);
         }
-        let rate = if law.has_memory() { at.p_rate[i] } else { rate() };
+        let rate = if law.has_memory() {
+            at.p_rate[i]
+        } else {
+            rate()
+        };
         let spring = law.spring(at.p[i]);
-        if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
+        if at.p[i] <= 0.0 {
+            spring
+        } else {
+            law.at(at.p[i], rate).force
+        }
     }
 
     /// Remaining penetration of spring and damper of an open contact at `t`. Without force, the penetration `stored`
@@ -100,16 +108,29 @@ impl<'a> Vertical<'a> {
 /// The shape of the unloaded rail averaged over `wheels`, which move along it together.
 fn mean_shape(mechanics: &Mechanics, wheels: Range<usize>) -> Option<Irregularity> {
     let first = mechanics.wheels[wheels.start].hub;
-    let ahead: Vec<f64> = wheels.clone().map(|w| mechanics.wheels[w].hub[0] - first[0]).collect();
-    let together = wheels.clone().all(|w| mechanics.wheels[w].hub[1..] == first[1..]);
-    mechanics.irregularity(wheels.start).filter(|_| together)?.averaged(&ahead)
+    let ahead: Vec<f64> = wheels
+        .clone()
+        .map(|w| mechanics.wheels[w].hub[0] - first[0])
+        .collect();
+    let together = wheels
+        .clone()
+        .all(|w| mechanics.wheels[w].hub[1..] == first[1..]);
+    mechanics
+        .irregularity(wheels.start)
+        .filter(|_| together)?
+        .averaged(&ahead)
 }
 
 impl Element for Vertical<'_> {
     fn constant_row(&self, mechanics: &Mechanics, row: &mut RowMut) {
         for w in self.wheels.clone() {
             let wheel = &mechanics.wheels[w];
-            row.add_approach(&mechanics.kinematics, wheel.body, arm_rows(wheel.hub)[1], -1.0 / self.count());
+            row.add_approach(
+                &mechanics.kinematics,
+                wheel.body,
+                arm_rows(wheel.hub)[1],
+                -1.0 / self.count(),
+            );
         }
         row.rate.copy_from_slice(row.approach);
     }
@@ -120,7 +141,10 @@ impl Element for Vertical<'_> {
             return;
         }
         if let Some(shape) = &self.mean {
-            let [height, slope] = local.shape.at(shape, VERTICAL, 0, at.places.x[self.wheels.start]);
+            let [height, slope] =
+                local
+                    .shape
+                    .at(shape, VERTICAL, 0, at.places.x[self.wheels.start]);
             *row.approach_offset += height;
             *row.rise += slope;
             return;
@@ -145,7 +169,14 @@ impl Element for Vertical<'_> {
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         let weight = -1.0 / self.count();
         let wheels = self.wheels.clone();
-        wheels.map(|wheel| ElementProbe { wheel, weight, axis: Axis::Vertical, part: self.part }).collect()
+        wheels
+            .map(|wheel| ElementProbe {
+                wheel,
+                weight,
+                axis: Axis::Vertical,
+                part: self.part,
+            })
+            .collect()
     }
 
     fn body(&self, _: &Mechanics) -> Option<usize> {
@@ -176,7 +207,11 @@ impl Element for Vertical<'_> {
         if !query.is_active {
             return None;
         }
-        let LawValue { force, by_penetration, by_rate } = self.law.at(query.penetration(), query.rate);
+        let LawValue {
+            force,
+            by_penetration,
+            by_rate,
+        } = self.law.at(query.penetration(), query.rate);
         let scale = self.count() * query.local.fraction[0];
         Some(Law {
             force: scale * force,
@@ -192,15 +227,24 @@ impl Element for Vertical<'_> {
     fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
         let i = at.index;
         if active.has(i) {
-            return Some(if self.law.bilateral { -1.0 } else { -at.force() });
+            return Some(if self.law.bilateral {
+                -1.0
+            } else {
+                -at.force()
+            });
         }
         let closing = self.closing(i, at.local().fraction[0], active, at.state, || at.rate());
-        Some(if closing > 0.0 { closing.min(self.law.spring(at.state.p[i])) } else { closing })
+        Some(if closing > 0.0 {
+            closing.min(self.law.spring(at.state.p[i]))
+        } else {
+            closing
+        })
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
         if at.force() != 0.0 {
-            energy.contact += self.count() * at.local().fraction[0] * self.law.energy(at.state.p[at.index]);
+            energy.contact +=
+                self.count() * at.local().fraction[0] * self.law.energy(at.state.p[at.index]);
         }
         energy.structure += at.rail_energy();
     }
@@ -208,13 +252,16 @@ impl Element for Vertical<'_> {
     fn power(&self, at: &At, power: &mut Exchanged) {
         let (law, i) = (self.law, at.index);
         let [fraction, slope] = at.local().fraction;
-        let rate =
-            if slope == 0.0 { 0.0 } else { slope * at.mechanics.speed_along(self.wheels.start, at.state) };
+        let rate = if slope == 0.0 {
+            0.0
+        } else {
+            slope * at.mechanics.speed_along(self.wheels.start, at.state)
+        };
         power.handover -= self.count() * rate * law.energy(at.state.p[i]);
         match law.damper {
             Damper::Rail => {
-                power.dampers +=
-                    (at.force() - self.count() * fraction * law.spring(at.state.p[i])) * at.state.p_rate[i];
+                power.dampers += (at.force() - self.count() * fraction * law.spring(at.state.p[i]))
+                    * at.state.p_rate[i];
             }
             Damper::Ground => {
                 let acceleration = at.rows.rate_along(i, &at.state.a);
@@ -241,10 +288,17 @@ impl Element for Vertical<'_> {
     }
 
     fn resistance(&self, at: &At, b: usize) -> f64 {
-        if at.mechanics.kinematics.root(self.body) == b { -(at.rail_slope() * at.force()) } else { 0.0 }
+        if at.mechanics.kinematics.root(self.body) == b {
+            -(at.rail_slope() * at.force())
+        } else {
+            0.0
+        }
     }
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {
-        self.wheels.clone().map(|w| (Channel::Vertical(w), self.count())).collect()
+        self.wheels
+            .clone()
+            .map(|w| (Channel::Vertical(w), self.count()))
+            .collect()
     }
 }

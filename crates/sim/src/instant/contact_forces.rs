@@ -60,15 +60,28 @@ pub fn contact_forces(
     instants: &[Instant],
 ) -> Result<Vec<ContactForces>, Error> {
     let system = System::new(scene, foundations)?;
-    if let Some(index) = foundations.iter().position(|foundation| foundation.parts.is_some()) {
-        return Err(Error::NoSuch { what: "one force a wheel on structure", index });
+    if let Some(index) = foundations
+        .iter()
+        .position(|foundation| foundation.parts.is_some())
+    {
+        return Err(Error::NoSuch {
+            what: "one force a wheel on structure",
+            index,
+        });
     }
     let mut solver = Solver::new(&system, RailMemory::Unknown)?;
     let mut state = system.state();
-    instants.iter().map(|instant| forces_at(&mut solver, instant, &mut state)).collect()
+    instants
+        .iter()
+        .map(|instant| forces_at(&mut solver, instant, &mut state))
+        .collect()
 }
 
-fn forces_at(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<ContactForces, Error> {
+fn forces_at(
+    solver: &mut Solver,
+    instant: &Instant,
+    at: &mut State,
+) -> Result<ContactForces, Error> {
     place(solver, instant, at)?;
     let system = solver.system();
     let count = system.verticals();
@@ -101,13 +114,33 @@ fn forces_at(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<C
 fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     for (what, found, expected) in [
-        ("displacements of an instant", instant.displacement.len(), system.scene.bodies.len()),
-        ("speeds of an instant", instant.speed.len(), system.scene.bodies.len()),
-        ("spins of an instant", instant.spin.len(), system.mechanics.wheels.len()),
-        ("penetrations of an instant", instant.penetration.len(), system.scene.contacts.len()),
+        (
+            "displacements of an instant",
+            instant.displacement.len(),
+            system.scene.bodies.len(),
+        ),
+        (
+            "speeds of an instant",
+            instant.speed.len(),
+            system.scene.bodies.len(),
+        ),
+        (
+            "spins of an instant",
+            instant.spin.len(),
+            system.mechanics.wheels.len(),
+        ),
+        (
+            "penetrations of an instant",
+            instant.penetration.len(),
+            system.scene.contacts.len(),
+        ),
     ] {
         if found != expected {
-            return Err(Error::Number { what, wanted: "one each", found: found as f64 });
+            return Err(Error::Number {
+                what,
+                wanted: "one each",
+                found: found as f64,
+            });
         }
     }
     at.t = instant.time;
@@ -152,10 +185,15 @@ const CONVERGED: f64 = 4.0 * f64::EPSILON;
 /// replaced in the law, so that two or three solutions suffice.
 fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
-    let on_rigid = |solver: &Solver, i: usize| system.law(i).has_memory() && solver.is_on_rigid_rail(i);
-    let rigid: Vec<usize> = (0..system.verticals()).filter(|&i| on_rigid(solver, i)).collect();
+    let on_rigid =
+        |solver: &Solver, i: usize| system.law(i).has_memory() && solver.is_on_rigid_rail(i);
+    let rigid: Vec<usize> = (0..system.verticals())
+        .filter(|&i| on_rigid(solver, i))
+        .collect();
     let unknown: Vec<usize> = (0..system.verticals())
-        .filter(|&i| solver.active().has(i) && given(solver, instant, i).is_some() && !rigid.contains(&i))
+        .filter(|&i| {
+            solver.active().has(i) && given(solver, instant, i).is_some() && !rigid.contains(&i)
+        })
         .collect();
     for &i in &rigid {
         at.p[i] = solver.geometry().approach(i, &at.q);
@@ -168,7 +206,10 @@ fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result
         let mut moved = 0.0_f64;
         for &i in &rigid {
             let approach = solver.geometry().approach(i, &at.q);
-            let (p, rate) = (solver.solved_penetration(i, &at.force), solver.approach_rate(i, at));
+            let (p, rate) = (
+                solver.solved_penetration(i, &at.force),
+                solver.approach_rate(i, at),
+            );
             let (law, scale) = (system.law(i), approach.abs().max(f64::MIN_POSITIVE));
             let by_rate = (rate - at.p_rate[i]).abs() * law.damping / law.stiffness;
             moved = moved.max((p - at.p[i]).abs().max(by_rate) / scale);
@@ -199,9 +240,15 @@ fn answer(solver: &Solver, at: &State) -> ContactForces {
         vertical: wheels.clone().map(vertical).collect(),
         lateral,
         traction: wheels.clone().map(|w| system.friction_of(w, at)).collect(),
-        slope_force: wheels.map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w)).collect(),
-        approach: (0..count).map(|i| solver.geometry().approach(i, &at.q)).collect(),
+        slope_force: wheels
+            .map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w))
+            .collect(),
+        approach: (0..count)
+            .map(|i| solver.geometry().approach(i, &at.q))
+            .collect(),
         penetration: at.p[..count].to_vec(),
-        compliance: DMatrix::from_fn(count, count, |i, j| solver.geometry().rails().value[i * m + j]),
+        compliance: DMatrix::from_fn(count, count, |i, j| {
+            solver.geometry().rails().value[i * m + j]
+        }),
     }
 }

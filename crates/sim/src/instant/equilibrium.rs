@@ -43,14 +43,21 @@ const BALANCE: f64 = 1e-6;
 /// [`Error::NoEquilibrium`] if the wheels cannot carry the bodies, and any error from evaluating the structures.
 pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
-    let none = Error::NoEquilibrium { time: at.t, body: None };
+    let none = Error::NoEquilibrium {
+        time: at.t,
+        body: None,
+    };
     at.v.fill(0.0);
     // The rope forces are kept at their values on entry: solving an instant during the iteration would find the ropes
     // slack.
     let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
     let entry = Values::from_slice(at.q.as_slice());
     let restore = |force: &mut [f64]| {
-        system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
+        system
+            .springs()
+            .iter()
+            .zip(&springs)
+            .for_each(|(&i, pull)| force[i] = *pull);
     };
     at.force.fill(0.0);
     restore(&mut at.force);
@@ -71,11 +78,18 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
             return Err(none);
         }
         restore(&mut at.force);
-        let largest =
-            at.force.iter().fold(system.mechanics.gravity.amax(), |max, force| max.max(force.abs()));
+        let largest = at
+            .force
+            .iter()
+            .fold(system.mechanics.gravity.amax(), |max, force| {
+                max.max(force.abs())
+            });
         let mut followed: Vec<f64> = guides.iter().map(|&i| at.force[i]).collect();
         let change = relaxation.step(&taken, &mut followed);
-        guides.iter().zip(followed).for_each(|(&i, force)| at.force[i] = force);
+        guides
+            .iter()
+            .zip(followed)
+            .for_each(|(&i, force)| at.force[i] = force);
         if change <= 1e-12 * largest && rests {
             return Ok(());
         }
@@ -97,7 +111,10 @@ fn balance(solver: &mut Solver, entry: &[f64], at: &mut State) -> Result<(), Err
     let moving = balancing(solver);
     let mut balance = Balance::new(solver, moving, entry, at)?;
     if !balance.solve() {
-        return Err(Error::NoEquilibrium { time: at.t, body: balance.least_balanced() });
+        return Err(Error::NoEquilibrium {
+            time: at.t,
+            body: balance.least_balanced(),
+        });
     }
     for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
         at.q[number] = q;
@@ -117,7 +134,9 @@ fn balancing(solver: &Solver) -> Numbers {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
     let numbers = solver.system().mechanics.kinematics.numbers.iter();
     numbers
-        .flat_map(|numbers| [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch].map(|f| numbers[f as usize]))
+        .flat_map(|numbers| {
+            [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch].map(|f| numbers[f as usize])
+        })
         .flatten()
         .filter(|&number| (0..count).any(|i| rows.approach_row(i)[number] != 0.0))
         .collect()
@@ -125,7 +144,9 @@ fn balancing(solver: &Solver) -> Numbers {
 
 /// Elements that can load the rails at rest: the vertical contacts, then the guides.
 fn pressing(system: &System) -> Vec<usize> {
-    (0..system.verticals()).chain(system.guides().iter().copied()).collect()
+    (0..system.verticals())
+        .chain(system.guides().iter().copied())
+        .collect()
 }
 
 /// Static compliance G + Phi K^-1 Phi^T of the elements that can load the rails at rest.
@@ -134,11 +155,13 @@ fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
     let (m, pressing) = (system.elements.len(), pressing(system));
     let count = pressing.len();
     let (value, rows) = (&solver.geometry().rails().value, solver.geometry().rows());
-    let mut compliance = DMatrix::from_fn(count, count, |i, j| value[pressing[i] * m + pressing[j]]);
+    let mut compliance =
+        DMatrix::from_fn(count, count, |i, j| value[pressing[i] * m + pressing[j]]);
     for block in &system.mechanics.blocks[1..] {
         let first = block.range.start;
-        let phi =
-            DMatrix::from_fn(block.range.len(), count, |k, i| rows.approach_row(pressing[i])[first + k]);
+        let phi = DMatrix::from_fn(block.range.len(), count, |k, i| {
+            rows.approach_row(pressing[i])[first + k]
+        });
         compliance += phi.transpose() * block.rest(&phi)?;
     }
     Ok(compliance)
@@ -151,10 +174,13 @@ fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
     for block in &system.mechanics.blocks[1..] {
         let (first, size) = (block.range.start, block.range.len());
         let load = DMatrix::from_fn(size, 1, |k, _| {
-            let loads = pressing.iter().map(|&i| rows.approach_row(i)[first + k] * at.force[i]);
+            let loads = pressing
+                .iter()
+                .map(|&i| rows.approach_row(i)[first + k] * at.force[i]);
             -loads.sum::<f64>()
         });
-        at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
+        at.q.rows_mut(first, size)
+            .copy_from(&block.rest(&load)?.column(0));
     }
     Ok(())
 }
@@ -162,7 +188,12 @@ fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
 /// Load on degree of freedom `number` from ropes and stops, for the forces of `at`.
 fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     let rows = solver.geometry().rows();
-    solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
+    solver
+        .system()
+        .springs()
+        .iter()
+        .map(|&i| -rows.approach_row(i)[number] * at.force[i])
+        .sum()
 }
 
 /// Ropes and stops that act at `at` between bodies none of which hangs. A load on a rope follows the body that carries it, so
@@ -171,9 +202,20 @@ pub(crate) fn acting_springs(solver: &Solver, at: &State) -> impl Iterator<Item 
     let system = solver.system();
     let hangs = move |i: usize| {
         let points = system.elements[i].points();
-        points.is_some_and(|points| system.scene.actuators.hanging.iter().any(|&b| points.is_on(b)))
+        points.is_some_and(|points| {
+            system
+                .scene
+                .actuators
+                .hanging
+                .iter()
+                .any(|&b| points.is_on(b))
+        })
     };
-    system.springs().iter().copied().filter(move |&i| at.force[i] > 0.0 && !hangs(i))
+    system
+        .springs()
+        .iter()
+        .copied()
+        .filter(move |&i| at.force[i] > 0.0 && !hangs(i))
 }
 
 /// Stiffness of [`acting_springs`] by the `moving` degrees of freedom; empty without such springs.
@@ -183,8 +225,12 @@ fn stiffness_of_springs(solver: &Solver, moving: &[usize], at: &State) -> Entrie
         sum.resize(moving.len() * moving.len(), 0.0);
         let row = solver.geometry().rows().approach_row(i);
         let stiffness = solver.geometry().local()[i].spring.stiffness;
-        let pairs = moving.iter().flat_map(|&k| moving.iter().map(move |&l| row[k] * row[l]));
-        sum.iter_mut().zip(pairs).for_each(|(entry, pair)| *entry += stiffness * pair);
+        let pairs = moving
+            .iter()
+            .flat_map(|&k| moving.iter().map(move |&l| row[k] * row[l]));
+        sum.iter_mut()
+            .zip(pairs)
+            .for_each(|(entry, pair)| *entry += stiffness * pair);
     }
     sum
 }
@@ -204,8 +250,16 @@ impl Relaxation {
     /// Replaces the forces `followed`, which result from the forces `taken`, by the relaxed forces of the next
     /// iteration; returns the largest change before relaxation.
     fn step(&mut self, taken: &[f64], followed: &mut [f64]) -> f64 {
-        let residual: Vec<f64> = followed.iter().zip(taken).map(|(new, old)| new - old).collect();
-        let bend: Vec<f64> = residual.iter().zip(&self.residual).map(|(new, old)| new - old).collect();
+        let residual: Vec<f64> = followed
+            .iter()
+            .zip(taken)
+            .map(|(new, old)| new - old)
+            .collect();
+        let bend: Vec<f64> = residual
+            .iter()
+            .zip(&self.residual)
+            .map(|(new, old)| new - old)
+            .collect();
         let square: f64 = bend.iter().map(|b| b * b).sum();
         let share = match self.share {
             Some(share) if square > 0.0 => -share * dot(&self.residual, &bend) / square,
@@ -262,12 +316,16 @@ const FEW: usize = 5;
 fn transposed_product(a: &[f64], b: &[f64], rows: usize) -> Entries {
     let counts = [a, b].map(|own| own.len() / rows);
     if rows > FEW && counts.iter().all(|count| *count > FEW) {
-        let [a, b] = [(a, counts[0]), (b, counts[1])].map(|(of, n)| DMatrixView::from_slice(of, rows, n));
+        let [a, b] =
+            [(a, counts[0]), (b, counts[1])].map(|(of, n)| DMatrixView::from_slice(of, rows, n));
         return SmallVec::from_vec((a.transpose() * b).data.into());
     }
     let mut out = Entries::new();
     for own in b.chunks_exact(rows) {
-        out.extend(a.chunks_exact(rows).map(|other| sum_of_products(other, own)));
+        out.extend(
+            a.chunks_exact(rows)
+                .map(|other| sum_of_products(other, own)),
+        );
     }
     out
 }
@@ -287,51 +345,90 @@ impl<'a> Balance<'a> {
         let rows = geometry.rows();
         let (n, count) = (system.mechanics.dofs, system.verticals());
         let stays = |k: usize| {
-            !moving.contains(&k) && !system.mechanics.structures.iter().any(|range| range.contains(&k))
+            !moving.contains(&k)
+                && !system
+                    .mechanics
+                    .structures
+                    .iter()
+                    .any(|range| range.contains(&k))
         };
         let staying: Numbers = (0..n).filter(|&k| stays(k)).collect();
         let all = static_compliance(solver)?;
-        let guides = || system.guides().iter().enumerate().map(|(k, &l)| (system.verticals() + k, l));
+        let guides = || {
+            system
+                .guides()
+                .iter()
+                .enumerate()
+                .map(|(k, &l)| (system.verticals() + k, l))
+        };
         let constant: Values = (0..count)
             .map(|i| {
-                let staid = staying.iter().map(|&k| rows.approach_row(i)[k] * at.q[k]).sum::<f64>();
-                let taken = guides().map(|(place, l)| all[(i, place)] * at.force[l]).sum::<f64>();
+                let staid = staying
+                    .iter()
+                    .map(|&k| rows.approach_row(i)[k] * at.q[k])
+                    .sum::<f64>();
+                let taken = guides()
+                    .map(|(place, l)| all[(i, place)] * at.force[l])
+                    .sum::<f64>();
                 rows.approach_offset[i] + staid - taken
             })
             .collect();
-        let share: Values =
-            (0..count).map(|i| system.mechanics.groups[i].count() * geometry.fraction(i)).collect();
-        let reach = |i: usize| if moving.is_empty() { Some(constant[i]) } else { None };
-        let active: Numbers =
-            (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
+        let share: Values = (0..count)
+            .map(|i| system.mechanics.groups[i].count() * geometry.fraction(i))
+            .collect();
+        let reach = |i: usize| {
+            if moving.is_empty() {
+                Some(constant[i])
+            } else {
+                None
+            }
+        };
+        let active: Numbers = (0..count)
+            .filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0))
+            .collect();
         let mut gravity = Cow::Borrowed(&system.mechanics.gravity);
         if !system.mechanics.carried.is_empty() {
             let weight = gravity.to_mut();
-            system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), weight);
+            system
+                .mechanics
+                .carried
+                .weigh(&system.mechanics.kinematics, (at.t, &at.q), weight);
         }
-        let mut weight: Values =
-            moving.iter().map(|&k| gravity[k] + pull_of_springs(solver, k, at)).collect();
+        let mut weight: Values = moving
+            .iter()
+            .map(|&k| gravity[k] + pull_of_springs(solver, k, at))
+            .collect();
         for load in &system.scene.actuators.loads {
-            if let Some(j) = moving.iter().position(|&k| system.mechanics.loaded(load) == Some(k)) {
+            if let Some(j) = moving
+                .iter()
+                .position(|&k| system.mechanics.loaded(load) == Some(k))
+            {
                 weight[j] += load.value.at(at.t);
             }
         }
         // Where a rail slopes, its force on the hub has a longitudinal component, which turns the body.
-        let tilted = |i: usize, k: usize| (rows.force_row(i)[k] - rows.approach_row(i)[k]) * at.force[i];
+        let tilted =
+            |i: usize, k: usize| (rows.force_row(i)[k] - rows.approach_row(i)[k]) * at.force[i];
         for (j, &k) in moving.iter().enumerate() {
             weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
-            weight[j] -= guides().map(|(_, l)| rows.force_row(l)[k] * at.force[l]).sum::<f64>();
+            weight[j] -= guides()
+                .map(|(_, l)| rows.force_row(l)[k] * at.force[l])
+                .sum::<f64>();
         }
         let each = largest(&weight) / active.len().max(1) as f64;
         let springs = stiffness_of_springs(solver, &moving, at);
         let begun: Values = moving.iter().map(|&k| entry[k]).collect();
-        let pull =
-            springs.chunks(moving.len().max(1)).map(|column| sum_of_products(column, &begun)).collect();
+        let pull = springs
+            .chunks(moving.len().max(1))
+            .map(|column| sum_of_products(column, &begun))
+            .collect();
         let column = |&k: &usize| (0..count).map(move |i| rows.approach_row(i)[k]);
         Ok(Balance {
             compliance: all,
             rows: moving.iter().flat_map(column).collect(),
-            p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
+            p: (0..count)
+                .map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each)))
+                .collect(),
             q: SmallVec::from_elem(0.0, moving.len()),
             force: SmallVec::from_elem(0.0, count),
             factors: Default::default(),
@@ -352,7 +449,9 @@ impl<'a> Balance<'a> {
             if self.active.is_empty() {
                 return self.moving.is_empty();
             }
-            let Some(converged) = self.iterate() else { return false };
+            let Some(converged) = self.iterate() else {
+                return false;
+            };
             if !self.sweep() {
                 return converged;
             }
@@ -374,7 +473,11 @@ impl<'a> Balance<'a> {
             Some(&lever * forces)
         };
         let none = || DVector::zeros(self.moving.len());
-        let carried = if lever.is_empty() { none() } else { by_contacts().unwrap_or_else(none) };
+        let carried = if lever.is_empty() {
+            none()
+        } else {
+            by_contacts().unwrap_or_else(none)
+        };
         let largest = weight.amax();
         let relative = |j: usize| {
             let size = self.weight[j].abs() + largest * rows.column(j).amax();
@@ -385,7 +488,9 @@ impl<'a> Balance<'a> {
             return None;
         }
         let numbers = &self.system.mechanics.kinematics.numbers;
-        numbers.iter().position(|own| own.contains(&Some(self.moving[worst])))
+        numbers
+            .iter()
+            .position(|own| own.contains(&Some(self.moving[worst])))
     }
 
     /// Newton's method with the active contacts; under linear laws the first iterate is the solution. Returns `None` if they
@@ -400,7 +505,8 @@ impl<'a> Balance<'a> {
                 return Some(true);
             }
             let depth = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
-            if change <= CONVERGED * depth || (change <= STAGNANT * depth && change >= 0.5 * before) {
+            if change <= CONVERGED * depth || (change <= STAGNANT * depth && change >= 0.5 * before)
+            {
                 return Some(true);
             }
             before = change;
@@ -413,7 +519,12 @@ impl<'a> Balance<'a> {
     /// stops. Sets q.
     fn linearised(&mut self) -> Option<Values> {
         let (size, count) = (self.active.len(), self.share.len());
-        let Balance { active, compliance, factors: [factors, of_dofs], .. } = self;
+        let Balance {
+            active,
+            compliance,
+            factors: [factors, of_dofs],
+            ..
+        } = self;
         let mut free = Values::new();
         let mut own = Values::new();
         for &i in active.iter() {
@@ -435,17 +546,33 @@ impl<'a> Balance<'a> {
             lever.extend(active.iter().map(|&i| rows[i]));
         }
         let mut by_lever = lever.clone();
-        if !by_lever.chunks_exact_mut(size).all(|column| factors.solve(column)) || !factors.solve(&mut free) {
+        if !by_lever
+            .chunks_exact_mut(size)
+            .all(|column| factors.solve(column))
+            || !factors.solve(&mut free)
+        {
             return None;
         }
         let by_free = free;
         let mut stiffness = transposed_product(&lever, &by_lever, size);
-        let carried = lever.chunks_exact(size).map(|lever| sum_of_products(lever, &by_free));
-        let mut balance: Values =
-            self.weight.iter().zip(carried).map(|(weight, carried)| weight - carried).collect();
+        let carried = lever
+            .chunks_exact(size)
+            .map(|lever| sum_of_products(lever, &by_free));
+        let mut balance: Values = self
+            .weight
+            .iter()
+            .zip(carried)
+            .map(|(weight, carried)| weight - carried)
+            .collect();
         let moving = self.moving.len();
-        stiffness.iter_mut().zip(&self.springs).for_each(|(sum, own)| *sum += own);
-        balance.iter_mut().zip(&self.pull).for_each(|(sum, own)| *sum += own);
+        stiffness
+            .iter_mut()
+            .zip(&self.springs)
+            .for_each(|(sum, own)| *sum += own);
+        balance
+            .iter_mut()
+            .zip(&self.pull)
+            .for_each(|(sum, own)| *sum += own);
         let mut next = balance.clone();
         of_dofs.replace(moving, |matrix| {
             (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving).copied()));
@@ -455,7 +582,11 @@ impl<'a> Balance<'a> {
         }
         let scale = largest(&self.weight).max(f64::MIN_POSITIVE);
         let product = |columns: &[f64], r: usize, rows: usize| {
-            let terms = columns[r..].iter().step_by(rows).zip(&next).map(|(entry, q)| entry * q);
+            let terms = columns[r..]
+                .iter()
+                .step_by(rows)
+                .zip(&next)
+                .map(|(entry, q)| entry * q);
             terms.reduce(|sum, term| sum + term).unwrap_or(0.0)
         };
         let residual = |j: usize| (product(&stiffness, j, moving) - balance[j]).abs();
@@ -463,7 +594,9 @@ impl<'a> Balance<'a> {
         if !(balanced && next.iter().all(|q| q.is_finite())) {
             return None;
         }
-        let solved = (0..size).map(|r| product(&by_lever, r, size) + by_free[r]).collect();
+        let solved = (0..size)
+            .map(|r| product(&by_lever, r, size) + by_free[r])
+            .collect();
         self.q = next;
         Some(solved)
     }
@@ -476,9 +609,14 @@ impl<'a> Balance<'a> {
         for (r, &i) in self.active.iter().enumerate() {
             let (law, share) = (self.system.law(i), self.share[i]);
             let point = law.at(self.p[i], 0.0);
-            let wanted = self.p[i] + (solved[r] - share * point.force) / (share * point.by_penetration);
+            let wanted =
+                self.p[i] + (solved[r] - share * point.force) / (share * point.by_penetration);
             let floor = 0.1 * self.p[i].abs();
-            let bounded = if law.exponent == 1.0 { wanted } else { wanted.max(floor) };
+            let bounded = if law.exponent == 1.0 {
+                wanted
+            } else {
+                wanted.max(floor)
+            };
             change = change.max((bounded - self.p[i]).abs());
             self.p[i] = bounded;
             self.force[i] = solved[r];
@@ -492,11 +630,18 @@ impl<'a> Balance<'a> {
         let before = self.active.clone();
         let system = self.system;
         let force = &self.force;
-        self.active.retain(|i| force[*i] >= 0.0 || system.law(*i).bilateral);
+        self.active
+            .retain(|i| force[*i] >= 0.0 || system.law(*i).bilateral);
         for i in (0..self.share.len()).filter(|i| !before.contains(i) && self.share[*i] > 0.0) {
             let row = self.rows[i..].iter().step_by(self.share.len());
             let reach: f64 = row.zip(&self.q).map(|(r, q)| r * q).sum();
-            let give: f64 = self.compliance.row(i).iter().zip(&self.force).map(|(g, f)| g * f).sum();
+            let give: f64 = self
+                .compliance
+                .row(i)
+                .iter()
+                .zip(&self.force)
+                .map(|(g, f)| g * f)
+                .sum();
             self.p[i] = self.constant[i] + reach - give;
             if self.p[i] > 1e-13 * deepest {
                 self.active.push(i);

@@ -34,13 +34,18 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
         place_below_ropes(solver, at)?;
         rest_hanging(solver, &hanging, at)?;
         let tensions: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
-        let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
+        let scale = tensions
+            .iter()
+            .fold(weight(solver), |max, force| max.max(force.abs()));
         let pairs = tensions.iter().zip(&before);
         let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
         // A stiff stop holds its force no better than the positions are rounded from which it is found. The tension of a
         // rope does not change to first order when the rope inclines, so the displacements are checked as well.
         let local = solver.geometry().local();
-        let noise = system.springs().iter().fold(0.0_f64, |most, &i| most.max(local[i].spring.noise));
+        let noise = system
+            .springs()
+            .iter()
+            .fold(0.0_f64, |most, &i| most.max(local[i].spring.noise));
         if moved <= (1e-12 * scale).max(noise) && has_settled(&places, at) {
             return Ok(());
         }
@@ -48,7 +53,10 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
         places.copy_from(&at.q);
         balance_wheels(solver, at)?;
     }
-    Err(Error::NoEquilibrium { time: at.t, body: None })
+    Err(Error::NoEquilibrium {
+        time: at.t,
+        body: None,
+    })
 }
 
 fn weight(solver: &Solver) -> f64 {
@@ -60,7 +68,9 @@ fn weight(solver: &Solver) -> f64 {
 fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<(), Error> {
     let mut potential = springs_at(solver, hanging, at)?;
     for _ in 0..ITERATIONS {
-        let Some(step) = descent(solver, hanging, at) else { break };
+        let Some(step) = descent(solver, hanging, at) else {
+            break;
+        };
         let start = at.q.clone();
         let mut share = 1.0;
         loop {
@@ -74,7 +84,9 @@ fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Resul
             }
             share *= 0.5;
         }
-        let size = hanging.iter().fold(1.0_f64, |max, &k| max.max(at.q[k].abs()));
+        let size = hanging
+            .iter()
+            .fold(1.0_f64, |max, &k| max.max(at.q[k].abs()));
         if share * step.amax() <= 1e-15 * size {
             break;
         }
@@ -87,7 +99,10 @@ fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Resul
 fn springs_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
     let system = solver.system();
     solver.update(at)?;
-    let mut potential = -hanging.iter().map(|&k| static_load(solver, k, at.t) * at.q[k]).sum::<f64>();
+    let mut potential = -hanging
+        .iter()
+        .map(|&k| static_load(solver, k, at.t) * at.q[k])
+        .sum::<f64>();
     for &i in system.springs() {
         let hold = &solver.geometry().local()[i].spring;
         let p = solver.geometry().approach(i, &at.q).max(0.0);
@@ -99,8 +114,12 @@ fn springs_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<
 
 fn static_load(solver: &Solver, number: usize, t: f64) -> f64 {
     let system = solver.system();
-    let loads =
-        system.scene.actuators.loads.iter().filter(|load| system.mechanics.loaded(load) == Some(number));
+    let loads = system
+        .scene
+        .actuators
+        .loads
+        .iter()
+        .filter(|load| system.mechanics.loaded(load) == Some(number));
     system.mechanics.gravity[number] + loads.map(|load| load.value.at(t)).sum::<f64>()
 }
 
@@ -113,7 +132,10 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
     let mut matrix = DMatrix::zeros(size, size);
     let mut row = vec![0.0; n];
     for &i in system.springs() {
-        let (hold, own) = (&solver.geometry().local()[i].spring, solver.geometry().rows().approach_row(i));
+        let (hold, own) = (
+            &solver.geometry().local()[i].spring,
+            solver.geometry().rows().approach_row(i),
+        );
         if at.force[i] <= 0.0 {
             continue;
         }
@@ -127,7 +149,8 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
                 let lean = scalar(unit, hold.direction);
                 row.fill(0.0);
                 points.add_row(&system.mechanics, (at.t, &at.q), unit, &mut row);
-                let across = DVector::from_fn(size, |r, _| row[hanging[r]] - lean * own[hanging[r]]);
+                let across =
+                    DVector::from_fn(size, |r, _| row[hanging[r]] - lean * own[hanging[r]]);
                 matrix += &across * across.transpose() * (at.force[i] / hold.length);
             }
         }
@@ -146,19 +169,30 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
 pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     for &b in &system.scene.actuators.hanging {
-        let ropes = (0..system.scene.actuators.ropes.len()).filter_map(|index| Some(system.rope(index)?.1));
+        let ropes =
+            (0..system.scene.actuators.ropes.len()).filter_map(|index| Some(system.rope(index)?.1));
         let mut ends = ropes.filter_map(|rope| {
             let [from, to] = rope.ends()?;
             let is_own = |end: &Point| end.body == Some(b);
             let at_from = is_own(from).then_some((rope.rope, to, from));
-            if is_own(to) { Some((rope.rope, from, to)) } else { at_from }
+            if is_own(to) {
+                Some((rope.rope, from, to))
+            } else {
+                at_from
+            }
         });
-        let Some((rope, other, own)) = ends.next() else { continue };
+        let Some((rope, other, own)) = ends.next() else {
+            continue;
+        };
         let place = other.position(&system.mechanics, at.t, &at.q);
         let weight = system.scene.bodies[b].mass * system.scene.gravity;
         let stretched = rope.length * (1.0 + weight / rope.stiffness);
         let wanted = [place[0], place[1] - stretched, place[2]];
-        for (axis, number) in system.mechanics.kinematics.numbers[b].iter().take(3).enumerate() {
+        for (axis, number) in system.mechanics.kinematics.numbers[b]
+            .iter()
+            .take(3)
+            .enumerate()
+        {
             if let Some(number) = *number {
                 at.q[number] = wanted[axis] - own.at[axis];
             }
@@ -170,12 +204,21 @@ pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(
 /// Translational degrees of freedom of the hanging bodies that are attached to ropes or stops.
 fn hanging(system: &System) -> Vec<usize> {
     let is_joined = |b: usize| {
-        let mut points = system.springs().iter().filter_map(|&i| system.elements[i].points());
+        let mut points = system
+            .springs()
+            .iter()
+            .filter_map(|&i| system.elements[i].points());
         points.any(|points| points.is_on(b))
     };
     let bodies = system.scene.actuators.hanging.iter();
     bodies
         .filter(|&&b| is_joined(b))
-        .flat_map(|&b| system.mechanics.kinematics.numbers[b].iter().take(3).flatten().copied())
+        .flat_map(|&b| {
+            system.mechanics.kinematics.numbers[b]
+                .iter()
+                .take(3)
+                .flatten()
+                .copied()
+        })
         .collect()
 }

@@ -57,7 +57,11 @@ pub fn natural_modes(
     let mut solver = Solver::new(&system, RailMemory::Known)?;
     let mut state = system.state();
     state.t = t;
-    for (body, numbers) in still.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
+    for (body, numbers) in still
+        .bodies
+        .iter()
+        .zip(&system.mechanics.kinematics.numbers)
+    {
         for (number, value) in numbers.iter().zip(body.start) {
             if let Some(number) = *number {
                 state.q[number] = value;
@@ -68,7 +72,10 @@ pub fn natural_modes(
     place_below_ropes(&mut solver, &mut state)?;
     equilibrate(&mut solver, &mut state)?;
     if !settle(&mut solver, &mut state)? {
-        return Err(Error::NoEquilibrium { time: t, body: None });
+        return Err(Error::NoEquilibrium {
+            time: t,
+            body: None,
+        });
     }
     let mass = mass(&solver, &state);
     let stiffness = stiffness(&mut solver, &state, &mass)?;
@@ -77,9 +84,25 @@ pub fn natural_modes(
 
 /// The scene at rest, without prescribed motions, drives, brakes, damping and friction.
 fn stilled(scene: &Scene, place: &[f64]) -> Scene {
-    let mut still = Scene { gauges: Vec::new(), analysis: Analysis::Dynamic, ..scene.clone() };
-    let Actuators { loads, ropes, stops, hanging: hung, .. } = still.actuators;
-    still.actuators = Actuators { loads, ropes, stops, hanging: hung, ..Actuators::default() };
+    let mut still = Scene {
+        gauges: Vec::new(),
+        analysis: Analysis::Dynamic,
+        ..scene.clone()
+    };
+    let Actuators {
+        loads,
+        ropes,
+        stops,
+        hanging: hung,
+        ..
+    } = still.actuators;
+    still.actuators = Actuators {
+        loads,
+        ropes,
+        stops,
+        hanging: hung,
+        ..Actuators::default()
+    };
     for (body, x) in still.bodies.iter_mut().zip(place) {
         if body.motion.take().is_some() {
             body.free[0] = false;
@@ -127,7 +150,10 @@ fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMa
     let n = solver.system().mechanics.dofs;
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(*p));
     let step = MOVE * if depth > 0.0 { depth } else { MOVE };
-    let lost = Error::NoEquilibrium { time: at.t, body: None };
+    let lost = Error::NoEquilibrium {
+        time: at.t,
+        body: None,
+    };
     let mut probe = at.clone();
     let mut out = DMatrix::zeros(n, n);
     for j in 0..n {
@@ -146,7 +172,11 @@ fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMa
 }
 
 /// Modes of K and M without rigid-body motions; `None` if M is not positive definite.
-fn modes(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<NaturalMode>> {
+fn modes(
+    system: &System,
+    mass: &DMatrix<f64>,
+    stiffness: &DMatrix<f64>,
+) -> Option<Vec<NaturalMode>> {
     let lower = mass.clone().cholesky()?.l();
     let half = lower.solve_lower_triangular(stiffness)?;
     let whole = lower.solve_lower_triangular(&half.transpose())?;
@@ -161,11 +191,24 @@ fn modes(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Opti
         let shape = upper.solve_upper_triangular(&eigen.eigenvectors.column(k))?;
         let energy = shape.component_mul(&(mass * &shape));
         let own = |number: &Option<usize>| number.map_or(0.0, |number| energy[number]);
-        let share: Vec<[f64; 6]> =
-            system.mechanics.kinematics.numbers.iter().map(|of| of.each_ref().map(own)).collect();
-        let structures =
-            system.mechanics.structures.iter().flat_map(|range| range.clone().map(|i| energy[i])).sum();
-        modes.push(NaturalMode { omega: square.sqrt(), fraction: share, structures });
+        let share: Vec<[f64; 6]> = system
+            .mechanics
+            .kinematics
+            .numbers
+            .iter()
+            .map(|of| of.each_ref().map(own))
+            .collect();
+        let structures = system
+            .mechanics
+            .structures
+            .iter()
+            .flat_map(|range| range.clone().map(|i| energy[i]))
+            .sum();
+        modes.push(NaturalMode {
+            omega: square.sqrt(),
+            fraction: share,
+            structures,
+        });
     }
     modes.sort_by(|a, b| a.omega.total_cmp(&b.omega));
     Some(modes)

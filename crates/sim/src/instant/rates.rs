@@ -13,7 +13,11 @@ const ITERATIONS: usize = 30;
 /// each Newton iteration the contact forces are solved at the current rates, and the rates are corrected by the
 /// solution of G C dr = residual of p, where C holds the derivatives of the laws with respect to the rates. The
 /// iteration stops when the residual is at the level of rounding and no longer halves. Returns whether it converged.
-pub(crate) fn solve_rates_of(solver: &mut Solver, unknown: &[usize], at: &mut State) -> Result<bool, Error> {
+pub(crate) fn solve_rates_of(
+    solver: &mut Solver,
+    unknown: &[usize],
+    at: &mut State,
+) -> Result<bool, Error> {
     let system = solver.system();
     let m = system.elements.len();
     let slope = |solver: &Solver, at: &State, i: usize| {
@@ -27,7 +31,9 @@ pub(crate) fn solve_rates_of(solver: &mut Solver, unknown: &[usize], at: &mut St
         }
         let residual = DVector::from_iterator(
             unknown.len(),
-            unknown.iter().map(|&i| at.p[i] - solver.solved_penetration(i, &at.force)),
+            unknown
+                .iter()
+                .map(|&i| at.p[i] - solver.solved_penetration(i, &at.force)),
         );
         let size = residual.amax();
         let scale = unknown.iter().map(|&i| at.p[i].abs()).fold(0.0, f64::max);
@@ -39,11 +45,17 @@ pub(crate) fn solve_rates_of(solver: &mut Solver, unknown: &[usize], at: &mut St
             let (i, j) = (unknown[r], unknown[c]);
             solver.geometry().rails().value[i * m + j] * slope(solver, at, j)
         });
-        let Some(change) = matrix.lu().solve(&residual) else { return Ok(false) };
+        let Some(change) = matrix.lu().solve(&residual) else {
+            return Ok(false);
+        };
         for (&i, change) in unknown.iter().zip(change.iter()) {
             at.p_rate[i] -= change;
         }
     }
     Ok(unknown.is_empty()
-        || last <= 1e-9 * at.p[..system.verticals()].iter().fold(0.0, |max, p| p.abs().max(max)))
+        || last
+            <= 1e-9
+                * at.p[..system.verticals()]
+                    .iter()
+                    .fold(0.0, |max, p| p.abs().max(max)))
 }

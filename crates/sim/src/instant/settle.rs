@@ -25,7 +25,11 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
 ///
 /// # Errors
 /// Any error from evaluating the rails.
-pub(crate) fn settle_within(solver: &mut Solver, at: &mut State, slack: f64) -> Result<bool, Error> {
+pub(crate) fn settle_within(
+    solver: &mut Solver,
+    at: &mut State,
+    slack: f64,
+) -> Result<bool, Error> {
     let count = solver.system().verticals();
     solver.update(at)?;
     solver.settle_springs(at);
@@ -80,7 +84,9 @@ pub(crate) fn settle_jump(solver: &mut Solver, at: &mut State) -> Result<bool, E
             .into_iter()
             .filter(|&i| solver.opens(i, at))
             .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
-        let Some(i) = weakest else { return settle(solver, at) };
+        let Some(i) = weakest else {
+            return settle(solver, at);
+        };
         solver.open(i, at);
     }
     Ok(false)
@@ -100,7 +106,10 @@ pub(crate) fn settle_start(solver: &mut Solver, at: &mut State) -> Result<bool, 
     if !settle(solver, at)? {
         return Ok(false);
     }
-    let scale = at.force.iter().fold(0.0_f64, |max, force| max.max(force.abs()));
+    let scale = at
+        .force
+        .iter()
+        .fold(0.0_f64, |max, force| max.max(force.abs()));
     let mut last = at.force.clone();
     for _ in 0..ROUNDS {
         if !solver.follow_rails(at) {
@@ -112,7 +121,10 @@ pub(crate) fn settle_start(solver: &mut Solver, at: &mut State) -> Result<bool, 
         if !is_settled {
             return Ok(false);
         }
-        let change = last.iter().zip(&at.force).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+        let change = last
+            .iter()
+            .zip(&at.force)
+            .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
         if change <= 1e-13 * scale {
             break;
         }
@@ -128,7 +140,11 @@ fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
     let law = system.law(i);
     if solver.geometry().own_compliance(i) * law.stiffness > RIGID {
         let point = law.at(at.p[i], 0.0);
-        if point.by_rate > 0.0 { (ROUNDING - 1.0) * point.force / point.by_rate } else { 0.0 }
+        if point.by_rate > 0.0 {
+            (ROUNDING - 1.0) * point.force / point.by_rate
+        } else {
+            0.0
+        }
     } else {
         solver.approach_rate(i, at)
     }

@@ -20,12 +20,19 @@ pub(crate) fn locate_wheels(solver: &mut Solver, at: &State) -> Result<(), Error
     }
     solver.update(at)?;
     for w in 0..system.mechanics.wheels.len() {
-        let Some(shape) = system.mechanics.irregularity(w) else { continue };
-        let acceleration = solver.geometry().places().travel
-            [system.mechanics.kinematics.root(system.mechanics.wheels[w].body)]
+        let Some(shape) = system.mechanics.irregularity(w) else {
+            continue;
+        };
+        let acceleration = solver.geometry().places().travel[system
+            .mechanics
+            .kinematics
+            .root(system.mechanics.wheels[w].body)]
         .a;
         let speed = system.mechanics.speed_along(w, at);
-        let direction = [speed, acceleration].into_iter().find(|d| *d != 0.0).unwrap_or(1.0);
+        let direction = [speed, acceleration]
+            .into_iter()
+            .find(|d| *d != 0.0)
+            .unwrap_or(1.0);
         let piece = shape.piece(solver.geometry().places().x[w], direction, 0);
         solver.set_piece(w, piece);
     }
@@ -38,9 +45,14 @@ pub(crate) fn pass_corners(solver: &mut Solver, at: &mut State) -> Result<bool, 
     let mut jump = vec![0.0; system.verticals()];
     let mut crosses = false;
     for w in 0..system.mechanics.wheels.len() {
-        let Some(shape) = system.mechanics.irregularity(w) else { continue };
+        let Some(shape) = system.mechanics.irregularity(w) else {
+            continue;
+        };
         let places = solver.geometry().places();
-        let (x, current) = (places.of_wheel(&system.mechanics, w, &at.q), places.piece[w]);
+        let (x, current) = (
+            places.of_wheel(&system.mechanics, w, &at.q),
+            places.piece[w],
+        );
         let next = shape.piece(x, system.mechanics.speed_along(w, at), current);
         if next == current {
             continue;
@@ -55,8 +67,9 @@ pub(crate) fn pass_corners(solver: &mut Solver, at: &mut State) -> Result<bool, 
     if crosses {
         solver.update(at)?;
         strike(solver, &jump, at);
-        let felt: Vec<usize> =
-            (0..system.verticals()).filter(|&i| solver.remembers(i) && !solver.is_on_rigid_rail(i)).collect();
+        let felt: Vec<usize> = (0..system.verticals())
+            .filter(|&i| solver.remembers(i) && !solver.is_on_rigid_rail(i))
+            .collect();
         // Only the rates are affected, so an approximate result is sufficient and the return value is not checked.
         solve_rates_of(solver, &felt, at)?;
     }
@@ -77,12 +90,17 @@ fn strike(solver: &Solver, jump: &[f64], at: &mut State) {
         let grown = if law.bilateral {
             step_integral(law.depth, to) - step_integral(law.depth, from)
         } else {
-            (step_integral(law.depth, to.max(0.0)) - step_integral(law.depth, from.max(0.0))).max(0.0)
+            (step_integral(law.depth, to.max(0.0)) - step_integral(law.depth, from.max(0.0)))
+                .max(0.0)
         };
-        let impulse =
-            system.mechanics.groups[i].count() * solver.geometry().fraction(i) * law.damping * grown;
+        let impulse = system.mechanics.groups[i].count()
+            * solver.geometry().fraction(i)
+            * law.damping
+            * grown;
         solver.apply_inverse(solver.geometry().rows().force_row(i), &mut response);
-        at.v.iter_mut().zip(&response).for_each(|(v, by)| *v -= by * impulse);
+        at.v.iter_mut()
+            .zip(&response)
+            .for_each(|(v, by)| *v -= by * impulse);
     }
     follow_rigid_rails(solver, at);
 }

@@ -90,7 +90,11 @@ impl<'a> Mechanics<'a> {
                 numbers
             })
             .collect();
-        let Wheels { points: wheels, groups, of_contact } = Wheels::new(scene, foundations, &mut next)?;
+        let Wheels {
+            points: wheels,
+            groups,
+            of_contact,
+        } = Wheels::new(scene, foundations, &mut next)?;
         let structures: Vec<Range<usize>> = foundations
             .iter()
             .map(|foundation| {
@@ -102,7 +106,10 @@ impl<'a> Mechanics<'a> {
         let mut kinematics = Kinematics::new(scene, numbers)?;
         let carried = CarriedBodies::new(foundations, &kinematics)?;
         kinematics.add_masses(foundations, &structures, |b| carried.has(b));
-        let coordinates = wheels.iter().map(|wheel| RailCoordinate::new(&kinematics, wheel)).collect();
+        let coordinates = wheels
+            .iter()
+            .map(|wheel| RailCoordinate::new(&kinematics, wheel))
+            .collect();
         let mut mechanics = Mechanics {
             coordinates,
             scene,
@@ -123,13 +130,18 @@ impl<'a> Mechanics<'a> {
             gravity: DVector::zeros(dofs),
         };
         mechanics.assemble()?;
-        mechanics.moves_freely = mechanics.coordinates.iter().any(|coordinate| !coordinate.terms.is_empty());
+        mechanics.moves_freely = mechanics
+            .coordinates
+            .iter()
+            .any(|coordinate| !coordinate.terms.is_empty());
         Ok(mechanics)
     }
 
     /// Number of degrees of freedom of bodies and spins, which are numbered first.
     pub fn body_dofs(&self) -> usize {
-        self.structures.first().map_or(self.dofs, |range| range.start)
+        self.structures
+            .first()
+            .map_or(self.dofs, |range| range.start)
     }
 
     /// Whether any structure has degrees of freedom of its own.
@@ -139,7 +151,9 @@ impl<'a> Mechanics<'a> {
 
     /// Whether any structure is loaded along its rails.
     pub fn has_sliding_rails(&self) -> bool {
-        self.foundations.iter().any(|foundation| foundation.is_loaded_along)
+        self.foundations
+            .iter()
+            .any(|foundation| foundation.is_loaded_along)
     }
 
     /// The wheel groups that `wheel` belongs to: a single one, or one for each rigid part of the rail.
@@ -163,20 +177,36 @@ impl<'a> Mechanics<'a> {
     pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
         let contact = &self.scene.contacts[self.wheels[w].contact];
         let shapes = &self.foundations[contact.structure].irregularities;
-        shapes.get(contact.rail).filter(|shape| !shape.is_straight())
+        shapes
+            .get(contact.rail)
+            .filter(|shape| !shape.is_straight())
     }
 
     /// Displacements and velocities of body `b` in all six degrees of freedom at time `t`.
-    pub fn body(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+    pub fn body(
+        &self,
+        b: usize,
+        t: f64,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> ([f64; 6], [f64; 6]) {
         self.kinematics.motion(b, t, q, v)
     }
 
     /// Velocity of the hub of wheel `w` along its rail.
     pub fn speed_along(&self, w: usize, at: &State) -> f64 {
         let coordinate = &self.coordinates[w];
-        let travel =
-            |root: usize| self.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(at.t).v);
-        let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * at.v[number]).sum();
+        let travel = |root: usize| {
+            self.scene.bodies[root]
+                .motion
+                .as_ref()
+                .map_or(0.0, |motion| motion.at(at.t).v)
+        };
+        let moved: f64 = coordinate
+            .terms
+            .iter()
+            .map(|&(number, share)| share * at.v[number])
+            .sum();
         coordinate.driven.map_or(0.0, travel) + moved
     }
 
@@ -185,7 +215,8 @@ impl<'a> Mechanics<'a> {
         const ROLL: usize = BodyDof::Roll as usize;
         let body = self.wheels[w].body;
         let terms = self.kinematics.terms(body)[ROLL].iter();
-        self.kinematics.constant(body)[ROLL] + terms.map(|&(number, share)| share * q[number]).sum::<f64>()
+        self.kinematics.constant(body)[ROLL]
+            + terms.map(|&(number, share)| share * q[number]).sum::<f64>()
     }
 
     /// Angle, angular velocity and angular acceleration of wheel `w` at `t`; `None` where its spin is not prescribed.
@@ -195,25 +226,43 @@ impl<'a> Mechanics<'a> {
 
     /// Moment of inertia of wheel `w` about its axle.
     pub fn spin_inertia(&self, w: usize) -> f64 {
-        self.scene.wheels[self.wheels[w].kind].spin_inertia.unwrap_or_default()
+        self.scene.wheels[self.wheels[w].kind]
+            .spin_inertia
+            .unwrap_or_default()
     }
 
     /// Rotational kinetic energy of the wheels whose spin is prescribed. The kinetic energy of their bodies is not
     /// included.
     pub fn energy_of_turns(&self, t: f64) -> f64 {
         let all = (0..self.wheels.len()).filter_map(|w| Some((w, self.turn(w, t)?)));
-        all.map(|(w, at)| 0.5 * self.spin_inertia(w) * at.v * at.v).sum()
+        all.map(|(w, at)| 0.5 * self.spin_inertia(w) * at.v * at.v)
+            .sum()
     }
 
     fn assemble(&mut self) -> Result<(), Error> {
         let bodies = self.body_dofs();
         let mut mass = DMatrix::zeros(bodies, bodies);
-        for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !self.carried.has(*b)) {
+        for (b, body) in self
+            .scene
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(b, _)| !self.carried.has(*b))
+        {
             self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
             let line = arm_rows(body.cg)[1].map(|arm| body.mass * arm);
-            add_weight(&mut self.gravity, self.scene, self.kinematics.terms(b), &line);
+            add_weight(
+                &mut self.gravity,
+                self.scene,
+                self.kinematics.terms(b),
+                &line,
+            );
         }
-        for mount in self.foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
+        for mount in self
+            .foundations
+            .iter()
+            .filter_map(|foundation| foundation.carrier.as_ref())
+        {
             self.kinematics.add_mass(mount.body, &mount.mass, &mut mass);
             let terms = self.kinematics.terms(mount.body);
             add_weight(&mut self.gravity, self.scene, terms, &mount.mass[1]);
@@ -222,18 +271,24 @@ impl<'a> Mechanics<'a> {
         if !self.carried.is_empty() {
             let rest = DVector::zeros(self.dofs);
             let sums = (&mut whole, &mut rest.clone());
-            self.carried.add(&self.kinematics, (0.0, &rest, &rest), sums, &mut Vec::new());
+            self.carried
+                .add(&self.kinematics, (0.0, &rest, &rest), sums, &mut Vec::new());
         }
         let own = self.kinematics.numbers.iter().flatten().flatten().count();
         if let Some(massless) = first_massless(&whole, own) {
             for (body, numbers) in self.kinematics.numbers.iter().enumerate() {
                 if let Some(k) = numbers.iter().position(|number| *number == Some(massless)) {
-                    return Err(Error::NoInertia { body, dof: BodyDof::ALL[k] });
+                    return Err(Error::NoInertia {
+                        body,
+                        dof: BodyDof::ALL[k],
+                    });
                 }
             }
         }
         for wheel in &self.wheels {
-            if let (Some(number), Some(inertia)) = (wheel.spin, self.scene.wheels[wheel.kind].spin_inertia) {
+            if let (Some(number), Some(inertia)) =
+                (wheel.spin, self.scene.wheels[wheel.kind].spin_inertia)
+            {
                 mass[(number, number)] = inertia;
             }
         }
@@ -241,10 +296,9 @@ impl<'a> Mechanics<'a> {
         for (range, foundation) in self.structures.iter().zip(self.foundations) {
             if let Some(structure) = &foundation.structure {
                 self.blocks.push(Block::structure(range.clone(), structure));
-                let coupling = foundation
-                    .carrier
-                    .as_ref()
-                    .and_then(|mount| InertialCoupling::new(&self.kinematics, mount, range.clone(), bodies));
+                let coupling = foundation.carrier.as_ref().and_then(|mount| {
+                    InertialCoupling::new(&self.kinematics, mount, range.clone(), bodies)
+                });
                 self.couplings.extend(coupling);
             }
         }
@@ -253,11 +307,18 @@ impl<'a> Mechanics<'a> {
 }
 
 /// Frequencies of the natural modes among `dofs` degrees of freedom.
-fn frequencies(foundations: &[Foundation], structures: &[Range<usize>], dofs: usize) -> Vec<Option<f64>> {
+fn frequencies(
+    foundations: &[Foundation],
+    structures: &[Range<usize>],
+    dofs: usize,
+) -> Vec<Option<f64>> {
     let mut omegas = vec![None; dofs];
     for (range, foundation) in structures.iter().zip(foundations) {
         omegas[range.clone()].fill(Some(0.0));
-        let dynamics = foundation.structure.as_ref().map(|structure| &structure.dynamics);
+        let dynamics = foundation
+            .structure
+            .as_ref()
+            .map(|structure| &structure.dynamics);
         if let Some(Dynamics::Modes { omega, .. }) = dynamics {
             for (own, omega) in omegas[range.clone()].iter_mut().zip(omega) {
                 *own = Some(*omega);
@@ -268,11 +329,20 @@ fn frequencies(foundations: &[Foundation], structures: &[Range<usize>], dofs: us
 }
 
 /// Damping ratios of the natural modes among `dofs` degrees of freedom.
-fn damping_ratios(foundations: &[Foundation], structures: &[Range<usize>], dofs: usize) -> Vec<f64> {
+fn damping_ratios(
+    foundations: &[Foundation],
+    structures: &[Range<usize>],
+    dofs: usize,
+) -> Vec<f64> {
     let mut ratios = vec![0.0; dofs];
     for (range, foundation) in structures.iter().zip(foundations) {
-        if let Some(Dynamics::Modes { ratio, .. }) = foundation.structure.as_ref().map(|own| &own.dynamics) {
-            ratios[range.clone()].iter_mut().zip(ratio).for_each(|(own, ratio)| *own = *ratio);
+        if let Some(Dynamics::Modes { ratio, .. }) =
+            foundation.structure.as_ref().map(|own| &own.dynamics)
+        {
+            ratios[range.clone()]
+                .iter_mut()
+                .zip(ratio)
+                .for_each(|(own, ratio)| *own = *ratio);
         }
     }
     ratios

@@ -47,26 +47,38 @@ impl CarriedBodies {
                 grounded[tree] = true;
                 continue;
             };
-            let rail =
-                mount.rails.get(contact.rail).ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
+            let rail = mount.rails.get(contact.rail).ok_or(Error::NoSuch {
+                what: "rail",
+                index: contact.rail,
+            })?;
             let turn = frame(rail).ok_or(refused.clone())?;
             let [_, y, z] = hub(scene, contact.body, contact.at);
             let drop = Vector3::new(0.0, y - scene.wheels[contact.wheel].radius, z);
-            let track = Track { carrier: mount.body, turn, origin: Vector3::from(rail.origin) - turn * drop };
+            let track = Track {
+                carrier: mount.body,
+                turn,
+                origin: Vector3::from(rail.origin) - turn * drop,
+            };
             match &tracks[tree] {
                 None => tracks[tree] = Some(track),
-                Some(first) if first.carrier == track.carrier && (first.turn - turn).amax() < SLACK => {}
+                Some(first)
+                    if first.carrier == track.carrier && (first.turn - turn).amax() < SLACK => {}
                 Some(_) => return Err(refused),
             }
         }
-        for mount in foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
+        for mount in foundations
+            .iter()
+            .filter_map(|foundation| foundation.carrier.as_ref())
+        {
             if tracks[root(mount.body)].is_some() {
                 return Err(Error::Carried { body: mount.body });
             }
         }
         let mut centres = Vec::new();
         for (b, body) in scene.bodies.iter().enumerate() {
-            let Some(track) = &tracks[root(b)] else { continue };
+            let Some(track) = &tracks[root(b)] else {
+                continue;
+            };
             let loaded = scene.actuators.loads.iter().any(|load| load.body == b);
             if grounded[root(b)] || root(track.carrier) == root(b) || loaded {
                 return Err(Error::Carried { body: b });
@@ -91,7 +103,9 @@ impl CarriedBodies {
 
     /// The point `at` of body `b`; `None` where the body is not carried.
     pub fn point(&self, kinematics: &Kinematics, b: usize, at: [f64; 3]) -> Option<CarriedPoint> {
-        self.tracks[b].as_ref().map(|track| CarriedPoint::new(kinematics, track, b, at))
+        self.tracks[b]
+            .as_ref()
+            .map(|track| CarriedPoint::new(kinematics, track, b, at))
     }
 
     /// Adds the contribution of the carried bodies at (t, q, v): J^T M J to `mass` and -J^T M (bias + g) to `load`. The part
@@ -108,8 +122,9 @@ impl CarriedBodies {
         for (point, turns) in &self.centres {
             let pose = point.pose(kinematics, t, q, v);
             let body = &kinematics.scene.bodies[point.body];
-            let force =
-                (point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity) * body.mass;
+            let force = (point.bias(kinematics, t, &pose)
+                + Vector3::y() * kinematics.scene.gravity)
+                * body.mass;
             columns.clear();
             columns.extend((0..point.count()).map(|i| point.shift_by(i, &pose)));
             for (i, column) in columns.iter().enumerate() {
@@ -118,7 +133,10 @@ impl CarriedBodies {
                 let weighted = column * body.mass;
                 let turns = &turns[i * (i + 1) / 2..];
                 for ((j, other), turn) in columns[..=i].iter().enumerate().zip(turns) {
-                    let sum = other[0] * weighted[0] + other[1] * weighted[1] + other[2] * weighted[2] + turn;
+                    let sum = other[0] * weighted[0]
+                        + other[1] * weighted[1]
+                        + other[2] * weighted[2]
+                        + turn;
                     let number = point.number(j);
                     mass[number * size + row] += sum;
                     if i != j {
@@ -130,7 +148,12 @@ impl CarriedBodies {
     }
 
     /// Adds to `load` the weights of the carried bodies at (t, q): -J^T M g.
-    pub fn weigh(&self, kinematics: &Kinematics, (t, q): (f64, &DVector<f64>), load: &mut DVector<f64>) {
+    pub fn weigh(
+        &self,
+        kinematics: &Kinematics,
+        (t, q): (f64, &DVector<f64>),
+        load: &mut DVector<f64>,
+    ) {
         for (point, _) in &self.centres {
             let pose = point.pose(kinematics, t, q, q);
             let weight = kinematics.scene.bodies[point.body].mass * kinematics.scene.gravity;
@@ -141,7 +164,13 @@ impl CarriedBodies {
     }
 
     /// Kinetic energy and gravitational potential energy of the carried bodies at (t, q, v).
-    pub fn energy(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
+    pub fn energy(
+        &self,
+        kinematics: &Kinematics,
+        t: f64,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (point, _) in &self.centres {
             let pose = point.pose(kinematics, t, q, v);
@@ -155,7 +184,13 @@ impl CarriedBodies {
 
     /// Force along its track that the carried bodies require to move root `b` as its x is prescribed, at the
     /// accelerations `a`.
-    pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
+    pub fn drive(
+        &self,
+        kinematics: &Kinematics,
+        [q, v, a]: [&DVector<f64>; 3],
+        t: f64,
+        b: usize,
+    ) -> f64 {
         let mut sum = 0.0;
         for (point, _) in &self.centres {
             let roots = [point.body, point.carrier].map(|body| kinematics.root(body));
@@ -163,11 +198,16 @@ impl CarriedBodies {
                 continue;
             }
             let pose = point.pose(kinematics, t, q, v);
-            let mut acceleration = point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
+            let mut acceleration =
+                point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
             for i in 0..point.count() {
                 acceleration += point.shift_by(i, &pose) * a[point.number(i)];
             }
-            let along = if roots[0] == b { acceleration.dot(&point.along(&pose)) } else { acceleration[0] };
+            let along = if roots[0] == b {
+                acceleration.dot(&point.along(&pose))
+            } else {
+                acceleration[0]
+            };
             sum += kinematics.scene.bodies[point.body].mass * along;
         }
         sum

@@ -100,10 +100,22 @@ impl CarriedPoint {
         Rows::new(shift[0], shift[1], shift[2], spin[0], spin[1], spin[2])
     }
 
-    pub fn pose(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Pose {
+    pub fn pose(
+        &self,
+        kinematics: &Kinematics,
+        t: f64,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> Pose {
         let (own, own_speed) = kinematics.motion(self.body, t, q, v);
         let (base, base_speed) = kinematics.motion(self.carrier, t, q, v);
-        Pose { own, own_speed, base, base_speed, tilt: turned(&base).cross(&self.axis()) }
+        Pose {
+            own,
+            own_speed,
+            base,
+            base_speed,
+            tilt: turned(&base).cross(&self.axis()),
+        }
     }
 
     /// Number of degrees of freedom that move the point.
@@ -154,7 +166,9 @@ impl CarriedPoint {
         let x = pose.own[0];
         let mut rest = pose.own;
         rest[0] = 0.0;
-        self.motion(x, &Vector3::zeros(), &rest, &pose.base).fixed_rows::<3>(0) + self.axis() * x
+        self.motion(x, &Vector3::zeros(), &rest, &pose.base)
+            .fixed_rows::<3>(0)
+            + self.axis() * x
     }
 
     /// Position relative to the origin of the carrier where all displacements are zero.

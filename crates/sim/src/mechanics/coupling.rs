@@ -42,13 +42,19 @@ impl InertialCoupling {
         for (j, column) in self.between.column_iter().enumerate() {
             let own = self.range.clone();
             load[j] -= dot(column.as_slice(), &a[own.clone()]);
-            load[own].iter_mut().zip(column.iter()).for_each(|(load, inertia)| *load -= inertia * a[j]);
+            load[own]
+                .iter_mut()
+                .zip(column.iter())
+                .for_each(|(load, inertia)| *load -= inertia * a[j]);
         }
     }
 
     /// Contribution v_s^T B v_b to the kinetic energy.
     pub fn kinetic(&self, v: &DVector<f64>) -> f64 {
-        let (own, bodies) = (v.rows(self.range.start, self.range.len()), v.rows(0, self.between.ncols()));
+        let (own, bodies) = (
+            v.rows(self.range.start, self.range.len()),
+            v.rows(0, self.between.ncols()),
+        );
         own.dot(&(&self.between * bodies))
     }
 }
@@ -56,5 +62,8 @@ impl InertialCoupling {
 /// Kinetic energy 1/2 v^T M v of all degrees of freedom.
 pub(crate) fn kinetic(blocks: &[Block], couplings: &[InertialCoupling], v: &DVector<f64>) -> f64 {
     let own: f64 = blocks.iter().map(|block| block.kinetic(v.as_slice())).sum();
-    own + couplings.iter().map(|coupling| coupling.kinetic(v)).sum::<f64>()
+    own + couplings
+        .iter()
+        .map(|coupling| coupling.kinetic(v))
+        .sum::<f64>()
 }

@@ -33,18 +33,29 @@ pub(crate) enum Matrices {
 
 impl Block {
     pub fn bodies(mass: DMatrix<f64>) -> Block {
-        Block { range: 0..mass.nrows(), matrices: Matrices::Bodies(mass) }
+        Block {
+            range: 0..mass.nrows(),
+            matrices: Matrices::Bodies(mass),
+        }
     }
 
     pub fn structure(range: Range<usize>, structure: &Structure) -> Block {
         let matrices = match &structure.dynamics {
-            Dynamics::Matrices { mass, damping, stiffness } => Matrices::General {
+            Dynamics::Matrices {
+                mass,
+                damping,
+                stiffness,
+            } => Matrices::General {
                 mass: mass.clone(),
                 damping: damping.clone(),
                 stiffness: stiffness.clone(),
             },
             Dynamics::Modes { omega, ratio } => Matrices::Modes {
-                damping: omega.iter().zip(ratio).map(|(omega, ratio)| 2.0 * ratio * omega).collect(),
+                damping: omega
+                    .iter()
+                    .zip(ratio)
+                    .map(|(omega, ratio)| 2.0 * ratio * omega)
+                    .collect(),
                 stiffness: omega.iter().map(|omega| omega * omega).collect(),
             },
         };
@@ -57,7 +68,9 @@ impl Block {
         let (v, q, load) = (&v[range.clone()], &q[range.clone()], &mut load[range]);
         match &self.matrices {
             Matrices::Bodies(_) => {}
-            Matrices::General { damping, stiffness, .. } => {
+            Matrices::General {
+                damping, stiffness, ..
+            } => {
                 let moved = v.iter().zip(q);
                 for ((damping, stiffness), (v, q)) in
                     columns_of(damping).zip(columns_of(stiffness)).zip(moved)
@@ -82,7 +95,9 @@ impl Block {
             Matrices::Bodies(_) => {}
             Matrices::General { mass, .. } => {
                 for (column, a) in columns_of(mass).zip(a) {
-                    load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
+                    load.iter_mut()
+                        .zip(column)
+                        .for_each(|(load, mass)| *load -= mass * a);
                 }
             }
             Matrices::Modes { .. } => load.iter_mut().zip(a).for_each(|(load, a)| *load -= a),
@@ -143,7 +158,9 @@ impl Block {
                 Ok(factor.solve(load))
             }
             Matrices::Modes { stiffness, .. } => {
-                Ok(DMatrix::from_fn(load.nrows(), load.ncols(), |i, j| load[(i, j)] / stiffness[i]))
+                Ok(DMatrix::from_fn(load.nrows(), load.ncols(), |i, j| {
+                    load[(i, j)] / stiffness[i]
+                }))
             }
         }
     }
@@ -155,9 +172,17 @@ pub(crate) fn columns_of(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> 
 }
 
 fn quadratic(matrix: &DMatrix<f64>, x: &[f64]) -> f64 {
-    matrix.column_iter().zip(x).map(|(column, factor)| factor * dot(column.as_slice(), x)).sum()
+    matrix
+        .column_iter()
+        .zip(x)
+        .map(|(column, factor)| factor * dot(column.as_slice(), x))
+        .sum()
 }
 
 fn weighted(weights: &[f64], x: &[f64]) -> f64 {
-    weights.iter().zip(x).map(|(weight, x)| weight * x * x).sum()
+    weights
+        .iter()
+        .zip(x)
+        .map(|(weight, x)| weight * x * x)
+        .sum()
 }

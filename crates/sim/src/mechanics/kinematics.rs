@@ -62,11 +62,19 @@ impl<'a> Kinematics<'a> {
         structures: &[Range<usize>],
         is_carried: impl Fn(usize) -> bool,
     ) {
-        for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !is_carried(*b)) {
+        for (b, body) in self
+            .scene
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(b, _)| !is_carried(*b))
+        {
             self.add_mass_of_tree(b, &body.mass_matrix()[0]);
         }
         for (foundation, range) in foundations.iter().zip(structures) {
-            let Some(mount) = &foundation.carrier else { continue };
+            let Some(mount) = &foundation.carrier else {
+                continue;
+            };
             self.add_mass_of_tree(mount.body, &mount.mass[0]);
             let root = self.root[mount.body];
             for (number, row) in range.clone().zip(&mount.coupling) {
@@ -79,9 +87,17 @@ impl<'a> Kinematics<'a> {
     fn add_mass_of_tree(&mut self, b: usize, line: &[f64; 6]) {
         let root = self.root[b];
         self.mass[root] += line[0];
-        for (inertia, terms) in line.iter().zip(&self.terms[b]).filter(|(inertia, _)| **inertia != 0.0) {
+        for (inertia, terms) in line
+            .iter()
+            .zip(&self.terms[b])
+            .filter(|(inertia, _)| **inertia != 0.0)
+        {
             for &(number, coefficient) in terms {
-                add(&mut self.travel_inertia[root], number, inertia * coefficient);
+                add(
+                    &mut self.travel_inertia[root],
+                    number,
+                    inertia * coefficient,
+                );
             }
         }
     }
@@ -106,8 +122,11 @@ impl<'a> Kinematics<'a> {
             }
             let terms = self.combine(pin.body, &line);
             self.terms[b][i] = terms;
-            self.constant[b][i] =
-                line.iter().zip(&self.constant[pin.body]).map(|(l, constant)| l * constant).sum();
+            self.constant[b][i] = line
+                .iter()
+                .zip(&self.constant[pin.body])
+                .map(|(l, constant)| l * constant)
+                .sum();
             if i == 0 {
                 self.constant[b][0] += pin.at[0];
             }
@@ -136,7 +155,11 @@ impl<'a> Kinematics<'a> {
     /// freedom.
     pub fn combine(&self, b: usize, line: &[f64; 6]) -> Terms {
         let mut sum = Vec::new();
-        for (scale, terms) in line.iter().zip(&self.terms[b]).filter(|(scale, _)| **scale != 0.0) {
+        for (scale, terms) in line
+            .iter()
+            .zip(&self.terms[b])
+            .filter(|(scale, _)| **scale != 0.0)
+        {
             for &(number, coefficient) in terms {
                 add(&mut sum, number, scale * coefficient);
             }
@@ -152,7 +175,13 @@ impl<'a> Kinematics<'a> {
     }
 
     /// Displacements and velocities of body `b` in all six degrees of freedom at time `t`.
-    pub fn motion(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+    pub fn motion(
+        &self,
+        b: usize,
+        t: f64,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> ([f64; 6], [f64; 6]) {
         let body = &self.scene.bodies[b];
         if body.pinned.is_some() {
             return self.pinned_motion(b, t, q, v);
@@ -172,9 +201,18 @@ impl<'a> Kinematics<'a> {
         (displacement, speed)
     }
 
-    fn pinned_motion(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+    fn pinned_motion(
+        &self,
+        b: usize,
+        t: f64,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> ([f64; 6], [f64; 6]) {
         let (mut displacement, mut speed) = (self.apply(b, q), self.apply(b, v));
-        displacement.iter_mut().zip(&self.constant[b]).for_each(|(sum, constant)| *sum += constant);
+        displacement
+            .iter_mut()
+            .zip(&self.constant[b])
+            .for_each(|(sum, constant)| *sum += constant);
         if let Some(profile) = &self.scene.bodies[self.root[b]].motion {
             let at = profile.at(t);
             displacement[0] += at.x;

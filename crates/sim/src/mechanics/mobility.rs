@@ -41,14 +41,25 @@ impl<'a> Mobility<'a> {
     pub fn new(mechanics: &'a Mechanics) -> Result<Mobility<'a>, Error> {
         let later = !mechanics.carried.is_empty() || !mechanics.couplings.is_empty();
         let bodies = mechanics.body_dofs();
-        let mass = mechanics.blocks[0].body_mass().cloned().unwrap_or_else(|| DMatrix::zeros(bodies, bodies));
+        let mass = mechanics.blocks[0]
+            .body_mass()
+            .cloned()
+            .unwrap_or_else(|| DMatrix::zeros(bodies, bodies));
         let mut whole = Mobility {
             parts: BlockMobility::new(&mechanics.blocks, later)?,
             couplings: &mechanics.couplings,
-            answers: mechanics.couplings.iter().map(|tie| tie.between.clone()).collect(),
+            answers: mechanics
+                .couplings
+                .iter()
+                .map(|tie| tie.between.clone())
+                .collect(),
             reduced: DMatrix::zeros(bodies, bodies),
             mass,
-            pulls: mechanics.couplings.iter().map(|tie| tie.between.transpose()).collect(),
+            pulls: mechanics
+                .couplings
+                .iter()
+                .map(|tie| tie.between.transpose())
+                .collect(),
             row: DVector::zeros(bodies),
             step: 0.0,
         };
@@ -97,7 +108,9 @@ impl<'a> Mobility<'a> {
                 load.fill(0.0);
                 load[tie.range.clone()].copy_from_slice(tie.between.column(j).as_slice());
                 self.parts.apply(&load, &mut out);
-                answer.column_mut(j).copy_from_slice(&out[tie.range.clone()]);
+                answer
+                    .column_mut(j)
+                    .copy_from_slice(&out[tie.range.clone()]);
             }
             self.reduced += tie.between.transpose() * &*answer;
         }
@@ -115,7 +128,8 @@ impl<'a> Mobility<'a> {
         for (tie, pull) in self.couplings.iter().zip(&mut self.pulls) {
             for (k, mut column) in pull.column_iter_mut().enumerate() {
                 self.row.copy_from(&tie.between.row(k).transpose());
-                self.parts.apply_to_bodies(self.row.as_slice(), column.as_mut_slice());
+                self.parts
+                    .apply_to_bodies(self.row.as_slice(), column.as_mut_slice());
             }
         }
         Ok(())
@@ -127,13 +141,18 @@ impl<'a> Mobility<'a> {
         let (bodies, others) = out.split_at_mut(self.mass.nrows());
         for (tie, pull) in self.couplings.iter().zip(&self.pulls) {
             for (y, column) in others[self.own(tie)].iter().zip(pull.column_iter()) {
-                bodies.iter_mut().zip(column.iter()).for_each(|(out, p)| *out -= p * y);
+                bodies
+                    .iter_mut()
+                    .zip(column.iter())
+                    .for_each(|(out, p)| *out -= p * y);
             }
         }
         for (tie, answer) in self.couplings.iter().zip(&self.answers) {
             let own = &mut others[self.own(tie)];
             for (column, a) in answer.column_iter().zip(bodies.iter()) {
-                own.iter_mut().zip(column.iter()).for_each(|(out, y)| *out -= y * a);
+                own.iter_mut()
+                    .zip(column.iter())
+                    .for_each(|(out, y)| *out -= y * a);
             }
         }
     }
@@ -190,7 +209,10 @@ impl BlockMobility {
             };
             Ok((block.range.clone(), inverse))
         };
-        Ok(BlockMobility { step: 0.0, blocks: blocks.iter().map(of).collect::<Result<_, Error>>()? })
+        Ok(BlockMobility {
+            step: 0.0,
+            blocks: blocks.iter().map(of).collect::<Result<_, Error>>()?,
+        })
     }
 
     /// Sets the coefficient g. The block of the bodies does not depend on it.
@@ -234,11 +256,17 @@ impl Inverse {
 fn inverse_of(block: &Block, g: f64) -> Result<Inverse, Error> {
     match &block.matrices {
         Matrices::Bodies(mass) => inverse(mass.clone()).map(Inverse::Matrix),
-        Matrices::General { mass, damping, stiffness } => {
-            inverse(mass + g * damping + g * g * stiffness).map(Inverse::Matrix)
-        }
+        Matrices::General {
+            mass,
+            damping,
+            stiffness,
+        } => inverse(mass + g * damping + g * g * stiffness).map(Inverse::Matrix),
         Matrices::Modes { damping, stiffness } => Ok(Inverse::Diagonal(
-            damping.iter().zip(stiffness).map(|(c, k)| 1.0 / (1.0 + g * c + g * g * k)).collect(),
+            damping
+                .iter()
+                .zip(stiffness)
+                .map(|(c, k)| 1.0 / (1.0 + g * c + g * g * k))
+                .collect(),
         )),
     }
 }
@@ -248,9 +276,16 @@ fn inverse(matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         return Ok(matrix);
     }
     let smallest = matrix.diagonal().min();
-    matrix.cholesky().map(|factor| factor.inverse()).ok_or(not_definite(smallest))
+    matrix
+        .cholesky()
+        .map(|factor| factor.inverse())
+        .ok_or(not_definite(smallest))
 }
 
 fn not_definite(found: f64) -> Error {
-    Error::Number { what: "mass matrix", wanted: "positive definite", found }
+    Error::Number {
+        what: "mass matrix",
+        wanted: "positive definite",
+        found,
+    }
 }

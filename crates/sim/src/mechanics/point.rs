@@ -30,8 +30,15 @@ pub(crate) struct Point {
 impl Point {
     /// A point whose motion is expressed in the space frame.
     pub fn new(mechanics: &Mechanics, end: &RopeEnd) -> Point {
-        let carried = end.body.and_then(|b| mechanics.carried.point(&mechanics.kinematics, b, end.at));
-        let origin = rest(mechanics, carried.as_ref().map_or(end.body, |point| Some(point.carrier)));
+        let carried = end
+            .body
+            .and_then(|b| mechanics.carried.point(&mechanics.kinematics, b, end.at));
+        let origin = rest(
+            mechanics,
+            carried
+                .as_ref()
+                .map_or(end.body, |point| Some(point.carrier)),
+        );
         Point {
             body: end.body,
             at: end.at,
@@ -44,7 +51,13 @@ impl Point {
     /// A point whose motion is expressed in the frame of the track of its body, even where that body is carried.
     pub fn on_track(mechanics: &Mechanics, end: &RopeEnd) -> Point {
         let origin = rest(mechanics, end.body);
-        Point { body: end.body, at: end.at, origin, rows: rows(mechanics, end), carried: None }
+        Point {
+            body: end.body,
+            at: end.at,
+            origin,
+            rows: rows(mechanics, end),
+            carried: None,
+        }
     }
 
     fn pose<'s>(
@@ -53,7 +66,9 @@ impl Point {
         t: f64,
         q: &DVector<f64>,
     ) -> Option<(&'s CarriedPoint, Pose)> {
-        self.carried.as_deref().map(|point| (point, point.pose(&mechanics.kinematics, t, q, q)))
+        self.carried
+            .as_deref()
+            .map(|point| (point, point.pose(&mechanics.kinematics, t, q, q)))
     }
 
     /// Position in space at (t, q).
@@ -67,7 +82,11 @@ impl Point {
                 std::array::from_fn(|k| moved[k] + self.at[k])
             }
         };
-        [moved[0], moved[1] + self.origin[0], moved[2] + self.origin[1]]
+        [
+            moved[0],
+            moved[1] + self.origin[0],
+            moved[2] + self.origin[1],
+        ]
     }
 
     /// Position in space at (t, q), as a vector.
@@ -82,7 +101,12 @@ impl Point {
 
     /// Displacement for the degrees of freedom `of`, or velocity for their rates. The body must not be carried.
     pub fn rate(&self, of: &DVector<f64>) -> Vector3<f64> {
-        let along = |terms: &Terms| terms.iter().map(|&(number, share)| share * of[number]).sum();
+        let along = |terms: &Terms| {
+            terms
+                .iter()
+                .map(|&(number, share)| share * of[number])
+                .sum()
+        };
         Vector3::from(self.rows.each_ref().map(along))
     }
 
@@ -91,22 +115,35 @@ impl Point {
     pub fn free_numbers(&self, mechanics: &Mechanics) -> Option<[usize; 3]> {
         let own = self.body?;
         let root = |b: usize| mechanics.kinematics.root(b);
-        if mechanics.wheels.iter().any(|wheel| root(wheel.body) == root(own)) {
+        if mechanics
+            .wheels
+            .iter()
+            .any(|wheel| root(wheel.body) == root(own))
+        {
             return None;
         }
-        let [[(x, a)], [(y, b)], [(z, c)]] = self.rows.each_ref().map(|terms| terms.as_slice()) else {
+        let [[(x, a)], [(y, b)], [(z, c)]] = self.rows.each_ref().map(|terms| terms.as_slice())
+        else {
             return None;
         };
         ([*a, *b, *c] == [1.0; 3]).then_some([*x, *y, *z])
     }
 
     /// Velocity due to the prescribed motions alone at (t, q); `travel` are the prescribed motions at t.
-    pub fn drift(&self, mechanics: &Mechanics, travel: &[Travel], t: f64, q: &DVector<f64>) -> [f64; 3] {
+    pub fn drift(
+        &self,
+        mechanics: &Mechanics,
+        travel: &[Travel],
+        t: f64,
+        q: &DVector<f64>,
+    ) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (b, body) in mechanics.scene.bodies.iter().enumerate() {
             if body.motion.is_some() && travel[b].v != 0.0 {
                 let by = self.by_travel(mechanics, b, t, q);
-                sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += travel[b].v * by);
+                sum.iter_mut()
+                    .zip(by)
+                    .for_each(|(sum, by)| *sum += travel[b].v * by);
             }
         }
         sum
@@ -136,7 +173,9 @@ impl Point {
     /// Displacement of the point per unit of the x of root `b` at (t, q).
     pub fn by_travel(&self, mechanics: &Mechanics, b: usize, t: f64, q: &DVector<f64>) -> [f64; 3] {
         let root = |b: usize| mechanics.kinematics.root(b);
-        let Some(own) = self.body else { return [0.0; 3] };
+        let Some(own) = self.body else {
+            return [0.0; 3];
+        };
         let mut sum = Vector3::zeros();
         match self.pose(mechanics, t, q) {
             Some((point, pose)) => {
@@ -162,7 +201,10 @@ fn rest(mechanics: &Mechanics, body: Option<usize>) -> [f64; 2] {
         match pin {
             Some(pin) => origin = [origin[0] + pin.at[1], origin[1] + pin.at[2]],
             None => {
-                let wheel = mechanics.wheels.iter().find(|wheel| mechanics.kinematics.root(wheel.body) == b);
+                let wheel = mechanics
+                    .wheels
+                    .iter()
+                    .find(|wheel| mechanics.kinematics.root(wheel.body) == b);
                 origin[0] += wheel.map_or(0.0, |wheel| {
                     let below = height_over(mechanics, wheel.body, b) + wheel.hub[1];
                     mechanics.scene.wheels[wheel.kind].radius - below
@@ -175,7 +217,9 @@ fn rest(mechanics: &Mechanics, body: Option<usize>) -> [f64; 2] {
 }
 
 fn rows(mechanics: &Mechanics, end: &RopeEnd) -> [Terms; 3] {
-    let Some(b) = end.body else { return Default::default() };
+    let Some(b) = end.body else {
+        return Default::default();
+    };
     arm_rows(end.at).map(|component| mechanics.kinematics.combine(b, &component))
 }
 
@@ -183,7 +227,11 @@ fn rows(mechanics: &Mechanics, end: &RopeEnd) -> [Terms; 3] {
 /// others.
 fn height_over(mechanics: &Mechanics, b: usize, root: usize) -> f64 {
     let (mut height, mut at) = (0.0, b);
-    while let Some(pin) = mechanics.scene.bodies[at].pinned.as_ref().filter(|_| at != root) {
+    while let Some(pin) = mechanics.scene.bodies[at]
+        .pinned
+        .as_ref()
+        .filter(|_| at != root)
+    {
         height += pin.at[1];
         at = pin.body;
     }

@@ -39,7 +39,11 @@ impl State {
 
     pub fn copy_from(&mut self, other: &State) {
         self.t = other.t;
-        for (to, from) in [(&mut self.q, &other.q), (&mut self.v, &other.v), (&mut self.a, &other.a)] {
+        for (to, from) in [
+            (&mut self.q, &other.q),
+            (&mut self.v, &other.v),
+            (&mut self.a, &other.a),
+        ] {
             to.as_mut_slice().copy_from_slice(from.as_slice());
         }
         self.p.copy_from_slice(&other.p);
@@ -70,7 +74,12 @@ impl State {
         let d4 = -12.0 * s2 + 28.0 * s3 - 15.0 * s4;
         for i in 0..self.q.len() {
             let dq = to.q[i] - from.q[i];
-            let (v0, v1, a0, a1) = (h * from.v[i], h * to.v[i], h * h * from.a[i], h * h * to.a[i]);
+            let (v0, v1, a0, a1) = (
+                h * from.v[i],
+                h * to.v[i],
+                h * h * from.a[i],
+                h * h * to.a[i],
+            );
             self.q[i] = from.q[i] + (1.0 - w0) * dq + w1 * v0 + w2 * a0 + w3 * a1 + w4 * v1;
             self.v[i] = (-d0 * dq + d1 * v0 + d2 * a0 + d3 * a1 + d4 * v1) / h;
             self.a[i] = from.a[i] + s * (to.a[i] - from.a[i]);
@@ -78,9 +87,12 @@ impl State {
         for i in 0..self.p.len() {
             let dp = to.p[i] - from.p[i];
             let (r0, r1) = (h * from.p_rate[i], h * to.p_rate[i]);
-            self.p[i] = from.p[i] + (3.0 * s2 - 2.0 * s3) * dp + (s - 2.0 * s2 + s3) * r0 + (s3 - s2) * r1;
-            self.p_rate[i] =
-                ((6.0 * s - 6.0 * s2) * dp + (1.0 - 4.0 * s + 3.0 * s2) * r0 + (3.0 * s2 - 2.0 * s) * r1) / h;
+            self.p[i] =
+                from.p[i] + (3.0 * s2 - 2.0 * s3) * dp + (s - 2.0 * s2 + s3) * r0 + (s3 - s2) * r1;
+            self.p_rate[i] = ((6.0 * s - 6.0 * s2) * dp
+                + (1.0 - 4.0 * s + 3.0 * s2) * r0
+                + (3.0 * s2 - 2.0 * s) * r1)
+                / h;
         }
         for (force, (a, b)) in self.force.iter_mut().zip(from.force.iter().zip(&to.force)) {
             *force = a + s * (b - a);
@@ -91,7 +103,11 @@ impl State {
     /// ends, by which [`interpolate`](State::interpolate) finds q.
     pub fn set_coefficient(&mut self, from: &State, to: &State, k: usize) {
         let h = to.t - from.t;
-        let (at, s) = if k < 3 { (from, k as f64 / 5.0 * h) } else { (to, (k as f64 - 5.0) / 5.0 * h) };
+        let (at, s) = if k < 3 {
+            (from, k as f64 / 5.0 * h)
+        } else {
+            (to, (k as f64 - 5.0) / 5.0 * h)
+        };
         // The second derivative is 20 (c0 - 2 c1 + c2) / h^2.
         let bend = if k == 2 || k == 3 { h * h / 20.0 } else { 0.0 };
         self.q.copy_from(&at.q);
@@ -114,7 +130,9 @@ mod tests {
 
     #[test]
     fn interpolant_reproduces_a_quintic_and_its_rate() {
-        let poly = |t: f64| 1.0 - t + 2.0 * t.powi(2) - 0.5 * t.powi(3) + 0.3 * t.powi(4) - 0.1 * t.powi(5);
+        let poly = |t: f64| {
+            1.0 - t + 2.0 * t.powi(2) - 0.5 * t.powi(3) + 0.3 * t.powi(4) - 0.1 * t.powi(5)
+        };
         let rate = |t: f64| -1.0 + 4.0 * t - 1.5 * t.powi(2) + 1.2 * t.powi(3) - 0.5 * t.powi(4);
         let curve = |t: f64| 4.0 - 3.0 * t + 3.6 * t.powi(2) - 2.0 * t.powi(3);
         let at = |t: f64| {
@@ -134,21 +152,30 @@ mod tests {
         let (h, factors) = (2.0_f64, [1.0, -1.0, 2.0, -0.5, 0.3, -0.1]);
         let derivative = |t: f64, order: i32| {
             let falling = |n: i32| (0..order).map(|i| f64::from(n - i)).product::<f64>();
-            (order..6).map(|n| factors[n as usize] * falling(n) * t.powi(n - order)).sum::<f64>()
+            (order..6)
+                .map(|n| factors[n as usize] * falling(n) * t.powi(n - order))
+                .sum::<f64>()
         };
         let at = |t: f64| {
             let mut state = State::zeros(1, 0, 0);
             state.t = t;
-            (state.q[0], state.v[0], state.a[0]) = (derivative(t, 0), derivative(t, 1), derivative(t, 2));
+            (state.q[0], state.v[0], state.a[0]) =
+                (derivative(t, 0), derivative(t, 1), derivative(t, 2));
             state
         };
         let (from, to, mut found) = (at(0.0), at(h), at(0.0));
-        let binomial =
-            |n: usize, k: usize| (0..k).map(|i| (n as f64 - i as f64) / (i as f64 + 1.0)).product::<f64>();
+        let binomial = |n: usize, k: usize| {
+            (0..k)
+                .map(|i| (n as f64 - i as f64) / (i as f64 + 1.0))
+                .product::<f64>()
+        };
         for k in 0..6 {
             let power = |n: usize| factors[n] * h.powi(n as i32) * binomial(k, n) / binomial(5, n);
             found.set_coefficient(&from, &to, k);
-            assert!((found.q[0] - (0..6).map(power).sum::<f64>()).abs() < 1e-13, "{k}");
+            assert!(
+                (found.q[0] - (0..6).map(power).sum::<f64>()).abs() < 1e-13,
+                "{k}"
+            );
         }
     }
 }

@@ -30,10 +30,17 @@ pub(crate) struct RailCoordinate {
 impl RailCoordinate {
     pub fn new(kinematics: &Kinematics, wheel: &WheelPoint) -> Self {
         let (line, root) = (arm_rows(wheel.hub)[0], kinematics.root(wheel.body));
-        let constant: f64 = line.iter().zip(kinematics.constant(wheel.body)).map(|(l, c)| l * c).sum();
+        let constant: f64 = line
+            .iter()
+            .zip(kinematics.constant(wheel.body))
+            .map(|(l, c)| l * c)
+            .sum();
         RailCoordinate {
             constant: wheel.hub[0] + constant,
-            driven: kinematics.scene.bodies[root].motion.is_some().then_some(root),
+            driven: kinematics.scene.bodies[root]
+                .motion
+                .is_some()
+                .then_some(root),
             terms: kinematics.combine(wheel.body, &line),
         }
     }
@@ -78,9 +85,11 @@ impl<'a> Wheels<'a> {
             for (own, offset) in contact.offsets.iter().enumerate() {
                 let [x, y, z] = contact.at;
                 let mut turns = scene.actuators.spins.iter();
-                let turn =
-                    turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
-                let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
+                let turn = turns
+                    .find(|turn| (turn.contact, turn.wheel) == (index, own))
+                    .map(|turn| &turn.motion);
+                let spins =
+                    kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
                 let spin = if spins { Some(next()) } else { None };
                 points.push(WheelPoint {
                     body: contact.body,
@@ -93,9 +102,10 @@ impl<'a> Wheels<'a> {
             }
             let parts: Vec<Option<usize>> = match &foundations[contact.structure].parts {
                 Some(chains) => {
-                    let chain = chains
-                        .get(contact.rail)
-                        .ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
+                    let chain = chains.get(contact.rail).ok_or(Error::NoSuch {
+                        what: "rail",
+                        index: contact.rail,
+                    })?;
                     (0..chain.count()).map(Some).collect()
                 }
                 None => vec![None],
@@ -110,6 +120,10 @@ impl<'a> Wheels<'a> {
                 });
             }
         }
-        Ok(Wheels { points, groups, of_contact })
+        Ok(Wheels {
+            points,
+            groups,
+            of_contact,
+        })
     }
 }

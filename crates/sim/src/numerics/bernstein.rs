@@ -58,10 +58,15 @@ mod tests {
             for end in [0.01, 0.3, 0.77, 1.0] {
                 let bound = largest_change(shape, end);
                 let places = (0..=1000).map(|i| end * f64::from(i) / 1000.0);
-                let change = places.map(|s| (defined(shape, s) - shape[0]).abs()).fold(0.0, f64::max);
+                let change = places
+                    .map(|s| (defined(shape, s) - shape[0]).abs())
+                    .fold(0.0, f64::max);
                 assert!(bound >= change - 1e-14, "{bound} {change}");
                 if is_monotone {
-                    assert!((bound - change).abs() < 1e-14 * (1.0 + change), "{bound} {change}");
+                    assert!(
+                        (bound - change).abs() < 1e-14 * (1.0 + change),
+                        "{bound} {change}"
+                    );
                 }
             }
         }

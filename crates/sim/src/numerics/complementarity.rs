@@ -45,11 +45,16 @@ pub(crate) fn complementarity(a: &[f64], b: &[f64], force: &mut [f64]) -> Option
 fn solve_active(a: &[f64], b: &[f64], active: &[bool], force: &mut [f64]) -> Option<()> {
     let n = b.len();
     let index: Vec<usize> = (0..n).filter(|&i| active[i]).collect();
-    let mut matrix: Vec<f64> = index.iter().flat_map(|&i| index.iter().map(move |&j| a[i * n + j])).collect();
+    let mut matrix: Vec<f64> = index
+        .iter()
+        .flat_map(|&i| index.iter().map(move |&j| a[i * n + j]))
+        .collect();
     let mut rhs: Vec<f64> = index.iter().map(|&i| b[i]).collect();
     if !solve_spd(&mut matrix, &mut rhs) {
-        let mut matrix: Vec<f64> =
-            index.iter().flat_map(|&i| index.iter().map(move |&j| a[i * n + j])).collect();
+        let mut matrix: Vec<f64> = index
+            .iter()
+            .flat_map(|&i| index.iter().map(move |&j| a[i * n + j]))
+            .collect();
         rhs = index.iter().map(|&i| b[i]).collect();
         if !solve_general(&mut matrix, &mut rhs) {
             return None;
@@ -82,7 +87,9 @@ fn lemke(a: &[f64], b: &[f64], force: &mut [f64]) -> bool {
         tableau[i * width + 2 * n + 1] = -b[i];
     }
     let mut basis: Vec<usize> = (0..n).collect();
-    let Some(mut row) = (0..n).max_by(|&p, &q| b[p].total_cmp(&b[q])) else { return true };
+    let Some(mut row) = (0..n).max_by(|&p, &q| b[p].total_cmp(&b[q])) else {
+        return true;
+    };
     let mut entering = 2 * n;
     for _ in 0..50 * (n + 1) {
         let leaving = basis[row];
@@ -96,12 +103,18 @@ fn lemke(a: &[f64], b: &[f64], force: &mut [f64]) -> bool {
             }
             return true;
         }
-        entering = if leaving < n { leaving + n } else { leaving - n };
+        entering = if leaving < n {
+            leaving + n
+        } else {
+            leaving - n
+        };
         let ratio = |i: usize| tableau[i * width + 2 * n + 1] / tableau[i * width + entering];
         let best = (0..n)
             .filter(|&i| tableau[i * width + entering] > 1e-14 * a[0].abs().max(f64::MIN_POSITIVE))
             .min_by(|&p, &q| {
-                ratio(p).total_cmp(&ratio(q)).then((basis[q] == 2 * n).cmp(&(basis[p] == 2 * n)))
+                ratio(p)
+                    .total_cmp(&ratio(q))
+                    .then((basis[q] == 2 * n).cmp(&(basis[p] == 2 * n)))
             });
         match best {
             Some(next) => row = next,
@@ -138,7 +151,10 @@ mod tests {
         let mut a = vec![0.0; n * n];
         for i in 0..n {
             for j in 0..n {
-                a[i * n + j] = (0..n).map(|k| factor[i * n + k] * factor[j * n + k]).sum::<f64>() / n as f64;
+                a[i * n + j] = (0..n)
+                    .map(|k| factor[i * n + k] * factor[j * n + k])
+                    .sum::<f64>()
+                    / n as f64;
             }
             a[i * n + i] += 0.05;
         }
@@ -166,7 +182,10 @@ mod tests {
                         found[i],
                         force[i]
                     );
-                    assert!((pivoted[i] - force[i]).abs() < 1e-9, "lemke n {n} seed {seed}");
+                    assert!(
+                        (pivoted[i] - force[i]).abs() < 1e-9,
+                        "lemke n {n} seed {seed}"
+                    );
                 }
             }
         }
@@ -186,7 +205,9 @@ mod tests {
             let mut force = vec![0.0; n];
             super::solve_active(a, b, &active, &mut force)?;
             let slack = |i: usize| (0..n).map(|j| a[i * n + j] * force[j]).sum::<f64>() - b[i];
-            (0..n).all(|i| force[i] >= 0.0 && (active[i] || slack(i) >= 0.0)).then_some(force)
+            (0..n)
+                .all(|i| force[i] >= 0.0 && (active[i] || slack(i) >= 0.0))
+                .then_some(force)
         })
     }
 
@@ -199,9 +220,14 @@ mod tests {
                 b.reverse();
                 let wanted = brute(n, &a, &b).expect("one set solves it");
                 let (mut found, mut pivoted) = (vec![0.0; n], vec![0.0; n]);
-                assert!(complementarity(&a, &b, &mut found).is_some() && lemke(&a, &b, &mut pivoted));
+                assert!(
+                    complementarity(&a, &b, &mut found).is_some() && lemke(&a, &b, &mut pivoted)
+                );
                 for i in 0..n {
-                    assert!((found[i] - wanted[i]).abs() < 1e-9 && (pivoted[i] - wanted[i]).abs() < 1e-9);
+                    assert!(
+                        (found[i] - wanted[i]).abs() < 1e-9
+                            && (pivoted[i] - wanted[i]).abs() < 1e-9
+                    );
                 }
             }
         }

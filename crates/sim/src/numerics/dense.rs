@@ -2,7 +2,9 @@
 //! ones in blocks.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::cholesky::llt::factor::{
+    LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
 use faer::linalg::cholesky::llt::solve::solve_in_place;
 use faer::linalg::solvers::Solve;
 use faer::reborrow::{Reborrow, ReborrowMut};
@@ -43,11 +45,16 @@ pub(crate) fn add_lines<'m>(lines: impl Iterator<Item = (f64, &'m [f64])>, sum: 
         }
     }
     for (share, line) in &four[..known] {
-        sum.iter_mut().zip(*line).for_each(|(sum, entry)| *sum += share * entry);
+        sum.iter_mut()
+            .zip(*line)
+            .for_each(|(sum, entry)| *sum += share * entry);
     }
 }
 
-fn add_four([(a, first), (b, second), (c, third), (d, fourth)]: [(f64, &[f64]); 4], sum: &mut [f64]) {
+fn add_four(
+    [(a, first), (b, second), (c, third), (d, fourth)]: [(f64, &[f64]); 4],
+    sum: &mut [f64],
+) {
     let lines = first.iter().zip(second).zip(third.iter().zip(fourth));
     for (sum, ((e, f), (g, h))) in sum.iter_mut().zip(lines) {
         *sum = *sum + a * e + b * f + c * g + d * h;
@@ -73,7 +80,11 @@ pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
 }
 
 fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
-    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default()));
+    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(
+        n,
+        Par::Seq,
+        Default::default(),
+    ));
     let stack = MemStack::new(&mut memory);
     let mut matrix = MatMut::from_column_major_slice_mut(a, n, n);
     let limits = LltRegularization::default();
@@ -118,7 +129,8 @@ fn solve_lower(a: &[f64], n: usize, b: &mut [f64], reciprocal: impl Fn(f64) -> f
         for k in 0..4 {
             let line = &lines[k][i..];
             let late = line[..k].iter().zip(&own[..k]);
-            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b) * reciprocal(line[k]);
+            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b)
+                * reciprocal(line[k]);
         }
     }
     for i in whole..count {
@@ -140,7 +152,10 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
             let (before, rest) = b.split_at_mut(i);
             let row = &a[i * n..=i * n + i];
             rest[0] *= row[i];
-            before.iter_mut().zip(row).for_each(|(b, l)| *b -= rest[0] * l);
+            before
+                .iter_mut()
+                .zip(row)
+                .for_each(|(b, l)| *b -= rest[0] * l);
         }
     }
     true
@@ -159,12 +174,17 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
         return b.iter().all(|x| x.is_finite());
     }
     for j in 0..n {
-        let Some(pivot) = exchange(a, j, n) else { return false };
+        let Some(pivot) = exchange(a, j, n) else {
+            return false;
+        };
         b.swap(pivot, j);
         eliminate(a, j, n);
         let (known, later) = b.split_at_mut(j + 1);
         let factors = a[(j + 1) * n..].chunks_exact(n).map(|line| line[j]);
-        later.iter_mut().zip(factors).for_each(|(b, factor)| *b -= factor * known[j]);
+        later
+            .iter_mut()
+            .zip(factors)
+            .for_each(|(b, factor)| *b -= factor * known[j]);
     }
     substitute(a, b);
     true
@@ -178,7 +198,9 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
 pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
     let n = pivots.len();
     for (j, pivot) in pivots.iter_mut().enumerate() {
-        let Some(row) = exchange(a, j, n) else { return false };
+        let Some(row) = exchange(a, j, n) else {
+            return false;
+        };
         *pivot = row;
         eliminate(a, j, n);
     }
@@ -209,13 +231,19 @@ pub(crate) fn solve_four_factored(a: &[f64], pivots: &[usize], b: &mut [[f64; 4]
     for j in 0..n {
         let (known, later) = b.split_at_mut(j + 1);
         let column = a[(j + 1) * n..].chunks_exact(n).map(|line| line[j]);
-        later.iter_mut().zip(column).for_each(|(b, entry)| take(known[j], entry, b));
+        later
+            .iter_mut()
+            .zip(column)
+            .for_each(|(b, entry)| take(known[j], entry, b));
     }
     for j in (0..n).rev() {
         let (later, known) = b.split_at_mut(j);
         known[0] = known[0].map(|x| x * a[j * n + j]);
         let column = a.chunks_exact(n).map(|line| line[j]);
-        later.iter_mut().zip(column).for_each(|(b, entry)| take(known[0], entry, b));
+        later
+            .iter_mut()
+            .zip(column)
+            .for_each(|(b, entry)| take(known[0], entry, b));
     }
 }
 
@@ -265,7 +293,10 @@ fn eliminate(a: &mut [f64], j: usize, n: usize) {
         let factor = line[j] * scale;
         line[j] = factor;
         if factor != 0.0 {
-            line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+            line[j + 1..]
+                .iter_mut()
+                .zip(&row[j + 1..])
+                .for_each(|(x, y)| *x -= factor * y);
         }
     }
 }
@@ -278,7 +309,10 @@ fn substitute(a: &[f64], b: &mut [f64]) {
     // As in the forward substitution, four rows at a time from the last.
     for i in (first..n).step_by(4).rev() {
         let (own, known) = b[i..].split_at_mut(4);
-        let sums = four_dots(std::array::from_fn(|k| &a[(i + k) * n + i + 4..(i + k + 1) * n]), known);
+        let sums = four_dots(
+            std::array::from_fn(|k| &a[(i + k) * n + i + 4..(i + k + 1) * n]),
+            known,
+        );
         for k in (0..4).rev() {
             let line = &a[(i + k) * n + i..(i + k) * n + i + 4];
             let late = line[k + 1..].iter().zip(&own[k + 1..]).rev();
@@ -316,7 +350,9 @@ pub(crate) fn invert_spd(a: &mut [f64], n: usize) -> bool {
                 if factor == 0.0 {
                     continue;
                 }
-                line.iter_mut().zip(&*row).for_each(|(x, entry)| *x -= factor * entry);
+                line.iter_mut()
+                    .zip(&*row)
+                    .for_each(|(x, entry)| *x -= factor * entry);
             }
         }
     }
@@ -331,8 +367,13 @@ mod tests {
     fn both_solvers_recover_a_planted_solution() {
         let a = [4.0, 1.0, -2.0, 1.0, 5.0, 0.5, -2.0, 0.5, 6.0];
         let x = [1.0, -2.0, 3.0];
-        let b: Vec<f64> = (0..3).map(|i| (0..3).map(|j| a[3 * i + j] * x[j]).sum()).collect();
-        for solve in [solve_spd as fn(&mut [f64], &mut [f64]) -> bool, solve_general] {
+        let b: Vec<f64> = (0..3)
+            .map(|i| (0..3).map(|j| a[3 * i + j] * x[j]).sum())
+            .collect();
+        for solve in [
+            solve_spd as fn(&mut [f64], &mut [f64]) -> bool,
+            solve_general,
+        ] {
             let (mut m, mut r) = (a, b.clone());
             assert!(solve(&mut m, &mut r));
             for (found, planted) in r.iter().zip(x) {
@@ -346,13 +387,19 @@ mod tests {
         for n in [15, 16, 17, 31, 32, 33, 64, 100, 257] {
             // Green's function of a string, min(x, y) (1 - max(x, y)), plus springs on the diagonal.
             let at = |i: usize| (i + 1) as f64 / (n + 1) as f64;
-            let entry =
-                |i: usize, j: usize| at(i.min(j)) * (1.0 - at(i.max(j))) + if i == j { 0.1 } else { 0.0 };
+            let entry = |i: usize, j: usize| {
+                at(i.min(j)) * (1.0 - at(i.max(j))) + if i == j { 0.1 } else { 0.0 }
+            };
             let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
             let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * x[j]).sum()).collect();
+            let mut b: Vec<f64> = (0..n)
+                .map(|i| (0..n).map(|j| entry(i, j) * x[j]).sum())
+                .collect();
             assert!(solve_spd(&mut a, &mut b));
-            let error = b.iter().zip(&x).fold(0.0_f64, |max, (b, x)| max.max((b - x).abs()));
+            let error = b
+                .iter()
+                .zip(&x)
+                .fold(0.0_f64, |max, (b, x)| max.max((b - x).abs()));
             assert!(error < 1e-11, "n {n}: {error}");
             // A value of -1 in the last diagonal entry makes the matrix indefinite and must be rejected.
             let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
@@ -372,7 +419,9 @@ mod tests {
         assert!(factor_general(&mut factors, &mut pivots));
         for k in 0..3 {
             let x: Vec<f64> = (0..n).map(|i| (i as f64 + f64::from(k)).cos()).collect();
-            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[i * n + j] * x[j]).sum()).collect();
+            let mut b: Vec<f64> = (0..n)
+                .map(|i| (0..n).map(|j| a[i * n + j] * x[j]).sum())
+                .collect();
             solve_factored(&factors, &pivots, &mut b);
             assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-13));
         }
@@ -381,7 +430,8 @@ mod tests {
     #[test]
     fn inverse_times_the_matrix_is_the_identity() {
         for n in [1, 2, 5, 13] {
-            let entry = |i: usize, j: usize| 1.0 / (1 + i + j) as f64 + if i == j { 1.0 } else { 0.0 };
+            let entry =
+                |i: usize, j: usize| 1.0 / (1 + i + j) as f64 + if i == j { 1.0 } else { 0.0 };
             let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
             let mut inverse = a.clone();
             assert!(invert_spd(&mut inverse, n));

@@ -26,7 +26,9 @@ impl LuFactors {
     /// Factors `matrix`.
     pub fn new(matrix: &DMatrix<f64>) -> Self {
         let mut factors = LuFactors::default();
-        factors.replace(matrix.nrows(), |entries| entries.extend_from_slice(matrix.transpose().as_slice()));
+        factors.replace(matrix.nrows(), |entries| {
+            entries.extend_from_slice(matrix.transpose().as_slice())
+        });
         factors
     }
 
@@ -59,7 +61,11 @@ impl LuFactors {
     pub fn solve_four(&self, b: &mut [[f64; 4]]) -> bool {
         if let Some(factors) = &self.large {
             let order = b.len();
-            factors.solve_in_place(MatMut::from_row_major_slice_mut(b.as_flattened_mut(), order, 4));
+            factors.solve_in_place(MatMut::from_row_major_slice_mut(
+                b.as_flattened_mut(),
+                order,
+                4,
+            ));
             return b.as_flattened().iter().all(|x| x.is_finite());
         }
         if self.is_regular {
@@ -85,11 +91,19 @@ mod tests {
             let x = DVector::from_fn(n, |i, _| (i as f64).cos());
             let b = &matrix * &x;
             let mut found = b.clone();
-            assert!(LuFactors::new(&matrix).solve(found.as_mut_slice()), "the matrix is regular");
+            assert!(
+                LuFactors::new(&matrix).solve(found.as_mut_slice()),
+                "the matrix is regular"
+            );
             assert!((found - &x).amax() < 1e-11, "n {n}");
-            let mut four: Vec<[f64; 4]> =
-                b.iter().map(|b| [1.0, -2.0, 0.0, 0.5].map(|scale| scale * b)).collect();
-            assert!(LuFactors::new(&matrix).solve_four(&mut four), "the matrix is regular");
+            let mut four: Vec<[f64; 4]> = b
+                .iter()
+                .map(|b| [1.0, -2.0, 0.0, 0.5].map(|scale| scale * b))
+                .collect();
+            assert!(
+                LuFactors::new(&matrix).solve_four(&mut four),
+                "the matrix is regular"
+            );
             for (found, x) in four.iter().zip(x.iter()) {
                 for (found, scale) in found.iter().zip([1.0, -2.0, 0.0, 0.5]) {
                     assert!((found - scale * x).abs() < 1e-11, "n {n}");

@@ -11,9 +11,14 @@
 ///
 /// # Source
 /// The ITP method: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2020) 5.
-pub(crate) fn narrow(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Option<f64>) -> [f64; 2] {
+pub(crate) fn narrow(
+    ends: [f64; 2],
+    width: f64,
+    mut f: impl FnMut(f64) -> Option<f64>,
+) -> [f64; 2] {
     let sign = ends[1].signum();
-    let ([mut low, mut high], [mut below, mut above]) = ([0.0_f64, 1.0_f64], ends.map(|end| sign * end));
+    let ([mut low, mut high], [mut below, mut above]) =
+        ([0.0_f64, 1.0_f64], ends.map(|end| sign * end));
     // Radius of the projection interval plus half the bracket. It is halved in each iteration, which gives the worst
     // case of bisection plus one evaluation.
     let mut reach = width * (-width.log2()).ceil().exp2();
@@ -33,7 +38,9 @@ pub(crate) fn narrow(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Optio
         if !(at > low && at < high) {
             break;
         }
-        let Some(value) = f(at).map(|value| sign * value) else { break };
+        let Some(value) = f(at).map(|value| sign * value) else {
+            break;
+        };
         if value > 0.0 {
             (high, above) = (at, value);
         } else {
@@ -61,13 +68,19 @@ pub(crate) fn behind(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Optio
     let sign = ends[1].signum();
     let [mut low, mut high] = [(0.0, sign * ends[0]), (1.0, sign * ends[1])];
     let secant = |a: (f64, f64), b: (f64, f64)| a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1);
-    let mut last = if low.1.abs() < high.1.abs() { low } else { high };
+    let mut last = if low.1.abs() < high.1.abs() {
+        low
+    } else {
+        high
+    };
     let mut at = secant(low, high);
     for _ in 0..SECANTS {
         if !(at > low.0 && at < high.0) {
             break;
         }
-        let Some(value) = f(at).map(|value| sign * value) else { break };
+        let Some(value) = f(at).map(|value| sign * value) else {
+            break;
+        };
         let now = (at, value);
         if value > 0.0 {
             high = now;
@@ -75,7 +88,11 @@ pub(crate) fn behind(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Optio
             low = now;
         }
         let along = secant(now, last);
-        let next = if along > low.0 && along < high.0 { along } else { secant(low, high) };
+        let next = if along > low.0 && along < high.0 {
+            along
+        } else {
+            secant(low, high)
+        };
         if (next - at).abs() <= AGREEMENT * width {
             return (next + 0.5 * width).min(1.0);
         }
@@ -98,22 +115,36 @@ mod tests {
             |x| if x < 0.4 { x - 0.4 } else { 20.0 * (x - 0.4) },
             |x| (50.0 * (x - 0.9)).tanh(),
         ];
-        let roots = [0.3, 0.7, std::f64::consts::PI / 9.0, 0.2_f64.powf(0.2), 0.4, 0.9];
+        let roots = [
+            0.3,
+            0.7,
+            std::f64::consts::PI / 9.0,
+            0.2_f64.powf(0.2),
+            0.4,
+            0.9,
+        ];
         for (k, (f, root)) in functions.into_iter().zip(roots).enumerate() {
             let mut count = 0;
             let found = behind([f(0.0), f(1.0)], 1e-4, |x| {
                 count += 1;
                 Some(f(x))
             });
-            assert!(found > root && found < root + 1.1e-4, "{k}: {found} of {root}");
+            assert!(
+                found > root && found < root + 1.1e-4,
+                "{k}: {found} of {root}"
+            );
             assert!(k > 2 || count <= 5, "{k}: {count}");
         }
     }
 
     #[test]
     fn roots_of_smooth_functions_take_few_evaluations() {
-        let functions: [fn(f64) -> f64; 4] =
-            [|x| x - 0.3, |x| (x - 0.7) * (1.0 + x * x), |x| (1.5 * x).sin() - 0.5, |x| 0.2 - x.powi(5)];
+        let functions: [fn(f64) -> f64; 4] = [
+            |x| x - 0.3,
+            |x| (x - 0.7) * (1.0 + x * x),
+            |x| (1.5 * x).sin() - 0.5,
+            |x| 0.2 - x.powi(5),
+        ];
         let roots = [0.3, 0.7, std::f64::consts::PI / 9.0, 0.2_f64.powf(0.2)];
         for (f, root) in functions.into_iter().zip(roots) {
             let mut count = 0;
@@ -121,7 +152,10 @@ mod tests {
                 count += 1;
                 Some(f(x))
             });
-            assert!(high - low <= 1e-12 && (low - root).abs() < 2e-12, "{low} for {root}");
+            assert!(
+                high - low <= 1e-12 && (low - root).abs() < 2e-12,
+                "{low} for {root}"
+            );
             assert!(count <= 12, "{count}");
         }
     }

@@ -13,7 +13,10 @@ pub fn step(x: f64, x0: f64, h0: f64, x1: f64, h1: f64) -> (f64, f64) {
         (h1, 0.0)
     } else {
         let d = (x - x0) / (x1 - x0);
-        (h0 + (h1 - h0) * d * d * (3.0 - 2.0 * d), (h1 - h0) * 6.0 * d * (1.0 - d) / (x1 - x0))
+        (
+            h0 + (h1 - h0) * d * d * (3.0 - 2.0 * d),
+            (h1 - h0) * 6.0 * d * (1.0 - d) / (x1 - x0),
+        )
     }
 }
 
@@ -47,8 +50,9 @@ mod tests {
         let h = 1e-6;
         for x in [0.1, 0.35, 0.8] {
             let (_, slope) = step(x, 0.0, 1.0, 1.0, -1.0);
-            let difference =
-                (step(x + h, 0.0, 1.0, 1.0, -1.0).0 - step(x - h, 0.0, 1.0, 1.0, -1.0).0) / (2.0 * h);
+            let difference = (step(x + h, 0.0, 1.0, 1.0, -1.0).0
+                - step(x - h, 0.0, 1.0, 1.0, -1.0).0)
+                / (2.0 * h);
             assert!((slope - difference).abs() < 1e-9);
         }
     }

@@ -94,7 +94,11 @@ impl Audit {
     /// Imbalance relative to the peak stored energy.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        if self.peak_stored > 0.0 { self.imbalance / self.peak_stored } else { self.imbalance }
+        if self.peak_stored > 0.0 {
+            self.imbalance / self.peak_stored
+        } else {
+            self.imbalance
+        }
     }
 }
 
@@ -102,25 +106,47 @@ impl Audit {
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
     let mechanics = &system.mechanics;
     let kinetic = kinetic(&mechanics.blocks, &mechanics.couplings, &state.v);
-    let mut energy = Stored { kinetic, ..Stored::default() };
+    let mut energy = Stored {
+        kinetic,
+        ..Stored::default()
+    };
     energy.kinetic += mechanics.energy_of_turns(state.t);
-    energy.structure = mechanics.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
-    let [motion, lift] = mechanics.carried.energy(&mechanics.kinematics, state.t, &state.q, &state.v);
+    energy.structure = mechanics
+        .blocks
+        .iter()
+        .map(|block| block.elastic(state.q.as_slice()))
+        .sum();
+    let [motion, lift] =
+        mechanics
+            .carried
+            .energy(&mechanics.kinematics, state.t, &state.q, &state.v);
     energy.kinetic += motion;
     energy.gravity += lift;
     let kinematics = &mechanics.kinematics;
-    for (b, body) in system.scene.bodies.iter().enumerate().filter(|(b, _)| !mechanics.carried.has(*b)) {
+    for (b, body) in system
+        .scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(b, _)| !mechanics.carried.has(*b))
+    {
         let (displacement, speed) = mechanics.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
         energy.gravity += body.mass * system.scene.gravity * lift;
         if body.motion.is_some() {
             let (mass, coupling) = (kinematics.mass(b), kinematics.travel_inertia(b));
             energy.kinetic += 0.5 * mass * speed[0] * speed[0];
-            energy.kinetic +=
-                coupling.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
+            energy.kinetic += coupling
+                .iter()
+                .map(|&(number, inertia)| inertia * speed[0] * state.v[number])
+                .sum::<f64>();
         }
     }
-    for mount in system.foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
+    for mount in system
+        .foundations
+        .iter()
+        .filter_map(|foundation| foundation.carrier.as_ref())
+    {
         let (displacement, _) = mechanics.body(mount.body, state.t, &state.q, &state.v);
         energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
     }
@@ -133,8 +159,16 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 
 /// Powers of all exchanges at `state`, without the rate of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
-    let structure = system.mechanics.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
-    let mut power = Exchanged { structure, ..Exchanged::default() };
+    let structure = system
+        .mechanics
+        .blocks
+        .iter()
+        .map(|block| block.loss(state.v.as_slice()))
+        .sum();
+    let mut power = Exchanged {
+        structure,
+        ..Exchanged::default()
+    };
     let frame = geometry.frame(system, state);
     for (b, body) in system.scene.bodies.iter().enumerate() {
         if body.motion.is_some() {
@@ -142,7 +176,12 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         }
     }
     power.drives += power_of_turns(system, geometry, state);
-    for (i, element) in system.elements.iter().enumerate().filter(|(i, _)| state.force[*i] != 0.0) {
+    for (i, element) in system
+        .elements
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| state.force[*i] != 0.0)
+    {
         element.power(&frame.at(i), &mut power);
     }
     for load in &system.scene.actuators.loads {
@@ -155,17 +194,26 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
 
 /// Boundary terms of the losses in dampers, which are not included in [`power`].
 pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
-    let (frame, elements) = (geometry.frame(system, state), system.elements.iter().enumerate());
-    elements.fold(0.0, |sum, (i, element)| sum + element.boundary(&frame.at(i)))
+    let (frame, elements) = (
+        geometry.frame(system, state),
+        system.elements.iter().enumerate(),
+    );
+    elements.fold(0.0, |sum, (i, element)| {
+        sum + element.boundary(&frame.at(i))
+    })
 }
 
 /// Force along +x required by the prescribed motion of body `b`: its inertia and that of everything pinned to it,
 /// plus the resistance of the elements.
 pub(crate) fn motion_force(system: &System, frame: &Frame, b: usize) -> f64 {
-    let Frame { mechanics, state, .. } = frame;
+    let Frame {
+        mechanics, state, ..
+    } = frame;
     let kinematics = &mechanics.kinematics;
     let mut force = kinematics.mass(b) * frame.places.travel[b].a;
-    force += mechanics.carried.drive(kinematics, [&state.q, &state.v, &state.a], state.t, b);
+    force += mechanics
+        .carried
+        .drive(kinematics, [&state.q, &state.v, &state.a], state.t, b);
     for &(number, inertia) in kinematics.travel_inertia(b) {
         force += inertia * state.a[number];
     }
@@ -179,12 +227,16 @@ pub(crate) fn motion_force(system: &System, frame: &Frame, b: usize) -> f64 {
 fn power_of_turns(system: &System, geometry: &Geometry, state: &State) -> f64 {
     let mechanics = &system.mechanics;
     let all = (0..mechanics.wheels.len()).filter_map(|w| Some((w, mechanics.turn(w, state.t)?)));
-    all.map(|(w, at)| spin_moment(system, geometry, state, w) * at.v).sum()
+    all.map(|(w, at)| spin_moment(system, geometry, state, w) * at.v)
+        .sum()
 }
 
 /// Moment about z required by the prescribed spin of wheel `w`: its spin inertia times the acceleration, plus the
 /// moment of the friction below it; zero if the spin is free.
 pub(crate) fn spin_moment(system: &System, geometry: &Geometry, state: &State, w: usize) -> f64 {
-    let Some(at) = system.mechanics.turn(w, state.t) else { return 0.0 };
-    system.mechanics.spin_inertia(w) * at.a + geometry.places().height[w] * system.friction_of(w, state)
+    let Some(at) = system.mechanics.turn(w, state.t) else {
+        return 0.0;
+    };
+    system.mechanics.spin_inertia(w) * at.a
+        + geometry.places().height[w] * system.friction_of(w, state)
 }

@@ -36,13 +36,17 @@ pub struct History {
 impl History {
     /// Creates an empty history of `channels`.
     pub(crate) fn new(channels: Vec<Channel>) -> Self {
-        History { channels, values: Vec::new() }
+        History {
+            channels,
+            values: Vec::new(),
+        }
     }
 
     /// Reserves memory for `samples` more samples, as far as they are not too many: the run may end early.
     pub(crate) fn reserve(&mut self, samples: usize) {
         let width = self.channels.len();
-        self.values.reserve(samples.min(MOST_RESERVED / width) * width);
+        self.values
+            .reserve(samples.min(MOST_RESERVED / width) * width);
     }
 
     /// Takes the values out of the history; `put_values` must put them back.
@@ -64,7 +68,10 @@ impl History {
         let last = self.len().saturating_sub(1);
         let kept = (0..self.len()).filter(|i| i % step == 0 || (with_last && *i == last));
         let values = kept.flat_map(|i| self.sample(i).iter().copied()).collect();
-        History { channels: self.channels, values }
+        History {
+            channels: self.channels,
+            values,
+        }
     }
 
     /// The channels, in the order of each sample.
@@ -76,7 +83,11 @@ impl History {
     /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
-        if self.channels.is_empty() { 0 } else { self.values.len() / self.channels.len() }
+        if self.channels.is_empty() {
+            0
+        } else {
+            self.values.len() / self.channels.len()
+        }
     }
 
     /// Whether there are no samples.
@@ -109,7 +120,9 @@ impl History {
             Some(at) => (self.values.as_slice(), at),
             None => (&[][..], 0),
         };
-        samples.chunks_exact(self.channels.len().max(1)).map(move |sample| sample[at])
+        samples
+            .chunks_exact(self.channels.len().max(1))
+            .map(move |sample| sample[at])
     }
 
     /// One channel over time; empty if the scene does not have it.

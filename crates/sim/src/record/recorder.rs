@@ -16,8 +16,14 @@ use crate::{Analysis, BodyDof, Channel, Error, Gauge, Scene};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
-    let all = system.mechanics.structures.iter().zip(system.foundations).enumerate();
-    all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
+    let all = system
+        .mechanics
+        .structures
+        .iter()
+        .zip(system.foundations)
+        .enumerate();
+    all.filter(|(_, (_, foundation))| foundation.recorded)
+        .map(|(s, (range, _))| (s, range.clone()))
 }
 
 /// Number of channels of a body: six displacements, six speeds, drive and brake; and of a wheel.
@@ -27,7 +33,9 @@ const OF_WHEEL: usize = 9;
 /// Number of samples at the output times of a whole run.
 pub(crate) fn output_samples(scene: &Scene) -> usize {
     let intervals = (scene.end / scene.output_dt) as usize;
-    intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2)
+    intervals
+        .saturating_mul(scene.output_parts.max(1))
+        .saturating_add(2)
 }
 
 /// Recorder of samples.
@@ -75,19 +83,37 @@ impl Recorder {
         let (mut forces, mut lengths) = (Vec::new(), Vec::new());
         for (i, element) in system.elements.iter().enumerate() {
             for (channel, divisor) in element.channels(&system.mechanics) {
-                forces.extend(column(&channel).map(|column| ForceColumn { element: i, column, divisor }));
+                forces.extend(column(&channel).map(|column| ForceColumn {
+                    element: i,
+                    column,
+                    divisor,
+                }));
             }
             let length = element.length_channel();
-            lengths.extend(length.and_then(|channel| column(&channel)).map(|column| (i, column)));
+            lengths.extend(
+                length
+                    .and_then(|channel| column(&channel))
+                    .map(|column| (i, column)),
+            );
         }
-        let own_columns = system.elements.iter().map(|element| element.own_channels().len()).sum();
+        let own_columns = system
+            .elements
+            .iter()
+            .map(|element| element.own_channels().len())
+            .sum();
         let of_wheel = |(w, wheel): (usize, &WheelPoint)| WheelColumns {
             body: wheel.body,
             groups: system.mechanics.groups_of(w),
             arms: arm_rows(wheel.hub)[1],
             turns: wheel.spin.is_some() || wheel.turn.is_some(),
         };
-        let wheels = system.mechanics.wheels.iter().enumerate().map(of_wheel).collect();
+        let wheels = system
+            .mechanics
+            .wheels
+            .iter()
+            .enumerate()
+            .map(of_wheel)
+            .collect();
         let shape = vec![0.0; 2 * system.mechanics.dofs];
         let (mut blank, mut free) = (vec![0.0; channels.len()], Vec::new());
         let bodies = system.scene.bodies.iter().enumerate();
@@ -134,7 +160,12 @@ impl Recorder {
     ///
     /// # Errors
     /// Any error from evaluating the rails at the gauges.
-    pub fn record(&mut self, system: &System, geometry: &Geometry, at: &State) -> Result<(), Error> {
+    pub fn record(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+    ) -> Result<(), Error> {
         let mut values = self.history.take_values();
         let done = self.row(system, geometry, at, &mut values);
         self.history.put_values(values);
@@ -153,7 +184,10 @@ impl Recorder {
         values: &mut Vec<f64>,
     ) -> Result<(), Error> {
         let (first, mechanics) = (values.len(), &system.mechanics);
-        let (bodies, wheels) = (OF_BODY * system.scene.bodies.len(), OF_WHEEL * self.wheels.len());
+        let (bodies, wheels) = (
+            OF_BODY * system.scene.bodies.len(),
+            OF_WHEEL * self.wheels.len(),
+        );
         let mut moved = std::mem::take(&mut self.gauges);
         moved.clear();
         for gauge in &system.scene.gauges {
@@ -169,7 +203,12 @@ impl Recorder {
             row[column + 6] = v[number];
         }
         let (of_bodies, others) = row[1..].split_at_mut(bodies);
-        let each = system.scene.bodies.iter().enumerate().zip(of_bodies.as_chunks_mut::<OF_BODY>().0);
+        let each = system
+            .scene
+            .bodies
+            .iter()
+            .enumerate()
+            .zip(of_bodies.as_chunks_mut::<OF_BODY>().0);
         for ((b, body), own) in each {
             if body.pinned.is_some() {
                 let (displacement, speed) = mechanics.kinematics.motion(b, at.t, &at.q, &at.v);
@@ -181,11 +220,20 @@ impl Recorder {
                 own[12] = motion_force(system, &frame, b);
             }
         }
-        let all = self.wheels.iter().enumerate().zip(others.as_chunks_mut::<OF_WHEEL>().0);
+        let all = self
+            .wheels
+            .iter()
+            .enumerate()
+            .zip(others.as_chunks_mut::<OF_WHEEL>().0);
         for ((w, wheel), own) in all {
             write_wheel(system, geometry, at, (w, wheel), of_bodies, own);
         }
-        for &ForceColumn { element, column, divisor } in &self.forces {
+        for &ForceColumn {
+            element,
+            column,
+            divisor,
+        } in &self.forces
+        {
             row[column] += 0.0 + at.force[element] / divisor;
         }
         for &(element, column) in &self.lengths {
@@ -193,7 +241,10 @@ impl Recorder {
         }
         let (gauges, structures) =
             row[1 + bodies + wheels + self.own_columns..].split_at_mut(system.scene.gauges.len());
-        gauges.iter_mut().zip(&moved).for_each(|(column, moved)| *column = *moved);
+        gauges
+            .iter_mut()
+            .zip(&moved)
+            .for_each(|(column, moved)| *column = *moved);
         self.gauges = moved;
         let (moves, mut next) = (system.scene.analysis == Analysis::Dynamic, 0);
         for (_, range) in recorded(system) {
@@ -216,16 +267,24 @@ impl Recorder {
         gauge: &Gauge,
     ) -> Result<f64, Error> {
         let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
-        let failed = |source| Error::Compliance { structure: s, source };
+        let failed = |source| Error::Compliance {
+            structure: s,
+            source,
+        };
         let mut sum = 0.0;
         if let Some(compliance) = &foundation.compliance {
             let entries = &system.probes.entries[s];
             self.probes.clear();
             self.probes.push(gauge.probe);
-            let wheels = entries.iter().map(|e| Probe { x: geometry.places().x[e.wheel], ..e.probe });
+            let wheels = entries.iter().map(|e| Probe {
+                x: geometry.places().x[e.wheel],
+                ..e.probe
+            });
             self.probes.extend(wheels);
             let mut influence = Influence::zeros(self.probes.len());
-            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
+            compliance
+                .fill(&self.probes, &mut influence)
+                .map_err(failed)?;
             for (j, entry) in entries.iter().enumerate() {
                 sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.element];
             }
@@ -234,7 +293,10 @@ impl Recorder {
             let range = system.mechanics.structures[s].clone();
             let (value, slope) = self.shape.split_at_mut(system.mechanics.dofs);
             let value = &mut value[..range.len()];
-            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
+            structure
+                .shapes
+                .row(gauge.probe, value, &mut slope[..range.len()])
+                .map_err(failed)?;
             sum += dot(value, &at.q.as_slice()[range]);
         }
         Ok(sum)
@@ -265,7 +327,12 @@ fn channels_of(system: &System) -> Vec<Channel> {
             Channel::SpinMoment(w),
         ]);
     }
-    channels.extend(system.elements.iter().flat_map(|element| element.own_channels()));
+    channels.extend(
+        system
+            .elements
+            .iter()
+            .flat_map(|element| element.own_channels()),
+    );
     channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
     for (s, range) in recorded(system) {
         channels.extend((0..range.len()).map(|k| Channel::Coordinate(s, k)));
@@ -287,7 +354,11 @@ fn write_wheel(
     let (mechanics, places) = (&system.mechanics, geometry.places());
     let pressed = wheel.groups.clone().filter(|&i| geometry.fraction(i) > 0.0);
     let deepest = pressed.map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
-    let shape = if system.traits.is_uneven { mechanics.irregularity(w) } else { None };
+    let shape = if system.traits.is_uneven {
+        mechanics.irregularity(w)
+    } else {
+        None
+    };
     let irregular = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
     let down = irregular - dot(&wheel.arms, &of_bodies[OF_BODY * wheel.body..][..6]);
     own[0] = places.x[w];

@@ -95,11 +95,21 @@ impl Actuators {
     /// Times at which the forces or their slopes may jump.
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         let loads = self.loads.iter().flat_map(|load| load.value.breaks());
-        let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
+        let drives = self
+            .drives
+            .iter()
+            .flat_map(|drive| drive.speed.breaks().chain([drive.until]));
         let ropes = self.ropes.iter().flat_map(Rope::breaks);
         let rules = self.rules.iter().filter_map(|rule| rule.when.time());
-        let turns = self.spins.iter().flat_map(|turn| turn.motion.breaks().iter().copied());
+        let turns = self
+            .spins
+            .iter()
+            .flat_map(|turn| turn.motion.breaks().iter().copied());
         let loads = loads.chain(turns);
-        loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes).chain(rules)
+        loads
+            .chain(drives)
+            .chain(self.brakes.iter().map(|brake| brake.from))
+            .chain(ropes)
+            .chain(rules)
     }
 }

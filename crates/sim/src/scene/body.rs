@@ -134,6 +134,13 @@ impl Contact {
     /// One wheel of kind 0 on the first rail of structure 0, with its hub at `at` relative to the origin of `body`.
     #[must_use]
     pub fn new(body: usize, at: [f64; 3]) -> Self {
-        Contact { body, structure: 0, rail: 0, at, offsets: vec![0.0], wheel: 0 }
+        Contact {
+            body,
+            structure: 0,
+            rail: 0,
+            at,
+            offsets: vec![0.0],
+            wheel: 0,
+        }
     }
 }

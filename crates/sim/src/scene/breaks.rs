@@ -13,9 +13,20 @@ impl RailBreaks {
     /// Sorts the breaks of all rails.
     pub fn new(foundations: &[Foundation]) -> Self {
         let of_rail = |foundation: &Foundation, rail: usize| {
-            let own = foundation.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);
-            let corners = foundation.irregularities.get(rail).map_or(&[][..], Irregularity::breaks);
-            let mut all: Vec<f64> = own.iter().chain(corners).copied().filter(|x| !x.is_nan()).collect();
+            let own = foundation
+                .rails
+                .get(rail)
+                .map_or(&[][..], |extent| &extent.breaks);
+            let corners = foundation
+                .irregularities
+                .get(rail)
+                .map_or(&[][..], Irregularity::breaks);
+            let mut all: Vec<f64> = own
+                .iter()
+                .chain(corners)
+                .copied()
+                .filter(|x| !x.is_nan())
+                .collect();
             all.sort_by(f64::total_cmp);
             all.dedup();
             all
@@ -24,7 +35,9 @@ impl RailBreaks {
             let rails = foundation.rails.len().max(foundation.irregularities.len());
             (0..rails).map(|rail| of_rail(foundation, rail)).collect()
         };
-        RailBreaks { sorted: foundations.iter().map(of_structure).collect() }
+        RailBreaks {
+            sorted: foundations.iter().map(of_structure).collect(),
+        }
     }
 
     /// Breaks of `rail` of `structure` from `a` to `b`, both included, in the order in which a wheel that moves from
@@ -53,7 +66,10 @@ impl RailBreaks {
     }
 
     fn of_rail(&self, structure: usize, rail: usize) -> &[f64] {
-        self.sorted.get(structure).and_then(|rails| rails.get(rail)).map_or(&[][..], Vec::as_slice)
+        self.sorted
+            .get(structure)
+            .and_then(|rails| rails.get(rail))
+            .map_or(&[][..], Vec::as_slice)
     }
 }
 
@@ -64,10 +80,17 @@ mod tests {
 
     #[test]
     fn breaks_come_in_the_order_in_which_a_wheel_meets_them() {
-        let extent = Extent { range: None, breaks: vec![9.0, 2.0, f64::NAN, 5.0, 2.0] };
-        let shape = Irregularity::new(&[[1.0, 0.0], [3.0, 0.1], [5.0, 0.0]], &[]).expect("rows in order");
-        let foundation =
-            Foundation { rails: vec![extent], irregularities: vec![shape], ..Foundation::rigid() };
+        let extent = Extent {
+            range: None,
+            breaks: vec![9.0, 2.0, f64::NAN, 5.0, 2.0],
+        };
+        let shape =
+            Irregularity::new(&[[1.0, 0.0], [3.0, 0.1], [5.0, 0.0]], &[]).expect("rows in order");
+        let foundation = Foundation {
+            rails: vec![extent],
+            irregularities: vec![shape],
+            ..Foundation::rigid()
+        };
         let breaks = RailBreaks::new(&[Foundation::rigid(), foundation]);
         let of = |a: f64, b: f64| breaks.between(1, 0, a, b).collect::<Vec<_>>();
         assert_eq!(of(0.0, 10.0), [1.0, 2.0, 3.0, 5.0, 9.0]);
@@ -78,8 +101,14 @@ mod tests {
         assert_eq!(breaks.between(0, 0, 0.0, 10.0).len(), 0);
         assert_eq!(breaks.between(1, 1, 0.0, 10.0).len(), 0);
         let around = |x: f64| breaks.around(1, 0, x);
-        assert_eq!([1.5, 4.0, 8.9].map(around), [Some([1.0, 2.0]), Some([3.0, 5.0]), Some([5.0, 9.0])]);
+        assert_eq!(
+            [1.5, 4.0, 8.9].map(around),
+            [Some([1.0, 2.0]), Some([3.0, 5.0]), Some([5.0, 9.0])]
+        );
         assert_eq!([0.5, 1.0, 3.0, 9.0, 9.5, f64::NAN].map(around), [None; 6]);
-        assert_eq!([breaks.around(0, 0, 1.5), breaks.around(1, 1, 1.5)], [None; 2]);
+        assert_eq!(
+            [breaks.around(0, 0, 1.5), breaks.around(1, 1, 1.5)],
+            [None; 2]
+        );
     }
 }

@@ -35,7 +35,9 @@ impl Carrier {
         let arm = arm(at);
         let product = |i: usize, j: usize| (0..6).map(|k| mass[i][k] * arm[k][j]).sum::<f64>();
         let half: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| product(i, j)));
-        std::array::from_fn(|i| std::array::from_fn(|j| (0..6).map(|k| arm[k][i] * half[k][j]).sum()))
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..6).map(|k| arm[k][i] * half[k][j]).sum())
+        })
     }
 
     /// Transforms the six loads about the point `at` of a body to its origin: A^T `load`.

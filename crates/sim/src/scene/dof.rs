@@ -19,8 +19,14 @@ pub enum BodyDof {
 
 impl BodyDof {
     /// All six, in the order of every array of six in this crate.
-    pub const ALL: [BodyDof; 6] =
-        [BodyDof::X, BodyDof::Y, BodyDof::Z, BodyDof::Roll, BodyDof::Yaw, BodyDof::Pitch];
+    pub const ALL: [BodyDof; 6] = [
+        BodyDof::X,
+        BodyDof::Y,
+        BodyDof::Z,
+        BodyDof::Roll,
+        BodyDof::Yaw,
+        BodyDof::Pitch,
+    ];
 }
 
 /// Matrix of the displacement u + theta cross r of a point at `r` relative to the origin of a body, with theta =
@@ -28,5 +34,9 @@ impl BodyDof {
 #[must_use]
 pub(crate) fn arm_rows(r: [f64; 3]) -> [[f64; 6]; 3] {
     let [rx, ry, rz] = r;
-    [[1.0, 0.0, 0.0, 0.0, rz, -ry], [0.0, 1.0, 0.0, -rz, 0.0, rx], [0.0, 0.0, 1.0, ry, -rx, 0.0]]
+    [
+        [1.0, 0.0, 0.0, 0.0, rz, -ry],
+        [0.0, 1.0, 0.0, -rz, 0.0, rx],
+        [0.0, 0.0, 1.0, ry, -rx, 0.0],
+    ]
 }

@@ -56,7 +56,9 @@ pub enum Error {
     },
     /// A body that is pinned to itself through other bodies, or that has translations of its own in addition to its
     /// pin.
-    #[error("body {body}: a pinned body has no translation of its own, and pins do not run in a circle")]
+    #[error(
+        "body {body}: a pinned body has no translation of its own, and pins do not run in a circle"
+    )]
     Pinned {
         /// Which body.
         body: usize,

@@ -65,7 +65,10 @@ impl Foundation {
     /// A massless structure of `rails` rails.
     #[must_use]
     pub fn massless(compliance: Box<dyn Compliance>, rails: usize) -> Self {
-        let extent = |rail| Extent { range: compliance.range(rail), breaks: compliance.breaks(rail) };
+        let extent = |rail| Extent {
+            range: compliance.range(rail),
+            breaks: compliance.breaks(rail),
+        };
         Foundation {
             rails: (0..rails).map(extent).collect(),
             compliance: Some(compliance),
@@ -76,6 +79,8 @@ impl Foundation {
     /// Number of degrees of freedom with mass.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        self.structure.as_ref().map_or(0, |structure| structure.dynamics.dofs())
+        self.structure
+            .as_ref()
+            .map_or(0, |structure| structure.dynamics.dofs())
     }
 }

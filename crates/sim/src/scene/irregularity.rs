@@ -83,25 +83,46 @@ pub(crate) struct ShapeCell {
 
 impl Default for ShapeCell {
     fn default() -> Self {
-        ShapeCell { piece: 0, centre: 0.0, half: -1.0, terms: [0.0; 6] }
+        ShapeCell {
+            piece: 0,
+            centre: 0.0,
+            half: -1.0,
+            terms: [0.0; 6],
+        }
     }
 }
 
 impl ShapeCell {
     /// Value and slope of one side of `shape` at `x` on `piece`, which is extrapolated beyond its ends.
     #[inline]
-    pub(crate) fn at(&mut self, shape: &Irregularity, side: usize, piece: usize, x: f64) -> [f64; 2] {
-        let is_inside = |cell: &ShapeCell| x > cell.centre - cell.half && x < cell.centre + cell.half;
+    pub(crate) fn at(
+        &mut self,
+        shape: &Irregularity,
+        side: usize,
+        piece: usize,
+        x: f64,
+    ) -> [f64; 2] {
+        let is_inside =
+            |cell: &ShapeCell| x > cell.centre - cell.half && x < cell.centre + cell.half;
         if !(is_inside(self) && piece == self.piece) {
             let width = shape.cell_width(side);
-            let centre = if width.is_finite() { (x / width).round() * width } else { 0.0 };
-            *self =
-                ShapeCell { piece, centre, half: 0.5 * width, terms: shape.expansion(side, piece, centre) };
+            let centre = if width.is_finite() {
+                (x / width).round() * width
+            } else {
+                0.0
+            };
+            *self = ShapeCell {
+                piece,
+                centre,
+                half: 0.5 * width,
+                terms: shape.expansion(side, piece, centre),
+            };
         }
         let (d, [a, b, c, d3, e, f]) = (x - self.centre, self.terms);
         let square = d * d;
         let value = (a + d * b) + square * ((c + d * d3) + square * (e + d * f));
-        let slope = (b + d * (2.0 * c)) + square * ((3.0 * d3 + d * (4.0 * e)) + square * (5.0 * f));
+        let slope =
+            (b + d * (2.0 * c)) + square * ((3.0 * d3 + d * (4.0 * e)) + square * (5.0 * f));
         [value, slope]
     }
 }
@@ -115,13 +136,25 @@ impl Irregularity {
         let what = "x of an irregularity";
         for table in [vertical, lateral] {
             if let Some(&found) = table.iter().flatten().find(|number| !number.is_finite()) {
-                return Err(Error::Number { what: "irregularity", wanted: "finite", found });
+                return Err(Error::Number {
+                    what: "irregularity",
+                    wanted: "finite",
+                    found,
+                });
             }
             if let Some(pair) = table.windows(2).find(|pair| pair[1][0] < pair[0][0]) {
-                return Err(Error::Number { what, wanted: "not falling", found: pair[1][0] });
+                return Err(Error::Number {
+                    what,
+                    wanted: "not falling",
+                    found: pair[1][0],
+                });
             }
             if let Some(row) = table.windows(3).find(|row| row[2][0] == row[0][0]) {
-                return Err(Error::Number { what, wanted: "in two rows at most", found: row[0][0] });
+                return Err(Error::Number {
+                    what,
+                    wanted: "in two rows at most",
+                    found: row[0][0],
+                });
             }
         }
         let mut starts: Vec<f64> = vertical.iter().chain(lateral).map(|row| row[0]).collect();
@@ -129,9 +162,19 @@ impl Irregularity {
         starts.dedup();
         let first = |table: &[[f64; 2]]| [table.first().map_or(0.0, |row| row[1]), 0.0];
         let x = starts.first().copied().unwrap_or(0.0);
-        let before = Piece { x, sides: [vertical, lateral].map(first) };
-        let after = starts.iter().map(|&x| Piece { x, sides: [vertical, lateral].map(|t| linear(t, x)) });
-        Ok(Irregularity { pieces: std::iter::once(before).chain(after).collect(), starts, waves: Vec::new() })
+        let before = Piece {
+            x,
+            sides: [vertical, lateral].map(first),
+        };
+        let after = starts.iter().map(|&x| Piece {
+            x,
+            sides: [vertical, lateral].map(|t| linear(t, x)),
+        });
+        Ok(Irregularity {
+            pieces: std::iter::once(before).chain(after).collect(),
+            starts,
+            waves: Vec::new(),
+        })
     }
 
     /// A single sinusoid, vertical or lateral.
@@ -145,18 +188,29 @@ impl Irregularity {
             Axis::Vertical => VERTICAL,
             Axis::Lateral => LATERAL,
             Axis::Longitudinal => {
-                return Err(Error::NoSuch { what: "irregularity along the rail", index: 0 });
+                return Err(Error::NoSuch {
+                    what: "irregularity along the rail",
+                    index: 0,
+                });
             }
         };
         let [from, to] = wave.range;
         for (wanted, found, holds) in [
             ("finite", wave.amplitude, wave.amplitude.is_finite()),
-            ("of positive length", wave.length, wave.length > 0.0 && wave.length.is_finite()),
+            (
+                "of positive length",
+                wave.length,
+                wave.length > 0.0 && wave.length.is_finite(),
+            ),
             ("finite", wave.phase, wave.phase.is_finite()),
             ("from low to high", to, from < to),
         ] {
             if !holds {
-                return Err(Error::Number { what, wanted, found });
+                return Err(Error::Number {
+                    what,
+                    wanted,
+                    found,
+                });
             }
         }
         let starts: Vec<f64> = wave.range.into_iter().filter(|x| x.is_finite()).collect();
@@ -164,7 +218,11 @@ impl Irregularity {
         Ok(Irregularity {
             pieces: vec![Piece::default(); starts.len() + 1],
             starts,
-            waves: vec![Swell { side, wave, pieces: first..first + 1 }],
+            waves: vec![Swell {
+                side,
+                wave,
+                pieces: first..first + 1,
+            }],
         })
     }
 
@@ -172,7 +230,11 @@ impl Irregularity {
     #[must_use]
     pub fn plus(&self, other: &Irregularity) -> Self {
         if self.is_straight() || other.is_straight() {
-            return if self.is_straight() { other.clone() } else { self.clone() };
+            return if self.is_straight() {
+                other.clone()
+            } else {
+                self.clone()
+            };
         }
         let mut starts: Vec<f64> = self.starts.iter().chain(&other.starts).copied().collect();
         starts.sort_by(f64::total_cmp);
@@ -183,8 +245,9 @@ impl Irregularity {
         };
         let mut pieces = Vec::with_capacity(starts.len() + 1);
         for x in std::iter::once(None).chain(starts.iter().copied().map(Some)) {
-            let number =
-                |shape: &Irregularity| x.map_or(0, |x| shape.starts.partition_point(|start| *start <= x));
+            let number = |shape: &Irregularity| {
+                x.map_or(0, |x| shape.starts.partition_point(|start| *start <= x))
+            };
             let x = x.unwrap_or(first);
             let [a, b] = [self, other].map(|shape| at(shape, number(shape), x));
             let sides = std::array::from_fn(|s| std::array::from_fn(|k| a[s][k] + b[s][k]));
@@ -192,13 +255,24 @@ impl Irregularity {
         }
         let moved = |swell: &Swell| {
             let mut swell = swell.clone();
-            let [from, to] = swell.wave.range.map(|x| starts.partition_point(|start| *start <= x));
+            let [from, to] = swell
+                .wave
+                .range
+                .map(|x| starts.partition_point(|start| *start <= x));
             // A range without a finite end extends to the last piece.
-            swell.pieces = from..if swell.wave.range[1].is_finite() { to } else { starts.len() + 1 };
+            swell.pieces = from..if swell.wave.range[1].is_finite() {
+                to
+            } else {
+                starts.len() + 1
+            };
             swell
         };
         let waves = self.waves.iter().chain(&other.waves).map(moved).collect();
-        Irregularity { starts, pieces, waves }
+        Irregularity {
+            starts,
+            pieces,
+            waves,
+        }
     }
 
     /// Whether the rail has no irregularity.
@@ -216,14 +290,31 @@ impl Irregularity {
             return None;
         }
         let mean = |swell: &Swell| {
-            let turns = ahead.iter().map(|distance| (TAU * distance / swell.wave.length).sin_cos());
+            let turns = ahead
+                .iter()
+                .map(|distance| (TAU * distance / swell.wave.length).sin_cos());
             let [s, c] = turns.fold([0.0; 2], |sum, (s, c)| [sum[0] + s, sum[1] + c]);
             let amplitude = swell.wave.amplitude * s.hypot(c) / ahead.len() as f64;
-            let wave = Wave { amplitude, phase: swell.wave.phase + s.atan2(c), ..swell.wave };
-            Swell { wave, ..swell.clone() }
+            let wave = Wave {
+                amplitude,
+                phase: swell.wave.phase + s.atan2(c),
+                ..swell.wave
+            };
+            Swell {
+                wave,
+                ..swell.clone()
+            }
         };
-        let waves = self.waves.iter().filter(|swell| swell.side == VERTICAL).map(mean).collect();
-        Some(Irregularity { waves, ..self.clone() })
+        let waves = self
+            .waves
+            .iter()
+            .filter(|swell| swell.side == VERTICAL)
+            .map(mean)
+            .collect();
+        Some(Irregularity {
+            waves,
+            ..self.clone()
+        })
     }
 
     /// Coordinates of the corners and steps.
@@ -245,7 +336,8 @@ impl Irregularity {
     /// that the wheel moves into, or `current` where the wheel is at rest.
     pub(crate) fn piece(&self, x: f64, direction: f64, current: usize) -> usize {
         let slack = SLACK * (1.0 + x.abs());
-        let [low, high] = [x - slack, x + slack].map(|x| self.starts.partition_point(|start| *start <= x));
+        let [low, high] =
+            [x - slack, x + slack].map(|x| self.starts.partition_point(|start| *start <= x));
         if direction > 0.0 {
             high
         } else if direction < 0.0 {
@@ -263,14 +355,27 @@ impl Irregularity {
 
     /// Taylor coefficients of a side about `x` on `piece`.
     fn expansion(&self, side: usize, piece: usize, x: f64) -> [f64; 6] {
-        let [value, slope] = self.pieces.get(piece).map_or([0.0; 2], |found| found.at(side, x));
+        let [value, slope] = self
+            .pieces
+            .get(piece)
+            .map_or([0.0; 2], |found| found.at(side, x));
         let mut terms = [value, slope, 0.0, 0.0, 0.0, 0.0];
-        for swell in self.waves.iter().filter(|swell| swell.side == side && swell.pieces.contains(&piece)) {
+        for swell in self
+            .waves
+            .iter()
+            .filter(|swell| swell.side == side && swell.pieces.contains(&piece))
+        {
             let [value, slope] = swell.wave.at(x);
             let square = (TAU / swell.wave.length).powi(2);
             let own = [value, slope, -square / 2.0 * value, -square / 6.0 * slope];
-            let last = [square * square / 24.0 * value, square * square / 120.0 * slope];
-            terms.iter_mut().zip(own.iter().chain(&last)).for_each(|(sum, own)| *sum += own);
+            let last = [
+                square * square / 24.0 * value,
+                square * square / 120.0 * slope,
+            ];
+            terms
+                .iter_mut()
+                .zip(own.iter().chain(&last))
+                .for_each(|(sum, own)| *sum += own);
         }
         terms
     }
@@ -295,16 +400,26 @@ impl Piece {
 
 impl Wave {
     fn at(&self, x: f64) -> [f64; 2] {
-        let origin = if self.range[0].is_finite() { self.range[0] } else { 0.0 };
+        let origin = if self.range[0].is_finite() {
+            self.range[0]
+        } else {
+            0.0
+        };
         let (sin, cos) = (TAU * (x - origin) / self.length + self.phase).sin_cos();
-        [self.amplitude * sin, self.amplitude * TAU / self.length * cos]
+        [
+            self.amplitude * sin,
+            self.amplitude * TAU / self.length * cos,
+        ]
     }
 }
 
 /// Value and slope of a table immediately after `x`.
 fn linear(table: &[[f64; 2]], x: f64) -> [f64; 2] {
     let next = table.partition_point(|row| row[0] <= x);
-    match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {
+    match (
+        next.checked_sub(1).and_then(|before| table.get(before)),
+        table.get(next),
+    ) {
         (Some(&[x0, y0]), Some(&[x1, y1])) => {
             let slope = (y1 - y0) / (x1 - x0);
             [y0 + slope * (x - x0), slope]

@@ -95,12 +95,20 @@ impl Scene {
     pub(crate) fn output_time(&self, k: u64) -> f64 {
         let parts = self.output_parts.max(1) as u64;
         // an integer division takes as long as ten products
-        let (whole, part) = if parts == 1 { (k, 0) } else { (k / parts, k % parts) };
+        let (whole, part) = if parts == 1 {
+            (k, 0)
+        } else {
+            (k / parts, k % parts)
+        };
         let mut t = whole as f64 * self.output_dt;
         if part != 0 {
             t += part as f64 / parts as f64 * self.output_dt;
         }
-        if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }
+        if (t - self.end).abs() <= 1e-12 * self.end {
+            self.end
+        } else {
+            t
+        }
     }
 
     /// Times at which a step must end, in ascending order; the last one is the end of the run.

@@ -39,11 +39,17 @@ impl PartChain {
             .collect();
         let slack = 1e-9 * (ends[ends.len() - 1] - ends[0]);
         if windows.iter().any(|w| w[0] >= w[1])
-            || windows.windows(2).any(|pair| pair[0][1] > pair[1][0] + slack)
+            || windows
+                .windows(2)
+                .any(|pair| pair[0][1] > pair[1][0] + slack)
         {
             return None;
         }
-        Some(PartChain { ends, windows, first })
+        Some(PartChain {
+            ends,
+            windows,
+            first,
+        })
     }
 
     /// Number of parts.
@@ -111,15 +117,26 @@ type Owner = (usize, [f64; 2]);
 
 /// Probes on the parts that carry the points `at`, with their weights.
 fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>), Error> {
-    let (mut probes, mut owners) = (Vec::with_capacity(2 * at.len()), Vec::with_capacity(2 * at.len()));
+    let (mut probes, mut owners) = (
+        Vec::with_capacity(2 * at.len()),
+        Vec::with_capacity(2 * at.len()),
+    );
     for (i, probe) in at.iter().enumerate() {
-        let chain = chains.get(probe.rail).ok_or(Error::NoRail { rail: probe.rail })?;
+        let chain = chains
+            .get(probe.rail)
+            .ok_or(Error::NoRail { rail: probe.rail })?;
         let [from, to] = chain.range();
         if !(probe.x >= from && probe.x <= to) {
-            return Err(Error::OffRail { rail: probe.rail, x: probe.x });
+            return Err(Error::OffRail {
+                rail: probe.rail,
+                x: probe.x,
+            });
         }
         for (part, share) in chain.carriers(probe.x) {
-            probes.push(Probe { rail: chain.rail(part), ..*probe });
+            probes.push(Probe {
+                rail: chain.rail(part),
+                ..*probe
+            });
             owners.push((i, share));
         }
     }
@@ -130,7 +147,11 @@ fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>)
 fn carried(chains: &[PartChain], loads: &[(Probe, f64)]) -> Result<Vec<(Probe, f64)>, Error> {
     let at: Vec<Probe> = loads.iter().map(|(probe, _)| *probe).collect();
     let (probes, owners) = spread(chains, &at)?;
-    Ok(probes.into_iter().zip(owners).map(|(probe, (i, share))| (probe, share[0] * loads[i].1)).collect())
+    Ok(probes
+        .into_iter()
+        .zip(owners)
+        .map(|(probe, (i, share))| (probe, share[0] * loads[i].1))
+        .collect())
 }
 
 /// Writes the displacements of places by those of the parts that carry them.
@@ -158,10 +179,16 @@ impl Compliance for BlendedParts {
         Ok(())
     }
 
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         let (probes, owners) = spread(&self.chains, at)?;
         let mut moved = vec![0.0; probes.len()];
-        self.surface.displacements(&probes, &carried(&self.chains, loads)?, &mut moved)?;
+        self.surface
+            .displacements(&probes, &carried(&self.chains, loads)?, &mut moved)?;
         blend(&owners, &moved, out);
         Ok(())
     }
@@ -169,11 +196,18 @@ impl Compliance for BlendedParts {
     fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
         let (probes, owners) = spread(&self.chains, at)?;
         let places = self.surface.at_places(&probes)?;
-        Ok(Box::new(BlendedPlaces { places, owners, count: at.len(), chains: &self.chains }))
+        Ok(Box::new(BlendedPlaces {
+            places,
+            owners,
+            count: at.len(),
+            chains: &self.chains,
+        }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {
-        self.chains.get(rail).map_or_else(Vec::new, PartChain::breaks)
+        self.chains
+            .get(rail)
+            .map_or_else(Vec::new, PartChain::breaks)
     }
 
     fn range(&self, rail: usize) -> Option<[f64; 2]> {
@@ -198,7 +232,8 @@ impl PlaceDisplacements for BlendedPlaces<'_> {
     fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
         let (others, owners) = spread(self.chains, also)?;
         let mut moved = vec![0.0; self.owners.len() + others.len()];
-        self.places.under(&carried(self.chains, loads)?, &others, &mut moved)?;
+        self.places
+            .under(&carried(self.chains, loads)?, &others, &mut moved)?;
         let (own, others) = moved.split_at(self.owners.len());
         let (out, also) = out.split_at_mut(self.count);
         blend(&self.owners, own, out);
@@ -229,14 +264,20 @@ impl Shapes for PartShapes {
             vec![(at, [1.0, 0.0])]
         } else {
             let (probes, owners) = spread(&self.chains, &[at])?;
-            probes.into_iter().zip(owners.into_iter().map(|(_, share)| share)).collect()
+            probes
+                .into_iter()
+                .zip(owners.into_iter().map(|(_, share)| share))
+                .collect()
         };
         for (probe, share) in carriers {
             let row = self.line.row(probe)?;
-            for ((&state, shape), shape_slope) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
+            for ((&state, shape), shape_slope) in
+                row.indices().iter().zip(row.values()).zip(row.slopes())
+            {
                 for k in 0..value.len() {
                     value[k] += share[0] * shape * self.basis[(state, k)];
-                    slope[k] += (share[0] * shape_slope + share[1] * shape) * self.basis[(state, k)];
+                    slope[k] +=
+                        (share[0] * shape_slope + share[1] * shape) * self.basis[(state, k)];
                 }
             }
         }
@@ -250,11 +291,13 @@ mod tests {
 
     #[test]
     fn shares_add_to_one_and_their_slopes_to_zero() {
-        let chain = PartChain::new(vec![-15.0, 10.0, 30.0, 75.0], 0, None).expect("increasing ends");
+        let chain =
+            PartChain::new(vec![-15.0, 10.0, 30.0, 75.0], 0, None).expect("increasing ends");
         for i in 0..=90 {
             let x = f64::from(i) - 15.0;
-            let sums =
-                (0..3).map(|j| chain.fraction(j, x)).fold([0.0, 0.0], |s, w| [s[0] + w[0], s[1] + w[1]]);
+            let sums = (0..3)
+                .map(|j| chain.fraction(j, x))
+                .fold([0.0, 0.0], |s, w| [s[0] + w[0], s[1] + w[1]]);
             assert!((sums[0] - 1.0).abs() < 1e-14 && sums[1].abs() < 1e-14);
             let carried: f64 = chain.carriers(x).map(|(_, share)| share[0]).sum();
             assert!((carried - 1.0).abs() < 1e-14);
@@ -263,7 +306,8 @@ mod tests {
 
     #[test]
     fn a_window_of_a_given_length_is_centred_on_the_joint() {
-        let chain = PartChain::new(vec![-15.0, 30.0, 75.0], 0, Some(60.0)).expect("increasing ends");
+        let chain =
+            PartChain::new(vec![-15.0, 30.0, 75.0], 0, Some(60.0)).expect("increasing ends");
         assert_eq!(chain.breaks(), vec![0.0, 60.0]);
         assert_eq!(chain.fraction(1, 30.0)[0], 0.5);
     }

@@ -62,22 +62,52 @@ impl Profile {
     pub fn new(given: MotionKind, table: &[[f64; 2]], x0: f64, v0: f64) -> Result<Profile, Error> {
         check_rows(table)?;
         if let Some(found) = [x0, v0].into_iter().find(|number| !number.is_finite()) {
-            return Err(Error::Number { what: "start of a motion", wanted: "finite", found });
+            return Err(Error::Number {
+                what: "start of a motion",
+                wanted: "finite",
+                found,
+            });
         }
         let mut pieces: Vec<Piece> = Vec::new();
         for start in starts(table) {
             let before = match pieces.last() {
                 Some(piece) => piece.at(start),
-                None => Travel { x: x0, v: v0, a: 0.0 },
+                None => Travel {
+                    x: x0,
+                    v: v0,
+                    a: 0.0,
+                },
             };
             let (value, rate) = linear(table, start);
             pieces.push(match given {
-                MotionKind::Position => Piece { start, x: value, v: rate, a: 0.0, jerk: 0.0 },
-                MotionKind::Speed => Piece { start, x: before.x, v: value, a: rate, jerk: 0.0 },
-                MotionKind::Acceleration => Piece { start, x: before.x, v: before.v, a: value, jerk: rate },
+                MotionKind::Position => Piece {
+                    start,
+                    x: value,
+                    v: rate,
+                    a: 0.0,
+                    jerk: 0.0,
+                },
+                MotionKind::Speed => Piece {
+                    start,
+                    x: before.x,
+                    v: value,
+                    a: rate,
+                    jerk: 0.0,
+                },
+                MotionKind::Acceleration => Piece {
+                    start,
+                    x: before.x,
+                    v: before.v,
+                    a: value,
+                    jerk: rate,
+                },
             });
         }
-        let breaks = pieces.iter().map(|piece| piece.start).filter(|start| *start > 0.0).collect();
+        let breaks = pieces
+            .iter()
+            .map(|piece| piece.start)
+            .filter(|start| *start > 0.0)
+            .collect();
         Ok(Profile { pieces, breaks })
     }
 
@@ -95,11 +125,20 @@ impl Profile {
     #[must_use]
     pub(crate) fn reach(&self, from: f64, to: f64) -> f64 {
         let start = self.at(from).x;
-        let first = self.pieces.partition_point(|piece| piece.start <= from).saturating_sub(1);
+        let first = self
+            .pieces
+            .partition_point(|piece| piece.start <= from)
+            .saturating_sub(1);
         let mut farthest = (self.at(to).x - start).abs();
-        for piece in self.pieces[first..].iter().take_while(|piece| piece.start < to) {
+        for piece in self.pieces[first..]
+            .iter()
+            .take_while(|piece| piece.start < to)
+        {
             let turns = zeros(piece.jerk / 2.0, piece.a, piece.v).map(|s| piece.start + s);
-            for t in turns.chain([piece.start]).filter(|t| (from..=to).contains(t)) {
+            for t in turns
+                .chain([piece.start])
+                .filter(|t| (from..=to).contains(t))
+            {
                 farthest = farthest.max((self.at(t).x - start).abs());
             }
         }
@@ -115,7 +154,11 @@ impl Profile {
             (piece.v, piece.a, piece.jerk) == (first.v, 0.0, 0.0)
                 && (piece.x - x).abs() <= 4.0 * f64::EPSILON * x.abs()
         };
-        self.pieces.iter().filter(|piece| piece.start < end).all(goes_on).then_some(first.v)
+        self.pieces
+            .iter()
+            .filter(|piece| piece.start < end)
+            .all(goes_on)
+            .then_some(first.v)
     }
 
     /// Times at which position, speed, acceleration or jerk may jump, except 0.
@@ -146,7 +189,11 @@ impl Profile {
                     if middle <= inside || middle >= beyond {
                         break;
                     }
-                    if outside(self.at(middle).x) { beyond = middle } else { inside = middle }
+                    if outside(self.at(middle).x) {
+                        beyond = middle
+                    } else {
+                        inside = middle
+                    }
                 }
                 return Some((beyond, self.at(beyond).x));
             }
@@ -162,7 +209,9 @@ impl Profile {
             let stop = self.pieces.get(index + 1).map_or(end, |next| next.start);
             times.push(piece.start);
             times.extend(
-                zeros(piece.jerk / 2.0, piece.a, piece.v).map(|s| piece.start + s).filter(|t| *t < stop),
+                zeros(piece.jerk / 2.0, piece.a, piece.v)
+                    .map(|s| piece.start + s)
+                    .filter(|t| *t < stop),
             );
         }
         times.retain(|t| (0.0..=end).contains(t));
@@ -192,15 +241,25 @@ fn starts(table: &[[f64; 2]]) -> Vec<f64> {
 /// Checks that there is at least one row, that all numbers are finite and that the times increase.
 pub(crate) fn check_rows(table: &[[f64; 2]]) -> Result<(), Error> {
     if table.is_empty() {
-        return Err(Error::Number { what: "rows of a table over time", wanted: "at least one", found: 0.0 });
+        return Err(Error::Number {
+            what: "rows of a table over time",
+            wanted: "at least one",
+            found: 0.0,
+        });
     }
     if let Some(&found) = table.iter().flatten().find(|number| !number.is_finite()) {
-        return Err(Error::Number { what: "table over time", wanted: "finite", found });
+        return Err(Error::Number {
+            what: "table over time",
+            wanted: "finite",
+            found,
+        });
     }
     match table.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-        Some(pair) => {
-            Err(Error::Number { what: "time of a table over time", wanted: "increasing", found: pair[1][0] })
-        }
+        Some(pair) => Err(Error::Number {
+            what: "time of a table over time",
+            wanted: "increasing",
+            found: pair[1][0],
+        }),
         None => Ok(()),
     }
 }
@@ -208,7 +267,10 @@ pub(crate) fn check_rows(table: &[[f64; 2]]) -> Result<(), Error> {
 /// Value and rate of change of the table immediately after `t`.
 pub(crate) fn linear(table: &[[f64; 2]], t: f64) -> (f64, f64) {
     let next = table.partition_point(|row| row[0] <= t);
-    match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {
+    match (
+        next.checked_sub(1).and_then(|before| table.get(before)),
+        table.get(next),
+    ) {
         (Some(&[t0, v0]), Some(&[t1, v1])) => {
             let rate = (v1 - v0) / (t1 - t0);
             (v0 + rate * (t - t0), rate)
@@ -224,7 +286,9 @@ fn zeros(a: f64, b: f64, c: f64) -> impl Iterator<Item = f64> {
         let root = (b * b - 4.0 * a * c).sqrt();
         -0.5 * (b + root.copysign(b))
     };
-    [q / a, c / q].into_iter().filter(|s| s.is_finite() && *s > 0.0)
+    [q / a, c / q]
+        .into_iter()
+        .filter(|s| s.is_finite() && *s > 0.0)
 }
 
 #[cfg(test)]
@@ -234,26 +298,59 @@ mod tests {
     #[test]
     fn speed_table_is_integrated_exactly() {
         // 0 to 5 ft/s in 5 s, then constant: x = t^2/2, then 12.5 + 5 (t - 5)
-        let travel =
-            Profile::new(MotionKind::Speed, &[[0.0, 0.0], [5.0, 5.0]], 40.0, 0.0).expect("a valid table");
-        assert_eq!(travel.at(3.0), Travel { x: 44.5, v: 3.0, a: 1.0 });
-        assert_eq!(travel.at(9.0), Travel { x: 72.5, v: 5.0, a: 0.0 });
+        let travel = Profile::new(MotionKind::Speed, &[[0.0, 0.0], [5.0, 5.0]], 40.0, 0.0)
+            .expect("a valid table");
+        assert_eq!(
+            travel.at(3.0),
+            Travel {
+                x: 44.5,
+                v: 3.0,
+                a: 1.0
+            }
+        );
+        assert_eq!(
+            travel.at(9.0),
+            Travel {
+                x: 72.5,
+                v: 5.0,
+                a: 0.0
+            }
+        );
         assert_eq!(travel.breaks(), vec![5.0]);
     }
 
     #[test]
     fn acceleration_table_is_integrated_exactly() {
         // a = 6 t: x = x0 + v0 t + t^3
-        let travel = Profile::new(MotionKind::Acceleration, &[[0.0, 0.0], [2.0, 12.0]], 1.0, 0.5)
-            .expect("a valid table");
-        assert_eq!(travel.at(2.0), Travel { x: 10.0, v: 12.5, a: 12.0 });
-        assert_eq!(travel.at(1.0), Travel { x: 2.5, v: 3.5, a: 6.0 });
+        let travel = Profile::new(
+            MotionKind::Acceleration,
+            &[[0.0, 0.0], [2.0, 12.0]],
+            1.0,
+            0.5,
+        )
+        .expect("a valid table");
+        assert_eq!(
+            travel.at(2.0),
+            Travel {
+                x: 10.0,
+                v: 12.5,
+                a: 12.0
+            }
+        );
+        assert_eq!(
+            travel.at(1.0),
+            Travel {
+                x: 2.5,
+                v: 3.5,
+                a: 6.0
+            }
+        );
     }
 
     #[test]
     fn position_table_keeps_its_rows_and_its_ends() {
-        let travel =
-            Profile::new(MotionKind::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
+        let travel = Profile::new(MotionKind::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0)
+            .expect("a valid table");
         for (t, x) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(travel.at(t).x, x, "t = {t}");
         }
@@ -262,24 +359,36 @@ mod tests {
     #[test]
     fn reach_includes_turning_points() {
         // x = 10 t - t^2 up to t = 10, then -10 (t - 10): turns at t = 5 with x = 25
-        let travel =
-            Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
-        for (from, to, expected) in
-            [(0.0, 4.0, 24.0), (0.0, 9.0, 25.0), (4.0, 7.0, 3.0), (8.0, 12.0, 36.0), (1.0, 1.0, 0.0)]
-        {
-            assert!((travel.reach(from, to) - expected).abs() < 1e-12, "{from} to {to}");
+        let travel = Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0)
+            .expect("a valid table");
+        for (from, to, expected) in [
+            (0.0, 4.0, 24.0),
+            (0.0, 9.0, 25.0),
+            (4.0, 7.0, 3.0),
+            (8.0, 12.0, 36.0),
+            (1.0, 1.0, 0.0),
+        ] {
+            assert!(
+                (travel.reach(from, to) - expected).abs() < 1e-12,
+                "{from} to {to}"
+            );
         }
     }
 
     #[test]
     fn leaving_is_found_between_rows_and_at_turning_points() {
         // x = 10 t - t^2 from a speed of 10 falling by 2 a second: turns at t = 5 with x = 25
-        let travel =
-            Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
+        let travel = Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0)
+            .expect("a valid table");
         assert_eq!(travel.leaves([0.0, 25.0], 10.0), None);
         let (t, x) = travel.leaves([-1.0, 24.0], 10.0).expect("25 is beyond 24");
-        assert!((t - 4.0).abs() < 1e-12 && (x - 24.0).abs() < 1e-11, "{t} {x}");
-        let (t, _) = travel.leaves([0.0, 25.0], 12.0).expect("x falls below 0 after t = 10");
+        assert!(
+            (t - 4.0).abs() < 1e-12 && (x - 24.0).abs() < 1e-11,
+            "{t} {x}"
+        );
+        let (t, _) = travel
+            .leaves([0.0, 25.0], 12.0)
+            .expect("x falls below 0 after t = 10");
         assert!((t - 10.0).abs() < 1e-9, "{t}");
         assert_eq!(travel.leaves([1.0, 25.0], 12.0), Some((0.0, 0.0)));
     }

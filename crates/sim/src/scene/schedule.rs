@@ -16,7 +16,9 @@ impl Schedule {
     /// An empty table, times that do not increase, or numbers that are not finite.
     pub fn new(table: &[[f64; 2]]) -> Result<Schedule, Error> {
         check_rows(table)?;
-        Ok(Schedule { rows: table.to_vec() })
+        Ok(Schedule {
+            rows: table.to_vec(),
+        })
     }
 
     /// Value at `t`.
@@ -39,15 +41,20 @@ impl Schedule {
 
     /// Times between the rows at which the value changes sign.
     pub fn turns(&self) -> impl Iterator<Item = f64> + '_ {
-        self.rows.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0).map(|pair| {
-            let [[t0, v0], [t1, v1]] = [pair[0], pair[1]];
-            t0 + (t1 - t0) * v0 / (v0 - v1)
-        })
+        self.rows
+            .windows(2)
+            .filter(|pair| pair[0][1] * pair[1][1] < 0.0)
+            .map(|pair| {
+                let [[t0, v0], [t1, v1]] = [pair[0], pair[1]];
+                t0 + (t1 - t0) * v0 / (v0 - v1)
+            })
     }
 
     /// Integral from the first row to `t`.
     fn area(&self, t: f64) -> f64 {
-        let Some(&[first, start]) = self.rows.first() else { return 0.0 };
+        let Some(&[first, start]) = self.rows.first() else {
+            return 0.0;
+        };
         if t <= first {
             return start * (t - first);
         }
@@ -76,7 +83,14 @@ mod tests {
     #[test]
     fn schedule_is_linear_between_its_rows_and_keeps_its_ends() {
         let schedule = Schedule::new(&[[1.0, 2.0], [3.0, 6.0], [4.0, 0.0]]).expect("a valid table");
-        for (t, value) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (3.5, 3.0), (9.0, 0.0)] {
+        for (t, value) in [
+            (0.0, 2.0),
+            (1.0, 2.0),
+            (2.0, 4.0),
+            (3.0, 6.0),
+            (3.5, 3.0),
+            (9.0, 0.0),
+        ] {
             assert_eq!(schedule.at(t), value, "t = {t}");
         }
         assert_eq!(schedule.breaks().collect::<Vec<_>>(), [1.0, 3.0, 4.0]);
@@ -84,7 +98,12 @@ mod tests {
 
     #[test]
     fn schedule_refuses_tables_that_are_empty_turn_back_or_are_not_finite() {
-        for table in [&[][..], &[[1.0, 0.0], [1.0, 2.0]], &[[0.0, f64::NAN]], &[[f64::INFINITY, 1.0]]] {
+        for table in [
+            &[][..],
+            &[[1.0, 0.0], [1.0, 2.0]],
+            &[[0.0, f64::NAN]],
+            &[[f64::INFINITY, 1.0]],
+        ] {
             assert!(Schedule::new(table).is_err(), "{table:?}");
         }
     }

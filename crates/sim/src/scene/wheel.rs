@@ -47,7 +47,14 @@ impl NormalLaw {
     /// The linear law k p + c r.
     #[must_use]
     pub fn linear(stiffness: f64, damping: f64, damper: Damper) -> Self {
-        NormalLaw { stiffness, exponent: 1.0, damping, depth: 0.0, damper, bilateral: false }
+        NormalLaw {
+            stiffness,
+            exponent: 1.0,
+            damping,
+            depth: 0.0,
+            damper,
+            bilateral: false,
+        }
     }
 
     /// Whether the force is linear in penetration and rate.
@@ -76,9 +83,16 @@ impl NormalLaw {
             (self.stiffness * p, self.stiffness)
         } else {
             let power = p.abs().powf(self.exponent - 1.0);
-            (self.stiffness * p * power, self.stiffness * self.exponent * power)
+            (
+                self.stiffness * p * power,
+                self.stiffness * self.exponent * power,
+            )
         };
-        let (ramp, by_ramp) = if self.depth > 0.0 { step(p, 0.0, 0.0, self.depth, 1.0) } else { (1.0, 0.0) };
+        let (ramp, by_ramp) = if self.depth > 0.0 {
+            step(p, 0.0, 0.0, self.depth, 1.0)
+        } else {
+            (1.0, 0.0)
+        };
         LawValue {
             force: spring + self.damping * ramp * r,
             by_penetration: by_spring + self.damping * by_ramp * r,
@@ -131,7 +145,8 @@ impl Flange {
     /// Fraction S(h) of the flange force that acts at height `h`, and its slope.
     #[must_use]
     pub fn fraction(&self, h: f64) -> (f64, f64) {
-        self.release.map_or((1.0, 0.0), |[from, to]| step(h, from, 1.0, to, 0.0))
+        self.release
+            .map_or((1.0, 0.0), |[from, to]| step(h, from, 1.0, to, 0.0))
     }
 
     /// Signed lateral penetration beyond the clearance.
@@ -207,7 +222,13 @@ impl Wheel {
     /// A wheel of `radius` with the vertical law `normal`, without flange and friction; it rolls without inertia.
     #[must_use]
     pub fn new(radius: f64, normal: NormalLaw) -> Self {
-        Wheel { radius, normal, flange: None, friction: None, spin_inertia: None }
+        Wheel {
+            radius,
+            normal,
+            flange: None,
+            friction: None,
+            spin_inertia: None,
+        }
     }
 }
 
@@ -269,7 +290,11 @@ mod tests {
 
     #[test]
     fn flange_has_free_play_and_lets_go_between_the_release_heights() {
-        let flange = Flange { stiffness: 1e8, clearance: 0.04, release: Some([1.25, 1.385]) };
+        let flange = Flange {
+            stiffness: 1e8,
+            clearance: 0.04,
+            release: Some([1.25, 1.385]),
+        };
         assert_eq!(flange.overlap(0.03), 0.0);
         assert!((flange.overlap(-0.05) + 0.01).abs() < 1e-15);
         assert_eq!(flange.fraction(1.2).0, 1.0);
@@ -279,7 +304,11 @@ mod tests {
 
     #[test]
     fn friction_is_odd_and_full_beyond_the_slip_velocity() {
-        let friction = Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 };
+        let friction = Friction {
+            law: FrictionLaw::Step,
+            coefficient: 0.2,
+            slip: 0.1,
+        };
         assert_eq!(friction.fraction(0.2).0, 1.0);
         assert_eq!(friction.fraction(-0.2).0, -1.0);
         assert!(friction.fraction(0.0).0.abs() < 1e-15);
@@ -287,7 +316,11 @@ mod tests {
 
     #[test]
     fn coulomb_friction_is_odd_and_nearly_full_at_ten_slip_velocities() {
-        let friction = Friction { law: FrictionLaw::Coulomb, coefficient: 0.2, slip: 0.1 };
+        let friction = Friction {
+            law: FrictionLaw::Coulomb,
+            coefficient: 0.2,
+            slip: 0.1,
+        };
         assert_eq!(friction.fraction(0.0), (0.0, 10.0));
         assert_eq!(friction.fraction(0.03).0, -friction.fraction(-0.03).0);
         // Analytic: tanh 1 = 0.761594, 1 - tanh 10 = 4.1e-9.

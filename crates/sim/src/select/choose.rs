@@ -49,7 +49,9 @@ use self::open::{NO_BETTER, Open, SAFE, is_unreachable, largest};
 use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, slowest_bounce};
 use super::measure::{Bounces, MANY, Measure, Record, difference};
 use super::replay::{Loaded, TailError, tail_errors};
-use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
+use super::selection::{
+    Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck,
+};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
 /// Number of modes that are computed first, and at the most.
@@ -119,11 +121,19 @@ pub fn choose<L: FoundationProvider>(
         search.scene.output_parts = scene.output_parts;
     }
     let checks = CHECK_ACCURACY * least(tolerances);
-    let accuracy = if open.is_empty() { search.accuracy } else { checks.max(search.accuracy) };
+    let accuracy = if open.is_empty() {
+        search.accuracy
+    } else {
+        checks.max(search.accuracy)
+    };
     search.must_advance = !open.is_empty();
     let first = search.trial(&influence, accuracy, !open.is_empty())?;
     search.must_advance = false;
-    let chosen = if open.is_empty() { first } else { search.search(open, first)? };
+    let chosen = if open.is_empty() {
+        first
+    } else {
+        search.search(open, first)?
+    };
     Ok(search.finish(chosen))
 }
 
@@ -170,7 +180,11 @@ impl Progress {
             return true;
         }
         // a run that is repeated with another method begins again
-        let advanced = if time > self.since { time - self.since } else { f64::INFINITY };
+        let advanced = if time > self.since {
+            time - self.since
+        } else {
+            f64::INFINITY
+        };
         (self.since, self.steps) = (time, 0);
         advanced >= least
     }
@@ -222,7 +236,17 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
         let records_steps = scene.records_steps;
         let (must_advance, choices, runs) = (false, Vec::new(), 0);
-        Search { scene, accuracy, records_steps, must_advance, tolerances, provider, watch, choices, runs }
+        Search {
+            scene,
+            accuracy,
+            records_steps,
+            must_advance,
+            tolerances,
+            provider,
+            watch,
+            choices,
+            runs,
+        }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -231,19 +255,31 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for (structure, tolerance) in self.tolerances.iter().enumerate() {
             let Some(tolerance) = tolerance else { continue };
             let choice = self.choices.len();
-            self.choices.push(Choice::new(structure, Fidelity::Influence, Reason::Unchecked));
+            self.choices.push(Choice::new(
+                structure,
+                Fidelity::Influence,
+                Reason::Unchecked,
+            ));
             if self.scene.analysis == Analysis::QuasiStatic {
                 self.choices[choice].reason = Reason::QuasiStatic;
                 continue;
             }
             match self.provider.modes(structure, MODES[0]) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > 0 => {
-                    let has_amplitudes =
-                        tolerance.measure == Measure::Extremes && remembered_bounces(&self.scene) <= MANY;
+                    let has_amplitudes = tolerance.measure == Measure::Extremes
+                        && remembered_bounces(&self.scene) <= MANY;
                     let shares = if has_amplitudes { AIM } else { AIM_IN_PHASE };
                     let aims = shares.map(|share| share * tolerance.value);
                     let (tolerance, tails) = (tolerance.value, Vec::new());
-                    open.push(Open { structure, tolerance, aims, basis, tails, tails_of: None, choice });
+                    open.push(Open {
+                        structure,
+                        tolerance,
+                        aims,
+                        basis,
+                        tails,
+                        tails_of: None,
+                        choice,
+                    });
                 }
                 // no mode that wheels excite: nothing of the mass moves
                 Ok(Some(_)) => {
@@ -276,24 +312,39 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         accuracy: f64,
         is_compared: bool,
     ) -> Result<Trial, L::Error> {
-        let auto = fidelities.iter().enumerate().filter(|(s, _)| self.tolerances[*s].is_some());
-        self.provider.begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
+        let auto = fidelities
+            .iter()
+            .enumerate()
+            .filter(|(s, _)| self.tolerances[*s].is_some());
+        self.provider
+            .begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
         let built = fidelities.iter().enumerate();
         let foundations = built
-            .map(|(s, fidelity)| match (fidelity, kept.iter().find(|own| own.0 == s)) {
-                (Fidelity::Modal(count), Some((_, kept))) => self.provider.finer_foundation(s, *count, *kept),
-                _ => self.provider.foundation(s, *fidelity),
-            })
+            .map(
+                |(s, fidelity)| match (fidelity, kept.iter().find(|own| own.0 == s)) {
+                    (Fidelity::Modal(count), Some((_, kept))) => {
+                        self.provider.finer_foundation(s, *count, *kept)
+                    }
+                    _ => self.provider.foundation(s, *fidelity),
+                },
+            )
             .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
         // only a run with the accuracy of the result may become the result
         self.scene.records_steps = self.records_steps && accuracy <= self.accuracy;
-        let least =
-            if self.must_advance { ADVANCE.1 * fastest_bounce(&self.scene).min(self.scene.end) } else { 0.0 };
+        let least = if self.must_advance {
+            ADVANCE.1 * fastest_bounce(&self.scene).min(self.scene.end)
+        } else {
+            0.0
+        };
         let (mut progress, mut is_given_up) = (Progress::default(), false);
         let mut watch = |time: f64| {
             is_given_up |= !progress.is_sufficient(time, least);
-            if is_given_up { ControlFlow::Break(()) } else { (self.watch)(time) }
+            if is_given_up {
+                ControlFlow::Break(())
+            } else {
+                (self.watch)(time)
+            }
         };
         let run = self.provider.run(&self.scene, &foundations, &mut watch)?;
         self.runs += 1;
@@ -304,7 +355,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             record = self.provider.observe(&history)?;
         }
         let (fidelities, parts, number) = (fidelities.to_vec(), self.scene.output_parts, self.runs);
-        Ok(Trial { fidelities, foundations, run, record, accuracy, parts, number, is_given_up })
+        Ok(Trial {
+            fidelities,
+            foundations,
+            run,
+            record,
+            accuracy,
+            parts,
+            number,
+            is_given_up,
+        })
     }
 
     /// The bounces of the wheels in a run.
@@ -331,7 +391,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             Status::Done | Status::Ended(_) => {}
             // Other foundations may still complete the motion.
             Status::StepTooSmall(_) => return self.search_without_influence(open, first),
-            Status::Stopped if first.is_given_up => return self.search_without_influence(open, first),
+            Status::Stopped if first.is_given_up => {
+                return self.search_without_influence(open, first);
+            }
             // On other foundations the wheels would leave their rails as well.
             Status::Stopped | Status::Failed(..) => return Ok(first),
         }
@@ -341,10 +403,20 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
         // wheels amplify what the rails lack by as many times as they remember bounces
         let enough = SAFE / bounces.remembered.clamp(REMEMBERED[0], REMEMBERED[1]);
-        let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, (frequency, enough));
+        let (counts, is_hopeless) =
+            self.first_counts(&mut open, &first, &compliances, (frequency, enough));
         self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
         if counts.iter().any(|count| *count > 0) {
-            return self.refine(Refinement { open, counts, is_hopeless, bounces, compliances }, first);
+            return self.refine(
+                Refinement {
+                    open,
+                    counts,
+                    is_hopeless,
+                    bounces,
+                    compliances,
+                },
+                first,
+            );
         }
         for own in &open {
             self.settle(own, Fidelity::Influence, Reason::Sufficient, &own.tail(0));
@@ -365,7 +437,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for own in open.iter_mut() {
             self.estimate(own, first, compliances, 0, [f64::INFINITY; 2]);
         }
-        let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
+        let is_hopeless = open
+            .iter()
+            .any(|own| own.tail(0).error > HOPELESS * own.tolerance);
         let mut counts = vec![0; open.len()];
         for (own, count) in open.iter_mut().zip(&mut counts) {
             let error = own.tail(0).error;
@@ -377,7 +451,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     limits[0]
                 } else {
                     // a run that only checks influence need not be within the tolerance itself
-                    let limits = [(AIM_IN_PHASE[0] * own.tolerance).max(CHECKED * error), f64::INFINITY];
+                    let limits = [
+                        (AIM_IN_PHASE[0] * own.tolerance).max(CHECKED * error),
+                        f64::INFINITY,
+                    ];
                     self.estimate_by(|tail| tail.in_phase, own, first, compliances, (1, limits));
                     limits[0]
                 };
@@ -398,9 +475,19 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     /// Steps 3 to 6 of the head of this module: runs with modes until one of two runs is sufficient. `lower` is the
     /// run with influence functions.
     fn refine(&mut self, refinement: Refinement, mut lower: Trial) -> Result<Trial, L::Error> {
-        let Refinement { mut open, mut counts, is_hopeless, bounces, compliances } = refinement;
+        let Refinement {
+            mut open,
+            mut counts,
+            is_hopeless,
+            bounces,
+            compliances,
+        } = refinement;
         let strictest = self.strictest(&open, &counts);
-        let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
+        let mut accuracy = if is_hopeless {
+            self.accuracy
+        } else {
+            CHECK_ACCURACY * strictest.value
+        };
         let mut lacking = largest(&open, &vec![0; open.len()], |tail| tail.error);
         // whether the repetitions of the lower run have shown that its error is too large
         let mut is_refuted = false;
@@ -419,23 +506,37 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= BESIDE * strictest.value && !is_refuted {
-                let error = TailError { error, quantity: apart.quantity, ..TailError::none(0) };
+                let error = TailError {
+                    error,
+                    quantity: apart.quantity,
+                    ..TailError::none(0)
+                };
                 return self.choose_lower(&open, lower, higher, (&error, bounces));
             }
             let mut repeated = None;
             is_refuted = false;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
             if raised == counts && !is_unreachable(factor * lacking, strictest.value) {
-                (higher, repeated) =
-                    self.check_by_repetitions(&open, (&counts, factor), higher, strictest, bounces)?;
+                (higher, repeated) = self.check_by_repetitions(
+                    &open,
+                    (&counts, factor),
+                    higher,
+                    strictest,
+                    bounces,
+                )?;
                 let found = repeated.as_ref().map_or(0.0, |repeated| repeated.error);
                 is_refuted = found > strictest.value;
                 if is_refuted {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
-                    let of_repetitions: Vec<usize> =
-                        open.iter().zip(&counts).map(|(own, count)| own.kept_beyond(*count)).collect();
+                    let of_repetitions: Vec<usize> = open
+                        .iter()
+                        .zip(&counts)
+                        .map(|(own, count)| own.kept_beyond(*count))
+                        .collect();
                     raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
-                    for ((raised, count), repeated) in raised.iter_mut().zip(&counts).zip(of_repetitions) {
+                    for ((raised, count), repeated) in
+                        raised.iter_mut().zip(&counts).zip(of_repetitions)
+                    {
                         if *raised > *count {
                             *raised = repeated.max(*raised);
                         }
@@ -443,7 +544,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
             }
             if raised == counts || round == MODAL_RUNS {
-                self.settle_higher(&open, &counts, factor, repeated, &higher, round == MODAL_RUNS);
+                self.settle_higher(
+                    &open,
+                    &counts,
+                    factor,
+                    repeated,
+                    &higher,
+                    round == MODAL_RUNS,
+                );
                 return self.repeated(&open, higher, bounces);
             }
             self.sample_as_stepped(&higher);
@@ -465,9 +573,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut raised = counts.to_vec();
         for (own, count) in open.iter_mut().zip(&mut raised) {
             if factor * own.tail(*count).error > SAFE * own.tolerance {
-                let [limit, enough] = [own.aims[1], SAFE * own.tolerance].map(|error| error / factor);
+                let [limit, enough] =
+                    [own.aims[1], SAFE * own.tolerance].map(|error| error / factor);
                 self.estimate(own, higher, compliances, *count + 1, [limit, enough]);
-                *count = own.count_for(limit, factor, *count, SPARE).unwrap_or(*count);
+                *count = own
+                    .count_for(limit, factor, *count, SPARE)
+                    .unwrap_or(*count);
             }
         }
         raised
@@ -482,8 +593,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         higher: Trial,
         (error, bounces): (&TailError, Bounces),
     ) -> Result<Trial, L::Error> {
-        let is_kept = higher.accuracy <= self.accuracy && higher.cost() > LONG.max(COSTLY * lower.cost());
-        let (chosen, reason) = if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
+        let is_kept =
+            higher.accuracy <= self.accuracy && higher.cost() > LONG.max(COSTLY * lower.cost());
+        let (chosen, reason) = if is_kept {
+            (higher, Reason::Kept)
+        } else {
+            (lower, Reason::Sufficient)
+        };
         for own in open {
             self.settle(own, chosen.fidelities[own.structure], reason, error);
         }
@@ -501,13 +617,27 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         higher: &Trial,
         is_last: bool,
     ) {
-        let insufficient = if is_last { Reason::Limit } else { Reason::NoBetter };
+        let insufficient = if is_last {
+            Reason::Limit
+        } else {
+            Reason::NoBetter
+        };
         for (own, &count) in open.iter().zip(counts) {
             let tail = own.tail(count);
-            let tail = TailError { error: factor * tail.error, ..tail };
-            let error = repeated.clone().filter(|repeated| repeated.error > tail.error).unwrap_or(tail);
+            let tail = TailError {
+                error: factor * tail.error,
+                ..tail
+            };
+            let error = repeated
+                .clone()
+                .filter(|repeated| repeated.error > tail.error)
+                .unwrap_or(tail);
             // the margin decides whether another run is worth its cost, which is over here
-            let reason = if error.error <= own.tolerance { Reason::Sufficient } else { insufficient };
+            let reason = if error.error <= own.tolerance {
+                Reason::Sufficient
+            } else {
+                insufficient
+            };
             self.settle(own, higher.fidelities[own.structure], reason, &error);
         }
     }
@@ -515,7 +645,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     /// The choice where the run `first` with influence functions could not continue: the first number of modes that
     /// completes the motion and whose error, estimated with the factor [`UNKNOWN`], and that of its repetitions, are within
     /// the tolerance. Where no modes complete it, influence functions are given all the time they want.
-    fn search_without_influence(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
+    fn search_without_influence(
+        &mut self,
+        mut open: Vec<Open>,
+        mut first: Trial,
+    ) -> Result<Trial, L::Error> {
         for own in &open {
             self.choices[own.choice].failed.push(Fidelity::Influence);
         }
@@ -524,24 +658,41 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let strictest = self.strictest(&open, &counts);
         let mut last = None;
         for round in 1..=MODAL_RUNS {
-            let Some(mut trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
+            let Some(mut trial) = self.modal_trial(&open, &counts, self.accuracy) else {
+                break;
+            };
             // no two runs tell how much wheels amplify
             let bounces = self.bounces(&trial);
-            let bounces = Bounces { remembered: bounces.remembered.max(REMEMBERED[0]), ..bounces };
+            let bounces = Bounces {
+                remembered: bounces.remembered.max(REMEMBERED[0]),
+                ..bounces
+            };
             for (own, count) in open.iter_mut().zip(&counts) {
-                self.estimate(own, &trial, &compliances, *count, [SAFE / UNKNOWN * own.tolerance; 2]);
+                self.estimate(
+                    own,
+                    &trial,
+                    &compliances,
+                    *count,
+                    [SAFE / UNKNOWN * own.tolerance; 2],
+                );
             }
             self.note_tails(&open, &counts, UNKNOWN, &trial);
             let raise = |open: &[Open], factor: f64| -> Vec<usize> {
                 let raised = |(own, &count): (&Open, &usize)| {
-                    own.sufficient_count(SAFE / factor * own.tolerance, count).unwrap_or(count)
+                    own.sufficient_count(SAFE / factor * own.tolerance, count)
+                        .unwrap_or(count)
                 };
                 open.iter().zip(&counts).map(raised).collect()
             };
             let (mut raised, mut repeated) = (raise(&open, UNKNOWN), None);
             if raised == counts {
-                (trial, repeated) =
-                    self.check_by_repetitions(&open, (&counts, UNKNOWN), trial, strictest, bounces)?;
+                (trial, repeated) = self.check_by_repetitions(
+                    &open,
+                    (&counts, UNKNOWN),
+                    trial,
+                    strictest,
+                    bounces,
+                )?;
                 let found = repeated.as_ref().map_or(0.0, |repeated| repeated.error);
                 let lacking = largest(&open, &counts, |tail| tail.error);
                 if found > strictest.value && lacking > 0.0 {
@@ -549,7 +700,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
             }
             let is_done = raised == counts;
-            last = Some((trial, std::mem::replace(&mut counts, raised), repeated, round == MODAL_RUNS));
+            last = Some((
+                trial,
+                std::mem::replace(&mut counts, raised),
+                repeated,
+                round == MODAL_RUNS,
+            ));
             if is_done {
                 break;
             }
@@ -572,9 +728,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let own = all.filter_map(|(own, _)| self.tolerances[own.structure]);
         own.reduce(|a, b| Tolerance {
             value: a.value.min(b.value),
-            measure: if a.measure == Measure::History { a.measure } else { b.measure },
+            measure: if a.measure == Measure::History {
+                a.measure
+            } else {
+                b.measure
+            },
         })
-        .unwrap_or(Tolerance { value: 0.0, measure: Measure::History })
+        .unwrap_or(Tolerance {
+            value: 0.0,
+            measure: Measure::History,
+        })
     }
 
     /// Runs the scene with `counts` modes of the structures `open`; `None` if that is not possible.
@@ -586,8 +749,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         match self.trial(&fidelities, accuracy, true) {
             Ok(trial) if trial.run.status.is_complete() => Some(trial),
             _ => {
-                for own in open.iter().filter(|own| fidelities[own.structure] != Fidelity::Influence) {
-                    self.choices[own.choice].failed.push(fidelities[own.structure]);
+                for own in open
+                    .iter()
+                    .filter(|own| fidelities[own.structure] != Fidelity::Influence)
+                {
+                    self.choices[own.choice]
+                        .failed
+                        .push(fidelities[own.structure]);
                 }
                 None
             }
@@ -628,13 +796,15 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     foundations: compliances,
                     history: &trial.run.history,
                     record: &trial.record,
-                    measure: self.tolerances[own.structure].map_or(Measure::History, |own| own.measure),
+                    measure: self.tolerances[own.structure]
+                        .map_or(Measure::History, |own| own.measure),
                     bounces: self.bounces(trial),
                 };
                 own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
                 own.tails_of = Some((trial.number, known));
             }
-            let usable = |tail: &&TailError| tail.kept >= least && BEYOND * tail.kept as f64 <= known as f64;
+            let usable =
+                |tail: &&TailError| tail.kept >= least && BEYOND * tail.kept as f64 <= known as f64;
             let best = own.tails.iter().filter(usable).map(of).reduce(f64::min);
             let is_known = best.is_some_and(|best| {
                 let is_level = last_best.is_some_and(|last: f64| last <= NO_BETTER * best);
@@ -645,7 +815,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 return;
             }
             last_best = best;
-            match self.provider.modes(own.structure, (2 * known).min(MODES[1])) {
+            match self
+                .provider
+                .modes(own.structure, (2 * known).min(MODES[1]))
+            {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > known => own.basis = basis,
                 _ => return,
             }
@@ -667,7 +840,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Notes the error of a run that was compared with one of higher fidelity.
-    fn note_runs(&mut self, open: &[Open], lower: &Trial, higher: &Trial, estimate: f64, quantity: &str) {
+    fn note_runs(
+        &mut self,
+        open: &[Open],
+        lower: &Trial,
+        higher: &Trial,
+        estimate: f64,
+        quantity: &str,
+    ) {
         for own in open {
             let [fidelity, against] = [lower, higher].map(|trial| trial.fidelities[own.structure]);
             if fidelity != against {
@@ -689,13 +869,23 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Where no rail deflects by more than what the tolerance leaves of the largest displacements, tries rigid rails.
-    fn rigid_if_still(&mut self, open: &[Open], first: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
+    fn rigid_if_still(
+        &mut self,
+        open: &[Open],
+        first: Trial,
+        bounces: Bounces,
+    ) -> Result<Trial, L::Error> {
         let scales = first.record.scales();
         let moves = |own: &Open| {
             let quantities = first.record.quantities.iter().zip(&scales);
-            quantities.filter(|(quantity, _)| matches!(quantity.channel, Some(Channel::Deflection(_)))).any(
-                |(quantity, scale)| quantity.values.iter().any(|value| value.abs() > own.tolerance * scale),
-            )
+            quantities
+                .filter(|(quantity, _)| matches!(quantity.channel, Some(Channel::Deflection(_))))
+                .any(|(quantity, scale)| {
+                    quantity
+                        .values
+                        .iter()
+                        .any(|value| value.abs() > own.tolerance * scale)
+                })
         };
         if open.len() < self.tolerances.len() || open.iter().any(moves) {
             return self.repeated(open, first, bounces);
@@ -710,7 +900,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         if apart.largest > SAFE * strictest.value {
             return self.repeated(open, first, bounces);
         }
-        let error = TailError { error: apart.largest, quantity: apart.quantity, ..TailError::none(0) };
+        let error = TailError {
+            error: apart.largest,
+            quantity: apart.quantity,
+            ..TailError::none(0)
+        };
         for own in open {
             self.settle(own, Fidelity::Rigid, Reason::Sufficient, &error);
         }
@@ -723,15 +917,22 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         run.history = run.history.every(chosen.parts, is_ended);
         let remembered = remembered_bounces(&self.scene);
         for choice in &mut self.choices {
-            let asks_for_phases =
-                self.tolerances[choice.structure].is_some_and(|own| own.measure == Measure::History);
+            let asks_for_phases = self.tolerances[choice.structure]
+                .is_some_and(|own| own.measure == Measure::History);
             choice.drifting = (asks_for_phases && remembered > MANY).then_some(remembered);
         }
-        Selection { choices: self.choices, run, runs: self.runs }
+        Selection {
+            choices: self.choices,
+            run,
+            runs: self.runs,
+        }
     }
 }
 
 /// The least tolerance of all structures.
 fn least(tolerances: &[Option<Tolerance>]) -> f64 {
-    tolerances.iter().flatten().fold(f64::INFINITY, |least, own| least.min(own.value))
+    tolerances
+        .iter()
+        .flatten()
+        .fold(f64::INFINITY, |least, own| least.min(own.value))
 }

@@ -39,18 +39,27 @@ fn bounces(scene: &Scene) -> impl Iterator<Item = Bounce> + '_ {
         let [mut stiffness, mut damping] = [0.0; 2];
         for contact in contacts() {
             let law = &scene.wheels[contact.wheel].normal;
-            let (at, count) = (law.at(law.penetration(share), 0.0), contact.offsets.len() as f64);
+            let (at, count) = (
+                law.at(law.penetration(share), 0.0),
+                contact.offsets.len() as f64,
+            );
             stiffness += at.by_penetration * count;
             damping += at.by_rate * count;
         }
         let omega = (stiffness / body.mass).sqrt();
-        Bounce { omega, ratio: damping / (2.0 * body.mass * omega) }
+        Bounce {
+            omega,
+            ratio: damping / (2.0 * body.mass * omega),
+        }
     })
 }
 
 /// Period of the fastest bounce of a body on its contacts on rigid rails; infinite without contacts.
 pub(super) fn fastest_bounce(scene: &Scene) -> f64 {
-    2.0 * PI / bounces(scene).map(|bounce| bounce.omega).fold(0.0, f64::max)
+    2.0 * PI
+        / bounces(scene)
+            .map(|bounce| bounce.omega)
+            .fold(0.0, f64::max)
 }
 
 /// Largest number of bounces of a body after which the run still depends on the phase of the first one: those of the
@@ -62,7 +71,9 @@ pub(super) fn remembered_bounces(scene: &Scene) -> f64 {
 
 /// Longest time, up to that of the run, after which the run still depends on the phase of the first bounce of a body.
 pub(super) fn remembered_time(scene: &Scene) -> f64 {
-    bounces(scene).map(|own| own.remembered_time(scene.end)).fold(0.0, f64::max)
+    bounces(scene)
+        .map(|own| own.remembered_time(scene.end))
+        .fold(0.0, f64::max)
 }
 
 /// Period of the slowest bounce of a wheel in a run on flexible rails: 2 pi sqrt(d/g), with d the largest sum of
@@ -71,12 +82,18 @@ pub(super) fn slowest_bounce(scene: &Scene, history: &History) -> f64 {
     let mut deepest = 0.0_f64;
     let mut w = 0;
     while history.position(Channel::Penetration(w)).is_some() {
-        let pairs = history.values(Channel::Penetration(w)).zip(history.values(Channel::Deflection(w)));
+        let pairs = history
+            .values(Channel::Penetration(w))
+            .zip(history.values(Channel::Deflection(w)));
         deepest = pairs.fold(deepest, |most, (p, d)| most.max(p + d));
         w += 1;
     }
     let period = 2.0 * PI * (deepest / scene.gravity).sqrt();
-    if period > 0.0 && period < scene.end { period } else { scene.end }
+    if period > 0.0 && period < scene.end {
+        period
+    } else {
+        scene.end
+    }
 }
 
 #[cfg(test)]
@@ -88,13 +105,22 @@ mod tests {
     #[test]
     fn the_fastest_bounce_is_that_of_the_stiffest_body() {
         let law = |stiffness: f64| NormalLaw::linear(stiffness, 0.0, Damper::Rail);
-        let hertz = NormalLaw { exponent: 1.5, ..law(4e6) };
+        let hertz = NormalLaw {
+            exponent: 1.5,
+            ..law(4e6)
+        };
         let mut scene = Scene {
             bodies: vec![Body::new(500.0, [1.0; 3]), Body::new(2000.0, [1.0; 3])],
             wheels: vec![Wheel::new(0.5, law(2e5)), Wheel::new(0.5, hertz)],
             contacts: vec![
-                Contact { offsets: vec![-1.0, 1.0], ..Contact::new(0, [0.0; 3]) },
-                Contact { wheel: 1, ..Contact::new(1, [0.0; 3]) },
+                Contact {
+                    offsets: vec![-1.0, 1.0],
+                    ..Contact::new(0, [0.0; 3])
+                },
+                Contact {
+                    wheel: 1,
+                    ..Contact::new(1, [0.0; 3])
+                },
             ],
             ..Scene::default()
         };
@@ -116,7 +142,10 @@ mod tests {
     fn a_bounce_is_remembered_until_dampers_reduce_it_to_a_hundredth() {
         let scene = |damping: f64| Scene {
             bodies: vec![Body::new(500.0, [1.0; 3])],
-            wheels: vec![Wheel::new(0.5, NormalLaw::linear(2e5, damping, Damper::Rail))],
+            wheels: vec![Wheel::new(
+                0.5,
+                NormalLaw::linear(2e5, damping, Damper::Rail),
+            )],
             contacts: vec![Contact::new(0, [0.0; 3])],
             end: 30.0,
             ..Scene::default()
@@ -131,15 +160,34 @@ mod tests {
     /// duration of the run where that is shorter or there is nothing to bounce.
     #[test]
     fn the_slowest_bounce_is_that_of_the_deepest_wheel() {
-        let scene = Scene { end: 30.0, ..Scene::default() };
-        let channels = [0, 1].iter().flat_map(|&w| [Channel::Penetration(w), Channel::Deflection(w)]);
+        let scene = Scene {
+            end: 30.0,
+            ..Scene::default()
+        };
+        let channels = [0, 1]
+            .iter()
+            .flat_map(|&w| [Channel::Penetration(w), Channel::Deflection(w)]);
         let mut history = History::new(channels.collect());
-        history.put_values(vec![0.1, 0.3, 0.05, 0.0, 0.2, 0.25, 0.01, 0.7, 0.25, 0.1, 0.0, 0.0]);
+        history.put_values(vec![
+            0.1, 0.3, 0.05, 0.0, 0.2, 0.25, 0.01, 0.7, 0.25, 0.1, 0.0, 0.0,
+        ]);
         let expected = 2.0 * std::f64::consts::PI * (0.71 / scene.gravity).sqrt();
         assert!((slowest_bounce(&scene, &history) / expected - 1.0).abs() < 1e-14);
-        let short = Scene { end: 0.5 * expected, ..scene.clone() };
+        let short = Scene {
+            end: 0.5 * expected,
+            ..scene.clone()
+        };
         assert_eq!(slowest_bounce(&short, &history), 0.5 * expected);
         assert_eq!(slowest_bounce(&scene, &History::default()), 30.0);
-        assert_eq!(slowest_bounce(&Scene { gravity: 0.0, ..scene }, &history), 30.0);
+        assert_eq!(
+            slowest_bounce(
+                &Scene {
+                    gravity: 0.0,
+                    ..scene
+                },
+                &history
+            ),
+            30.0
+        );
     }
 }

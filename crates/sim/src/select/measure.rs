@@ -82,7 +82,9 @@ impl Record {
                 Channel::Displacement(_, crate::BodyDof::X) => ("position", true),
                 Channel::Displacement(_, dof) if (*dof as usize) < 3 => ("displacement", false),
                 Channel::Displacement(..) => ("rotation", false),
-                Channel::Vertical(_) | Channel::Lateral(_) | Channel::Traction(_) => ("force", false),
+                Channel::Vertical(_) | Channel::Lateral(_) | Channel::Traction(_) => {
+                    ("force", false)
+                }
                 Channel::Tension(_) | Channel::Stop(_) => ("force", false),
                 Channel::Deflection(_) | Channel::Gauge(_) => ("displacement", false),
                 Channel::Drive(_) => ("force", false),
@@ -100,7 +102,10 @@ impl Record {
             })
         };
         let quantities = history.channels().iter().filter_map(quantity).collect();
-        Record { time: history.column(Channel::Time), quantities }
+        Record {
+            time: history.column(Channel::Time),
+            quantities,
+        }
     }
 
     /// This record with the first `count` values of each quantity from `other`, as far as both reach.
@@ -115,8 +120,14 @@ impl Record {
 
     /// The quantities that are channels of the run: motions, wheel forces and gauges, but neither reactions nor internal forces.
     pub(super) fn motion(&self) -> Record {
-        let own = self.quantities.iter().filter(|quantity| quantity.channel.is_some());
-        Record { time: self.time.clone(), quantities: own.cloned().collect() }
+        let own = self
+            .quantities
+            .iter()
+            .filter(|quantity| quantity.channel.is_some());
+        Record {
+            time: self.time.clone(),
+            quantities: own.cloned().collect(),
+        }
     }
 
     /// Scale of every quantity, see the head of this module; 0 for a quantity of a kind that is zero throughout.
@@ -130,11 +141,16 @@ impl Record {
         };
         let ranges: Vec<f64> = self.quantities.iter().map(range).collect();
         let largest = |kind: &str| {
-            let of_kind = self.quantities.iter().zip(&ranges).filter(|(other, _)| other.kind == kind);
+            let of_kind = self
+                .quantities
+                .iter()
+                .zip(&ranges)
+                .filter(|(other, _)| other.kind == kind);
             of_kind.fold(0.0_f64, |most, (_, range)| most.max(*range))
         };
         let own = self.quantities.iter().zip(&ranges);
-        own.map(|(own, range)| range.max(FLOOR * largest(own.kind)).max(own.least_scale)).collect()
+        own.map(|(own, range)| range.max(FLOOR * largest(own.kind)).max(own.least_scale))
+            .collect()
     }
 }
 
@@ -154,7 +170,10 @@ fn extremes(values: &[f64], start: f64) -> [f64; 2] {
     };
     blocks.for_each(&mut add);
     add(last);
-    [low.into_iter().fold(start, f64::min), high.into_iter().fold(start, f64::max)]
+    [
+        low.into_iter().fold(start, f64::min),
+        high.into_iter().fold(start, f64::max),
+    ]
 }
 
 /// Smallest and largest of `values`; zeros where there are none.
@@ -195,19 +214,38 @@ impl Bounces {
 /// runs reach.
 #[must_use]
 pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) -> Difference {
-    let unknown = Difference { largest: f64::INFINITY, quantity: String::new(), of_motion: f64::INFINITY };
+    let unknown = Difference {
+        largest: f64::INFINITY,
+        quantity: String::new(),
+        of_motion: f64::INFINITY,
+    };
     if a.quantities.len() != b.quantities.len() || a.time.is_empty() || b.time.is_empty() {
         return unknown;
     }
     let last = |record: &Record| record.time[record.time.len() - 1];
     let (ends, count) = ([last(a), last(b)], a.time.len().min(b.time.len()));
     let duration = (ends[0] - ends[1]).abs() / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
-    let mut found = Difference { largest: 0.0, quantity: String::new(), of_motion: 0.0 };
+    let mut found = Difference {
+        largest: 0.0,
+        quantity: String::new(),
+        of_motion: 0.0,
+    };
     if a.time.len() != b.time.len() && duration > 0.0 {
-        found = Difference { largest: duration, quantity: "time of the end".to_owned(), of_motion: duration };
+        found = Difference {
+            largest: duration,
+            quantity: "time of the end".to_owned(),
+            of_motion: duration,
+        };
     }
     let is_long = bounces.are_many();
-    let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
+    let windows = Windows::new(
+        &b.time[..count],
+        if is_long {
+            f64::INFINITY
+        } else {
+            bounces.slowest
+        },
+    );
     let scales = b.scales();
     for (index, mut scale) in scales.iter().copied().enumerate() {
         let [one, other] = [a, b].map(|record| &record.quantities[index]);
@@ -222,7 +260,9 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
                 let [a, b] = [a, b].map(|record| group_extremes(record, &other.group, count));
                 (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
             }
-            Measure::Extremes => windows.outline(values[0]).difference(&windows.outline(values[1])),
+            Measure::Extremes => windows
+                .outline(values[0])
+                .difference(&windows.outline(values[1])),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
         if relative.is_nan() {
@@ -259,7 +299,9 @@ pub(super) fn drift(
     [start, end]: [f64; 2],
 ) -> Difference {
     let (measure, share) = match measure {
-        Measure::Extremes if bounces.are_many() => (Measure::History, share_at_end(b, bounces.slowest)),
+        Measure::Extremes if bounces.are_many() => {
+            (Measure::History, share_at_end(b, bounces.slowest))
+        }
         _ => (measure, 1.0),
     };
     let (a, b) = (a.motion(), b.motion());
@@ -270,7 +312,11 @@ pub(super) fn drift(
     let [half, whole] = [0.5 * start, start].map(until);
     let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);
     let largest = share * (whole.largest + growth);
-    Difference { largest, quantity: whole.quantity, of_motion: largest }
+    Difference {
+        largest,
+        quantity: whole.quantity,
+        of_motion: largest,
+    }
 }
 
 /// Largest change of the extremes of a record that a shift of its motion in time may cause, relative to the largest change
@@ -278,11 +324,18 @@ pub(super) fn drift(
 /// that the end of the run cuts off: values that are reached within the last `period` change like all values there, in
 /// proportion to how far they move within it.
 fn share_at_end(record: &Record, period: f64) -> f64 {
-    let Some(end) = record.time.last() else { return 0.0 };
+    let Some(end) = record.time.last() else {
+        return 0.0;
+    };
     let last = record.time.partition_point(|t| *t < end - period);
     let scales = record.scales();
     let [mut cut_off, mut motion] = [0.0_f64; 2];
-    for (quantity, scale) in record.quantities.iter().zip(scales).filter(|(_, scale)| *scale > 0.0) {
+    for (quantity, scale) in record
+        .quantities
+        .iter()
+        .zip(scales)
+        .filter(|(_, scale)| *scale > 0.0)
+    {
         let [whole, own] = [&quantity.values[..], &quantity.values[last..]].map(own_extremes);
         let swing = (own[1] - own[0]) / scale;
         if quantity.channel.is_some() && !quantity.is_position {
@@ -292,19 +345,31 @@ fn share_at_end(record: &Record, period: f64) -> f64 {
             cut_off = cut_off.max(swing);
         }
     }
-    if motion > 0.0 { (cut_off / motion).min(1.0) } else { 0.0 }
+    if motion > 0.0 {
+        (cut_off / motion).min(1.0)
+    } else {
+        0.0
+    }
 }
 
 /// Smallest and largest value of the quantities of a group in the first `count` samples.
 fn group_extremes(record: &Record, group: &str, count: usize) -> [f64; 2] {
-    let own = record.quantities.iter().filter(|quantity| quantity.group == group);
+    let own = record
+        .quantities
+        .iter()
+        .filter(|quantity| quantity.group == group);
     let all = own.map(|quantity| own_extremes(&quantity.values[..count]));
-    all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
+    all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        .unwrap_or_default()
 }
 
 /// Scale of the extremes of a group: the largest one of its quantities.
 fn group_scale(record: &Record, scales: &[f64], group: &str) -> f64 {
-    let own = record.quantities.iter().zip(scales).filter(|(quantity, _)| quantity.group == group);
+    let own = record
+        .quantities
+        .iter()
+        .zip(scales)
+        .filter(|(quantity, _)| quantity.group == group);
     own.fold(0.0, |most, (_, scale)| most.max(*scale))
 }
 
@@ -314,7 +379,9 @@ fn mean(values: &[f64]) -> f64 {
 
 /// Largest difference at equal times.
 fn pointwise([a, b]: [&[f64]; 2]) -> f64 {
-    a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+    a.iter()
+        .zip(b)
+        .fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
 }
 
 /// Largest magnitude within `reach` samples of each sample. A queue holds the samples whose magnitude no later sample within
@@ -331,7 +398,10 @@ fn largest_within(values: &[f64], reach: usize) -> Vec<f64> {
             queue.push_back(next);
             next += 1;
         }
-        while queue.front().is_some_and(|first| first.saturating_add(reach) < i) {
+        while queue
+            .front()
+            .is_some_and(|first| first.saturating_add(reach) < i)
+        {
             queue.pop_front();
         }
         size(queue.front().copied().unwrap_or(i))
@@ -353,19 +423,27 @@ impl Windows {
         // also true where the period is zero or not a number
         if !(count >= 2.0 && count <= time.len() as f64) {
             let whole = 0..time.len();
-            return Windows { own: vec![whole.clone()], wide: vec![whole] };
+            return Windows {
+                own: vec![whole.clone()],
+                wide: vec![whole],
+            };
         }
         let between = |from: f64, to: f64| {
             let start = time.partition_point(|t| *t < from);
-            start..time.partition_point(|t| *t <= to).max(start + 1).min(time.len())
+            start
+                ..time
+                    .partition_point(|t| *t <= to)
+                    .max(start + 1)
+                    .min(time.len())
         };
         let count = count as usize - 1;
         let spans = (0..count).map(|k| {
             let from = first + 0.5 * length * k as f64;
             [from, if k + 1 == count { last } else { from + length }]
         });
-        let (own, wide) =
-            spans.map(|[from, to]| (between(from, to), between(from - period, to + period))).unzip();
+        let (own, wide) = spans
+            .map(|[from, to]| (between(from, to), between(from - period, to + period)))
+            .unzip();
         Windows { own, wide }
     }
 
@@ -408,7 +486,11 @@ impl Outline {
         if !(self.is_finite && other.is_finite) {
             return f64::NAN;
         }
-        let means = self.windows.iter().zip(&other.windows).map(|(a, b)| (a.mean - b.mean).abs());
+        let means = self
+            .windows
+            .iter()
+            .zip(&other.windows)
+            .map(|(a, b)| (a.mean - b.mean).abs());
         means.fold(self.difference_of_extremes(other), f64::max)
     }
 
@@ -441,7 +523,12 @@ impl<'a> Outlined<'a> {
         }
         let outlines = record.quantities.iter().map(|_| OnceCell::new()).collect();
         let (windows, scales) = (Windows::new(&record.time, bounces.slowest), record.scales());
-        Some(Outlined { record, windows, scales, outlines })
+        Some(Outlined {
+            record,
+            windows,
+            scales,
+            outlines,
+        })
     }
 
     /// Scale of the differences of quantity `index`.
@@ -452,9 +539,16 @@ impl<'a> Outlined<'a> {
     /// Difference of quantity `index` from itself with the values `lacking` added, relative to its scale: at most the largest
     /// of their magnitudes. Not a number where a value is none.
     pub fn difference(&self, index: usize, lacking: &[f64]) -> f64 {
-        let sum: Vec<f64> =
-            self.record.quantities[index].values.iter().zip(lacking).map(|(value, by)| value + by).collect();
-        self.relative(index, self.windows.outline(&sum).difference(self.own(index)))
+        let sum: Vec<f64> = self.record.quantities[index]
+            .values
+            .iter()
+            .zip(lacking)
+            .map(|(value, by)| value + by)
+            .collect();
+        self.relative(
+            index,
+            self.windows.outline(&sum).difference(self.own(index)),
+        )
     }
 
     /// The same where `lacking` is an oscillation whose phase is not known. With the amplitude A, the largest magnitude of the
@@ -466,7 +560,11 @@ impl<'a> Outlined<'a> {
         if !own.is_finite || lacking.iter().any(|value| !value.is_finite()) {
             return f64::NAN;
         }
-        let means = self.windows.own.iter().map(|range| mean(&lacking[range.clone()]).abs());
+        let means = self
+            .windows
+            .own
+            .iter()
+            .map(|range| mean(&lacking[range.clone()]).abs());
         let mut largest = means.fold(0.0, f64::max);
         let values = &self.record.quantities[index].values;
         let amplitude = largest_within(lacking, reach);
@@ -482,11 +580,16 @@ impl<'a> Outlined<'a> {
 
     /// The outline of quantity `index`.
     fn own(&self, index: usize) -> &Outline {
-        self.outlines[index].get_or_init(|| self.windows.outline(&self.record.quantities[index].values))
+        self.outlines[index]
+            .get_or_init(|| self.windows.outline(&self.record.quantities[index].values))
     }
 
     fn relative(&self, index: usize, largest: f64) -> f64 {
-        if largest == 0.0 { 0.0 } else { largest / self.scales[index] }
+        if largest == 0.0 {
+            0.0
+        } else {
+            largest / self.scales[index]
+        }
     }
 }
 

@@ -33,12 +33,15 @@ use splines::{Axis, Influence, Probe};
 
 use self::oscillator::{LoadAtEnds, Oscillator};
 use self::wheels::{CORNER, Interval, LoadedWheel, WheelInstant, loaded_wheels};
-use super::measure::{Bounces, Difference, Measure, Outlined, Record, RecordedQuantity, difference};
+use super::measure::{
+    Bounces, Difference, Measure, Outlined, Record, RecordedQuantity, difference,
+};
 use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
-pub(super) const COUNTS: [usize; 20] =
-    [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 96];
+pub(super) const COUNTS: [usize; 20] = [
+    0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 96,
+];
 
 /// Natural modes of a structure and their effects.
 pub struct ModalBasis {
@@ -72,7 +75,13 @@ pub(super) struct TailError {
 impl TailError {
     /// No error without all but the lowest `kept` modes.
     pub fn none(kept: usize) -> Self {
-        TailError { kept, error: 0.0, quantity: String::new(), of_motion: 0.0, in_phase: 0.0 }
+        TailError {
+            kept,
+            error: 0.0,
+            quantity: String::new(),
+            of_motion: 0.0,
+            in_phase: 0.0,
+        }
     }
 }
 
@@ -106,7 +115,9 @@ impl Slot {
     /// modes kept.
     fn note(&mut self, counts: &[usize], row: usize, term: impl Fn(usize) -> f64, modes: usize) {
         let (mut sum, mut above) = (0.0_f64, modes);
-        let mut at_row = self.series.get_mut(row * counts.len()..(row + 1) * counts.len());
+        let mut at_row = self
+            .series
+            .get_mut(row * counts.len()..(row + 1) * counts.len());
         for (k, count) in counts.iter().enumerate().rev() {
             while above > *count {
                 above -= 1;
@@ -126,9 +137,17 @@ impl Slot {
 ///
 /// # Errors
 /// A wheel beyond its rail.
-pub(super) fn tail_errors(loaded: &Loaded<'_>, basis: &ModalBasis) -> Result<Vec<TailError>, Error> {
-    let Dynamics::Modes { omega, ratio } = &basis.structure.dynamics else { return Ok(Vec::new()) };
-    let counts: Vec<usize> = COUNTS.into_iter().filter(|count| *count < omega.len()).collect();
+pub(super) fn tail_errors(
+    loaded: &Loaded<'_>,
+    basis: &ModalBasis,
+) -> Result<Vec<TailError>, Error> {
+    let Dynamics::Modes { omega, ratio } = &basis.structure.dynamics else {
+        return Ok(Vec::new());
+    };
+    let counts: Vec<usize> = COUNTS
+        .into_iter()
+        .filter(|count| *count < omega.len())
+        .collect();
     let mut replay = Replay::new(loaded, basis, counts)?;
     for (oscillator, (omega, ratio)) in replay.oscillators.iter_mut().zip(omega.iter().zip(ratio)) {
         *oscillator = Oscillator::new(*omega, *ratio);
@@ -149,7 +168,10 @@ struct Loads {
 impl Loads {
     /// No load on `n` modes.
     fn zeros(n: usize) -> Self {
-        Loads { value: vec![0.0; n], rate: vec![0.0; n] }
+        Loads {
+            value: vec![0.0; n],
+            rate: vec![0.0; n],
+        }
     }
 }
 
@@ -182,10 +204,25 @@ struct Replay<'a> {
 }
 
 impl<'a> Replay<'a> {
-    fn new(loaded: &'a Loaded<'a>, basis: &'a ModalBasis, counts: Vec<usize>) -> Result<Self, Error> {
-        let Loaded { scene, structure, foundations, history, record, .. } = *loaded;
+    fn new(
+        loaded: &'a Loaded<'a>,
+        basis: &'a ModalBasis,
+        counts: Vec<usize>,
+    ) -> Result<Self, Error> {
+        let Loaded {
+            scene,
+            structure,
+            foundations,
+            history,
+            record,
+            ..
+        } = *loaded;
         let n = basis.structure.dynamics.dofs();
-        let times = if loaded.measure == Measure::Extremes { record.time.len() } else { 0 };
+        let times = if loaded.measure == Measure::Extremes {
+            record.time.len()
+        } else {
+            0
+        };
         let slot = |quantity: usize| Slot {
             quantity,
             largest: vec![0.0; counts.len()],
@@ -199,7 +236,10 @@ impl<'a> Replay<'a> {
         let mut wheels = loaded_wheels(scene, foundations, structure, history, frequencies)?;
         let mut by_wheel = Vec::new();
         wheels.retain(|wheel| {
-            let slots = (Channel::Deflection(wheel.index), Channel::Vertical(wheel.index));
+            let slots = (
+                Channel::Deflection(wheel.index),
+                Channel::Vertical(wheel.index),
+            );
             let (Some(deflection), Some(force)) = (of_channel(slots.0), of_channel(slots.1)) else {
                 return false;
             };
@@ -208,24 +248,46 @@ impl<'a> Replay<'a> {
         });
         let (mut shape, mut slope) = (vec![0.0; n], vec![0.0; n]);
         let mut gauges = Vec::new();
-        for (g, gauge) in scene.gauges.iter().enumerate().filter(|(_, gauge)| gauge.structure == structure) {
-            let row = basis.structure.shapes.row(gauge.probe, &mut shape, &mut slope);
+        for (g, gauge) in scene
+            .gauges
+            .iter()
+            .enumerate()
+            .filter(|(_, gauge)| gauge.structure == structure)
+        {
+            let row = basis
+                .structure
+                .shapes
+                .row(gauge.probe, &mut shape, &mut slope);
             if let (Some(slot), Ok(())) = (of_channel(Channel::Gauge(g)), row) {
                 gauges.push((shape.clone(), slot));
             }
         }
         let drives = (0..scene.bodies.len()).filter_map(|b| {
             let own: Vec<usize> = (0..wheels.len()).filter(|w| wheels[*w].body == b).collect();
-            of_channel(Channel::Drive(b)).filter(|_| !own.is_empty()).map(|slot| (own, slot))
+            of_channel(Channel::Drive(b))
+                .filter(|_| !own.is_empty())
+                .map(|slot| (own, slot))
         });
         let drives = drives.collect();
-        let names: BTreeMap<&str, usize> =
-            record.quantities.iter().enumerate().map(|(i, quantity)| (quantity.name.as_str(), i)).collect();
-        let known =
-            basis.effects.iter().filter_map(|(name, by_mode)| Some((by_mode, names.get(name.as_str())?)));
-        let effects = known.map(|(by_mode, at)| (by_mode.as_slice(), slot(*at))).collect();
-        let carrier = foundations[structure].carrier.as_ref().filter(|_| !basis.coupling.is_empty());
-        let carrier = carrier.and_then(|carrier| history.position(Channel::Speed(carrier.body, BodyDof::X)));
+        let names: BTreeMap<&str, usize> = record
+            .quantities
+            .iter()
+            .enumerate()
+            .map(|(i, quantity)| (quantity.name.as_str(), i))
+            .collect();
+        let known = basis
+            .effects
+            .iter()
+            .filter_map(|(name, by_mode)| Some((by_mode, names.get(name.as_str())?)));
+        let effects = known
+            .map(|(by_mode, at)| (by_mode.as_slice(), slot(*at)))
+            .collect();
+        let carrier = foundations[structure]
+            .carrier
+            .as_ref()
+            .filter(|_| !basis.coupling.is_empty());
+        let carrier =
+            carrier.and_then(|carrier| history.position(Channel::Speed(carrier.body, BodyDof::X)));
         Ok(Replay {
             loaded,
             basis,
@@ -250,19 +312,34 @@ impl<'a> Replay<'a> {
     fn sample(&mut self, i: usize) -> Result<(), Error> {
         let (history, n) = (self.loaded.history, self.oscillators.len());
         let sample = history.sample(i);
-        let after = self.wheels.iter().map(|wheel| wheel.interval(history, i)).collect();
+        let after = self
+            .wheels
+            .iter()
+            .map(|wheel| wheel.interval(history, i))
+            .collect();
         let before = std::mem::replace(&mut self.intervals, after);
         // before the first sample the forces change as they do after it
         let begins = instants(&self.intervals, 0.0, 1.0);
-        let ends = if i == 0 { begins.clone() } else { instants(&before, 1.0, -1.0) };
+        let ends = if i == 0 {
+            begins.clone()
+        } else {
+            instants(&before, 1.0, -1.0)
+        };
         let (mut ending, mut beginning) = (Loads::zeros(n), Loads::zeros(n));
         self.add_loads(&ends, Some(&begins), &mut ending, &mut beginning.rate)?;
         beginning.value.clone_from(&ending.value);
         let is_row = self.loaded.record.time.get(self.row) == Some(&sample[0]);
-        let of_wheels = if is_row { ending.clone() } else { Loads::default() };
+        let of_wheels = if is_row {
+            ending.clone()
+        } else {
+            Loads::default()
+        };
         if i == 0 {
             self.add_carrier(i, 0.0, &mut beginning);
-            self.oscillators.iter_mut().zip(&beginning.value).for_each(|(mode, load)| mode.begin(*load));
+            self.oscillators
+                .iter_mut()
+                .zip(&beginning.value)
+                .for_each(|(mode, load)| mode.begin(*load));
         } else {
             self.add_carrier(i - 1, 1.0, &mut ending);
             self.add_carrier(i, 0.0, &mut beginning);
@@ -274,11 +351,19 @@ impl<'a> Replay<'a> {
         }
         let row = self.row;
         self.row += 1;
-        let modes = || self.oscillators.iter().map(|mode| (mode, mode.flexibility()));
-        let lag: Vec<f64> =
-            modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
-        let rates: Vec<f64> =
-            modes().zip(&of_wheels.rate).map(|((mode, by), rate)| mode.state[1] - rate * by).collect();
+        let modes = || {
+            self.oscillators
+                .iter()
+                .map(|mode| (mode, mode.flexibility()))
+        };
+        let lag: Vec<f64> = modes()
+            .zip(&of_wheels.value)
+            .map(|((mode, by), load)| mode.state[0] - load * by)
+            .collect();
+        let rates: Vec<f64> = modes()
+            .zip(&of_wheels.rate)
+            .map(|((mode, by), rate)| mode.state[1] - rate * by)
+            .collect();
         for (w, end) in ends.iter().enumerate() {
             self.note_wheel(w, sample, row, end.speed, [&lag, &rates])?;
         }
@@ -293,7 +378,12 @@ impl<'a> Replay<'a> {
             slot.note(&self.counts, row, |r| shape[r] * lag[r], n);
         }
         for (by_mode, slot) in &mut self.effects {
-            slot.note(&self.counts, row, |r| by_mode[r] * self.oscillators[r].state[2], n);
+            slot.note(
+                &self.counts,
+                row,
+                |r| by_mode[r] * self.oscillators[r].state[2],
+                n,
+            );
         }
         Ok(())
     }
@@ -311,7 +401,11 @@ impl<'a> Replay<'a> {
         shares.dedup_by(|b, a| *b - *a < CORNER);
         let (mut begin, mut from) = (std::mem::take(&mut self.last), 0.0);
         // the shapes under the wheels at the sample are needed once more
-        let kept = if shares.is_empty() { None } else { Some((self.shapes.clone(), self.slopes.clone())) };
+        let kept = if shares.is_empty() {
+            None
+        } else {
+            Some((self.shapes.clone(), self.slopes.clone()))
+        };
         for share in shares {
             let mut beside = [-1.0, 1.0].map(|_| Loads::zeros(end.value.len()));
             for (side, loads) in [-1.0, 1.0].into_iter().zip(&mut beside) {
@@ -323,7 +417,10 @@ impl<'a> Replay<'a> {
             // the shapes are those under the wheels at this instant
             for (interval, shapes) in intervals.iter().zip(self.shapes.chunks(end.value.len())) {
                 let impulse = interval.impulse(share);
-                self.oscillators.iter_mut().zip(shapes).for_each(|(mode, shape)| mode.push(shape * impulse));
+                self.oscillators
+                    .iter_mut()
+                    .zip(shapes)
+                    .for_each(|(mode, shape)| mode.push(shape * impulse));
             }
             (begin, from) = (right, share);
         }
@@ -339,7 +436,10 @@ impl<'a> Replay<'a> {
         for (r, mode) in self.oscillators.iter_mut().enumerate() {
             mode.advance(
                 h,
-                LoadAtEnds { value: [begin.value[r], end.value[r]], rate: [begin.rate[r], end.rate[r]] },
+                LoadAtEnds {
+                    value: [begin.value[r], end.value[r]],
+                    rate: [begin.rate[r], end.rate[r]],
+                },
             );
         }
     }
@@ -360,26 +460,40 @@ impl<'a> Replay<'a> {
         for (w, wheel) in self.wheels.iter().enumerate() {
             let own = &at[w];
             let other = after.map_or(own, |after| &after[w]);
-            for (k, axis) in [Axis::Longitudinal, Axis::Lateral, Axis::Vertical].into_iter().enumerate() {
+            for (k, axis) in [Axis::Longitudinal, Axis::Lateral, Axis::Vertical]
+                .into_iter()
+                .enumerate()
+            {
                 let is_idle = own.forces[k] == 0.0 && own.rates[k] == 0.0 && other.rates[k] == 0.0;
-                if (axis == Axis::Longitudinal && !is_loaded_along) || (axis != Axis::Vertical && is_idle) {
+                if (axis == Axis::Longitudinal && !is_loaded_along)
+                    || (axis != Axis::Vertical && is_idle)
+                {
                     continue;
                 }
                 let shapes = &mut self.shapes[n * w..n * (w + 1)];
                 let slopes = &mut self.slopes[n * w..n * (w + 1)];
                 let row = self.basis.structure.shapes.row(
-                    Probe { rail: wheel.rail, x: own.x, axis },
+                    Probe {
+                        rail: wheel.rail,
+                        x: own.x,
+                        axis,
+                    },
                     shapes,
                     slopes,
                 );
-                row.map_err(|source| Error::Compliance { structure: s, source })?;
+                row.map_err(|source| Error::Compliance {
+                    structure: s,
+                    source,
+                })?;
                 let (force, moving) = (own.forces[k], own.speed * own.forces[k]);
                 for (r, (shape, slope)) in shapes.iter().zip(slopes.iter()).enumerate() {
                     loads.value[r] += shape * force;
                     loads.rate[r] += slope * moving + shape * own.rates[k];
                 }
                 let moving = other.speed * other.forces[k];
-                for (rate, (shape, slope)) in rates_after.iter_mut().zip(shapes.iter().zip(slopes.iter())) {
+                for (rate, (shape, slope)) in
+                    rates_after.iter_mut().zip(shapes.iter().zip(slopes.iter()))
+                {
                     *rate += slope * moving + shape * other.rates[k];
                 }
             }
@@ -415,7 +529,13 @@ impl<'a> Replay<'a> {
         [lag, rates]: [&[f64]; 2],
     ) -> Result<(), Error> {
         let (n, s) = (lag.len(), self.loaded.structure);
-        let LoadedWheel { rail, first, contact: [k, c], ref at_modes, .. } = self.wheels[w];
+        let LoadedWheel {
+            rail,
+            first,
+            contact: [k, c],
+            ref at_modes,
+            ..
+        } = self.wheels[w];
         let [shape, slope] = [&self.shapes, &self.slopes].map(|all| &all[n * w..n * (w + 1)]);
         let [deflection, force] = &mut self.by_wheel[w];
         deflection.note(&self.counts, row, |r| shape[r] * lag[r], n);
@@ -425,16 +545,26 @@ impl<'a> Replay<'a> {
         let mut flexibility = 0.0;
         if let Some(compliance) = &self.loaded.foundations[s].compliance {
             let mut influence = Influence::zeros(1);
-            let probe = Probe { rail, x: sample[first], axis: Axis::Vertical };
+            let probe = Probe {
+                rail,
+                x: sample[first],
+                axis: Axis::Vertical,
+            };
             let filled = compliance.fill(&[probe], &mut influence);
-            filled.map_err(|source| Error::Compliance { structure: s, source })?;
+            filled.map_err(|source| Error::Compliance {
+                structure: s,
+                source,
+            })?;
             flexibility = influence.value[(0, 0)];
         }
         self.gains.resize(n, 0.0);
         for (r, gain) in self.gains.iter_mut().enumerate() {
             let mode = &self.oscillators[r];
             flexibility -= (shape[r] / mode.omega).powi(2);
-            let (lacking, rate) = (shape[r] * lag[r], shape[r] * rates[r] + slope[r] * speed * lag[r]);
+            let (lacking, rate) = (
+                shape[r] * lag[r],
+                shape[r] * rates[r] + slope[r] * speed * lag[r],
+            );
             *gain = (k * lacking + c * rate) / (1.0 + at_modes[r] * flexibility.max(0.0));
         }
         force.note(&self.counts, row, |r| self.gains[r], n);
@@ -447,7 +577,12 @@ impl<'a> Replay<'a> {
     ///
     /// Reactions and internal forces also lack those above all known modes ([`sum_beyond`], [`root_beyond`]).
     fn errors(self) -> Vec<TailError> {
-        let Loaded { record, measure, bounces, .. } = *self.loaded;
+        let Loaded {
+            record,
+            measure,
+            bounces,
+            ..
+        } = *self.loaded;
         let known = self.oscillators.len();
         let oscillators = self.oscillators;
         let slots: Vec<Slot> = (self.by_wheel.into_iter().flatten())
@@ -457,26 +592,47 @@ impl<'a> Replay<'a> {
             .collect();
         let is_motion = |slot: &Slot| record.quantities[slot.quantity].channel.is_some();
         let is_cut_off = |slot: &Slot| !is_motion(slot) && !self.basis.is_whole;
-        let in_phase_beyond =
-            |slot: &Slot, kept: usize| if is_cut_off(slot) { sum_beyond(kept, known) } else { 1.0 };
-        let beyond = |slot: &Slot, kept: usize| if is_cut_off(slot) { root_beyond(kept, known) } else { 1.0 };
+        let in_phase_beyond = |slot: &Slot, kept: usize| {
+            if is_cut_off(slot) {
+                sum_beyond(kept, known)
+            } else {
+                1.0
+            }
+        };
+        let beyond = |slot: &Slot, kept: usize| {
+            if is_cut_off(slot) {
+                root_beyond(kept, known)
+            } else {
+                1.0
+            }
+        };
         // adds the error of a quantity to those of others
         let add = |found: &mut TailError, slot: &Slot, error: f64| {
             let error = if error.is_nan() { f64::INFINITY } else { error };
             if error > found.error {
                 found.error = error;
-                found.quantity.clone_from(&record.quantities[slot.quantity].name);
+                found
+                    .quantity
+                    .clone_from(&record.quantities[slot.quantity].name);
             }
             if is_motion(slot) {
                 found.of_motion = found.of_motion.max(error);
             }
         };
         // differences at equal times, and of what is read from many bounces, have phases as they are
-        let as_they_are = |found: TailError| TailError { in_phase: found.error, ..found };
+        let as_they_are = |found: TailError| TailError {
+            in_phase: found.error,
+            ..found
+        };
         // what a quantity lacks, at the times of the record
         let numbers = self.counts.len();
         let lacking = |slot: &Slot, index: usize, share: f64| -> Vec<f64> {
-            slot.series.iter().skip(index).step_by(numbers).map(|own| share * f64::from(*own)).collect()
+            slot.series
+                .iter()
+                .skip(index)
+                .step_by(numbers)
+                .map(|own| share * f64::from(*own))
+                .collect()
         };
         let counts = self.counts.iter().copied().enumerate();
         if measure == Measure::History {
@@ -501,8 +657,17 @@ impl<'a> Replay<'a> {
                         .for_each(|(value, own)| *value += own);
                 }
                 let apart = difference(&completed, record, measure, bounces);
-                let Difference { largest: error, quantity, of_motion } = apart;
-                as_they_are(TailError { error, quantity, of_motion, ..TailError::none(kept) })
+                let Difference {
+                    largest: error,
+                    quantity,
+                    of_motion,
+                } = apart;
+                as_they_are(TailError {
+                    error,
+                    quantity,
+                    of_motion,
+                    ..TailError::none(kept)
+                })
             };
             return counts.map(together).collect();
         };
@@ -512,7 +677,8 @@ impl<'a> Replay<'a> {
             let most = |slot: &Slot| {
                 in_phase_beyond(slot, kept) * slot.largest[index] / outlined.scale(slot.quantity)
             };
-            let mut bounds: Vec<(f64, &Slot)> = slots.iter().map(|slot| (most(slot), slot)).collect();
+            let mut bounds: Vec<(f64, &Slot)> =
+                slots.iter().map(|slot| (most(slot), slot)).collect();
             bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
             // half a period of the lowest mode that is lacking contains a peak of any oscillation of these modes
             let quarter = 0.5 * PI / oscillators[kept].omega;
@@ -520,17 +686,27 @@ impl<'a> Replay<'a> {
             let mut found = TailError::none(kept);
             let mut in_phase = 0.0;
             for (bound, slot) in bounds {
-                let is_open = bound > if is_motion(slot) { found.of_motion } else { found.error };
+                let is_open = bound
+                    > if is_motion(slot) {
+                        found.of_motion
+                    } else {
+                        found.error
+                    };
                 if bound <= in_phase && !is_open {
                     continue;
                 }
                 let quantity = slot.quantity;
-                let error = outlined.difference(quantity, &lacking(slot, index, in_phase_beyond(slot, kept)));
+                let error = outlined
+                    .difference(quantity, &lacking(slot, index, in_phase_beyond(slot, kept)));
                 add(&mut found, slot, error);
                 in_phase = f64::max(in_phase, if error.is_nan() { f64::INFINITY } else { error });
                 if kept > 0 && is_open {
                     let lacking = lacking(slot, index, beyond(slot, kept));
-                    add(&mut found, slot, outlined.difference_by_amplitude(quantity, &lacking, reach));
+                    add(
+                        &mut found,
+                        slot,
+                        outlined.difference_by_amplitude(quantity, &lacking, reach),
+                    );
                 }
             }
             TailError { in_phase, ..found }
@@ -560,7 +736,13 @@ fn acceleration(history: &History, i: usize, first: usize) -> [f64; 6] {
     let (before, after) = (i.saturating_sub(1), (i + 1).min(history.len() - 1));
     let [a, b] = [history.sample(before), history.sample(after)];
     let span = b[0] - a[0];
-    std::array::from_fn(|k| if span > 0.0 { (b[first + k] - a[first + k]) / span } else { 0.0 })
+    std::array::from_fn(|k| {
+        if span > 0.0 {
+            (b[first + k] - a[first + k]) / span
+        } else {
+            0.0
+        }
+    })
 }
 
 #[cfg(test)]

@@ -48,7 +48,11 @@ pub trait FoundationProvider {
     ///
     /// # Errors
     /// The fidelity cannot be built.
-    fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<Foundation, Self::Error>;
+    fn foundation(
+        &mut self,
+        structure: usize,
+        fidelity: Fidelity,
+    ) -> Result<Foundation, Self::Error>;
 
     /// Builds a foundation with `count` modes that only shows the error of one with the lowest `kept` of them: only their
     /// frequencies need the accuracy of a result.

@@ -21,7 +21,11 @@ impl Books {
     pub fn new(solver: &Solver, start: &State) -> Self {
         let energy = stored(solver.system(), solver.geometry(), start);
         Books {
-            audit: Audit { start: energy, end: energy, ..Audit::default() },
+            audit: Audit {
+                start: energy,
+                end: energy,
+                ..Audit::default()
+            },
             begun: energy.total(),
             imbalance: 0.0,
             boundary: boundary(solver.system(), solver.geometry(), start),
@@ -73,7 +77,11 @@ impl Books {
         let imbalance = after.total() + self.audit.exchanged.net_loss() - self.begun;
         self.audit.imbalance = self.audit.imbalance.max(imbalance.abs());
         let energy = imbalance - std::mem::replace(&mut self.imbalance, imbalance);
-        self.audit.gaps.add(EnergyGap { time: to.t, energy, cause });
+        self.audit.gaps.add(EnergyGap {
+            time: to.t,
+            energy,
+            cause,
+        });
     }
 
     /// Uses the energy `after` at `to` as that of the start of the next step.

@@ -80,7 +80,11 @@ const RATE_SHARE: f64 = 0.05;
 impl Responses {
     fn new(nodes: &Nodes, n: usize) -> Self {
         let s = nodes.count();
-        Responses { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
+        Responses {
+            h: 0.0,
+            free: vec![[0.0; 4]; (s + 1) * n],
+            forced: vec![[0.0; 2]; (s + 1) * s * n],
+        }
     }
 
     fn fill(&mut self, nodes: &Nodes, modes: &[[f64; 2]], h: f64) {
@@ -90,7 +94,9 @@ impl Responses {
             let mode = (omega > 0.0).then(|| Propagator::new(omega, zeta, h));
             for i in 0..=s {
                 let c = nodes.c[i];
-                self.free[i * n + r] = mode.as_ref().map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
+                self.free[i * n + r] = mode
+                    .as_ref()
+                    .map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
                 let powers = mode.as_ref().map(|mode| mode.forced(c));
                 for b in 0..s {
                     self.forced[(i * s + b) * n + r] = match powers {
@@ -105,11 +111,16 @@ impl Responses {
     /// Displacements and speeds of all degrees of freedom at node `i` (the end for i = s) under the loads at the s nodes.
     fn motion(&self, load: &[DVector<f64>], from: &State, i: usize, q: &mut [f64], v: &mut [f64]) {
         let (s, n) = (load.len(), q.len());
-        let free = self.free[i * n..(i + 1) * n].iter().zip(from.q.iter().zip(from.v.iter()));
+        let free = self.free[i * n..(i + 1) * n]
+            .iter()
+            .zip(from.q.iter().zip(from.v.iter()));
         for ((q, v), ([qq, qv, vq, vv], (q0, v0))) in q.iter_mut().zip(v.iter_mut()).zip(free) {
             (*q, *v) = (qq * q0 + qv * v0, vq * q0 + vv * v0);
         }
-        for (forced, load) in self.forced[i * s * n..(i + 1) * s * n].chunks_exact(n.max(1)).zip(load) {
+        for (forced, load) in self.forced[i * s * n..(i + 1) * s * n]
+            .chunks_exact(n.max(1))
+            .zip(load)
+        {
             let terms = forced.iter().zip(load.iter());
             for ((q, v), ([by_q, by_v], load)) in q.iter_mut().zip(v.iter_mut()).zip(terms) {
                 *q += by_q * load;
@@ -124,7 +135,8 @@ impl Collocation {
         let (n, m, s) = (system.mechanics.dofs, system.elements.len(), nodes.count());
         let mut modes = vec![[0.0; 2]; n];
         for (range, foundation) in system.mechanics.structures.iter().zip(system.foundations) {
-            if let Some(Dynamics::Modes { omega, ratio }) = foundation.structure.as_ref().map(|s| &s.dynamics)
+            if let Some(Dynamics::Modes { omega, ratio }) =
+                foundation.structure.as_ref().map(|s| &s.dynamics)
             {
                 for (k, number) in range.clone().enumerate() {
                     modes[number] = [omega[k], ratio[k]];
@@ -132,13 +144,23 @@ impl Collocation {
             }
         }
         let size = s * m;
-        let moves = system.scene.bodies.iter().enumerate().filter(|(_, body)| body.motion.is_some());
-        let drags = moves.into_iter().any(|(b, _)| !system.mechanics.kinematics.travel_inertia(b).is_empty());
+        let moves = system
+            .scene
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| body.motion.is_some());
+        let drags = moves
+            .into_iter()
+            .any(|(b, _)| !system.mechanics.kinematics.travel_inertia(b).is_empty());
         Collocation {
             modes,
             responses: vec![Responses::new(&nodes, n)],
             geometries: vec![Geometry::new(system); s],
-            projection: NodeProjection { spread: vec![0.0; size * n], is_filled: false },
+            projection: NodeProjection {
+                spread: vec![0.0; size * n],
+                is_filled: false,
+            },
             loads: NodeLoads {
                 free: vec![DVector::zeros(n); s],
                 whole: vec![DVector::zeros(n); s],
@@ -164,7 +186,11 @@ impl Collocation {
 
     /// Geometries and states at the nodes inside the step just taken.
     pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
-        let nodes = self.nodes.c.iter().zip(self.geometries.iter().zip(&self.states));
+        let nodes = self
+            .nodes
+            .c
+            .iter()
+            .zip(self.geometries.iter().zip(&self.states));
         nodes.filter(|(c, _)| **c < 1.0).map(|(_, node)| node)
     }
 
@@ -204,7 +230,8 @@ impl Collocation {
             }
             if !(self.projection.is_filled && solver.system().traits.has_constant_rows) {
                 let rows = self.geometries[a].rows().approach.chunks_exact(n.max(1));
-                for (row, spread) in rows.zip(self.projection.spread[a * m * n..].chunks_exact_mut(n.max(1)))
+                for (row, spread) in
+                    rows.zip(self.projection.spread[a * m * n..].chunks_exact_mut(n.max(1)))
                 {
                     solver.apply_inverse(row, spread);
                 }
@@ -233,7 +260,8 @@ impl Collocation {
             return;
         }
         if self.is_modal() && self.responses.len() < STORED {
-            self.responses.push(Responses::new(&self.nodes, self.modes.len()));
+            self.responses
+                .push(Responses::new(&self.nodes, self.modes.len()));
         }
         self.responses.rotate_right(1);
         self.responses[0].fill(&self.nodes, &self.modes, h);
@@ -244,7 +272,13 @@ impl Collocation {
         let (s, m) = (self.count(), system.elements.len());
         for a in 0..s {
             let State { q, v, .. } = &mut self.states[a];
-            self.responses[0].motion(&self.loads.free, from, a, q.as_mut_slice(), v.as_mut_slice());
+            self.responses[0].motion(
+                &self.loads.free,
+                from,
+                a,
+                q.as_mut_slice(),
+                v.as_mut_slice(),
+            );
             let (geometry, state) = (&self.geometries[a], &self.states[a]);
             for i in 0..m {
                 self.forces.approach[a * m + i] = geometry.approach(i, &state.q);
@@ -261,27 +295,53 @@ impl Collocation {
         to: &mut State,
         limit: f64,
     ) -> Result<bool, Error> {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
-        for (b, (load, weight)) in self.loads.whole.iter_mut().zip(&self.loads.free).enumerate() {
+        let (s, n, m) = (
+            self.count(),
+            self.modes.len(),
+            solver.system().elements.len(),
+        );
+        for (b, (load, weight)) in self
+            .loads
+            .whole
+            .iter_mut()
+            .zip(&self.loads.free)
+            .enumerate()
+        {
             load.copy_from(weight);
             for j in 0..m {
                 let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
                 let force = self.forces.force[b * m + j];
-                load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
+                load.iter_mut()
+                    .zip(spread)
+                    .for_each(|(load, spread)| *load -= spread * force);
             }
         }
         let h = self.responses[0].h;
         for a in 0..s {
-            let State { q, v, a: accelerations, .. } = &mut self.states[a];
-            self.responses[0].motion(&self.loads.whole, from, a, q.as_mut_slice(), v.as_mut_slice());
+            let State {
+                q,
+                v,
+                a: accelerations,
+                ..
+            } = &mut self.states[a];
+            self.responses[0].motion(
+                &self.loads.whole,
+                from,
+                a,
+                q.as_mut_slice(),
+                v.as_mut_slice(),
+            );
             for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
-                accelerations[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v[r] + omega * q[r]);
+                accelerations[r] =
+                    self.loads.whole[a][r] - omega * (2.0 * zeta * v[r] + omega * q[r]);
             }
-            self.forces.penetrate(a, &self.geometries[a], &mut self.states[a]);
+            self.forces
+                .penetrate(a, &self.geometries[a], &mut self.states[a]);
         }
         for a in 0..s {
             for i in 0..m {
-                let rates = (0..s).map(|l| self.nodes.rate[a * s + l] * (self.states[l].p[i] - from.p[i]));
+                let rates =
+                    (0..s).map(|l| self.nodes.rate[a * s + l] * (self.states[l].p[i] - from.p[i]));
                 self.states[a].p_rate[i] = rates.sum::<f64>() / h;
             }
             let state = &mut self.states[a];
@@ -292,7 +352,13 @@ impl Collocation {
         if self.nodes.c[s - 1] < 1.0 {
             to.t = (from.t + h).min(limit.next_down());
             let State { q, v, .. } = &mut *to;
-            self.responses[0].motion(&self.loads.whole, from, s, q.as_mut_slice(), v.as_mut_slice());
+            self.responses[0].motion(
+                &self.loads.whole,
+                from,
+                s,
+                q.as_mut_slice(),
+                v.as_mut_slice(),
+            );
             if !solver.instant(to)? {
                 return Ok(false);
             }
@@ -307,17 +373,31 @@ impl Collocation {
     pub fn excesses(&self, solver: &Solver) -> SmallVec<[(f64, f64); FEW_PLACES]> {
         let (s, count) = (self.count(), solver.system().verticals());
         // The solver has that of the last node, if this is the end of the step.
-        let last = if self.nodes.c[s - 1] < 1.0 { &self.geometries[s - 1] } else { solver.geometry() };
+        let last = if self.nodes.c[s - 1] < 1.0 {
+            &self.geometries[s - 1]
+        } else {
+            solver.geometry()
+        };
         let geometries = self.geometries[..s - 1].iter().chain([last]);
         let mut excess = SmallVec::<[f64; FEW_CONTACTS]>::with_capacity(s * count);
         for (geometry, state) in geometries.zip(&self.states) {
             let frame = geometry.frame(solver.system(), state);
             excess.extend((0..count).map(|i| solver.excess(i, &frame)));
         }
-        let largest = |largest: f64, own: f64| if own.is_finite() { largest.max(own) } else { largest };
+        let largest = |largest: f64, own: f64| {
+            if own.is_finite() {
+                largest.max(own)
+            } else {
+                largest
+            }
+        };
         let nodes = self.nodes.c.iter().zip(excess.chunks_exact(count.max(1)));
-        let at_nodes =
-            nodes.map(|(share, excess)| (*share, excess.iter().copied().fold(f64::NEG_INFINITY, f64::max)));
+        let at_nodes = nodes.map(|(share, excess)| {
+            (
+                *share,
+                excess.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            )
+        });
         let at_middles = self.nodes.middles.iter().map(|(share, weights)| {
             let of = |i: usize| {
                 let nodes = excess.iter().skip(i).step_by(count).zip(weights);
@@ -336,7 +416,12 @@ impl Collocation {
             self.interpolate_bodies(from, share, at);
         }
         let h = self.responses[0].h;
-        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
+        for (r, &[omega, zeta]) in self
+            .modes
+            .iter()
+            .enumerate()
+            .filter(|(_, mode)| mode[0] > 0.0)
+        {
             let mode = Propagator::new(omega, zeta, h);
             let [qq, qv, vq, vv] = mode.free(share);
             let powers = mode.forced(share);

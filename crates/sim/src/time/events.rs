@@ -31,7 +31,11 @@ const TOUCH_SLACK: [f64; 2] = [1e-8, 1e-5];
 
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
-    if is_fixed { SLACK } else { SLACK.max(SLACK_BY_ERROR * tolerance) }
+    if is_fixed {
+        SLACK
+    } else {
+        SLACK.max(SLACK_BY_ERROR * tolerance)
+    }
 }
 
 /// Whether the extrapolated position of a break is accurate enough for the first trial of a step: this is so if the
@@ -49,15 +53,25 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
     let mechanics = &system.mechanics;
     let mut best: Option<f64> = None;
     for (b, body) in system.scene.bodies.iter().enumerate() {
-        let Some(profile) = &body.motion else { continue };
+        let Some(profile) = &body.motion else {
+            continue;
+        };
         let (x0, x1) = (profile.at(start).x, profile.at(start + h).x);
-        for wheel in mechanics.wheels.iter().filter(|w| mechanics.kinematics.root(w.body) == b) {
+        for wheel in mechanics
+            .wheels
+            .iter()
+            .filter(|w| mechanics.kinematics.root(w.body) == b)
+        {
             let contact = &system.scene.contacts[wheel.contact];
             let offset = mechanics.kinematics.constant(wheel.body)[0];
             let ahead = wheel.hub[0] + offset;
-            let mut reach = best.map_or(f64::INFINITY, |length| profile.reach(start, start + length));
+            let mut reach =
+                best.map_or(f64::INFINITY, |length| profile.reach(start, start + length));
             let (from, to) = (x0 + ahead, x1 + ahead);
-            for place in mechanics.breaks.between(contact.structure, contact.rail, from, to) {
+            for place in mechanics
+                .breaks
+                .between(contact.structure, contact.rail, from, to)
+            {
                 let target = place - ahead;
                 let slack = 1e-9 * (1.0 + target.abs());
                 if (x0 - target).abs() > reach + slack {
@@ -70,7 +84,10 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
                 // rail element.
                 let length = root(|s| profile.at(start + s * h).x - target) * h
                     - 4.0 * f64::EPSILON * (start + h).abs();
-                if length > 0.0 && length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
+                if length > 0.0
+                    && length < h * (1.0 - 1e-9)
+                    && best.is_none_or(|known| length < known)
+                {
                     best = Some(length);
                     reach = profile.reach(start, start + length);
                 }
@@ -96,14 +113,20 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
     let mut first: Option<(f64, usize)> = None;
     let places = step.solver.geometry().places();
     for (w, wheel) in mechanics.wheels.iter().enumerate() {
-        if system.scene.bodies[mechanics.kinematics.root(wheel.body)].motion.is_some() {
+        if system.scene.bodies[mechanics.kinematics.root(wheel.body)]
+            .motion
+            .is_some()
+        {
             continue;
         }
         let contact = &system.scene.contacts[wheel.contact];
         let (from, to, probe) = (&step.from, &step.to, &mut step.probe);
         let [x0, x1] = [from, to].map(|at| places.of_wheel(mechanics, w, &at.q));
         let (mut reach, mut of_step) = (f64::INFINITY, None);
-        for place in mechanics.breaks.between(contact.structure, contact.rail, x0, x1) {
+        for place in mechanics
+            .breaks
+            .between(contact.structure, contact.rail, x0, x1)
+        {
             let slack = slack * (1.0 + place.abs());
             if (x0 - place).abs() > reach + slack {
                 break;
@@ -135,11 +158,18 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
 /// within this distance.
 pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Option<f64> {
     let system = solver.system();
-    let x = solver.geometry().places().of_wheel(&system.mechanics, w, &at.q);
+    let x = solver
+        .geometry()
+        .places()
+        .of_wheel(&system.mechanics, w, &at.q);
     let near = PASSED * slack * (1.0 + x.abs());
     let contact = &system.scene.contacts[system.mechanics.wheels[w].contact];
     let breaks = &system.mechanics.breaks;
-    (breaks.between(contact.structure, contact.rail, x - near, x + near).len() > 0).then_some(near)
+    (breaks
+        .between(contact.structure, contact.rail, x - near, x + near)
+        .len()
+        > 0)
+    .then_some(near)
 }
 
 /// Values of the guards of one kind of all elements in the state `at`, for which the geometry must be current.
@@ -163,7 +193,11 @@ pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard>
 ///
 /// # Errors
 /// Any error from evaluating the rails.
-pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Result<Option<f64>, Error> {
+pub(crate) fn first_touch(
+    step: &mut Step,
+    before: &[Guard],
+    largest: f64,
+) -> Result<Option<f64>, Error> {
     if before.is_empty() {
         return Ok(None);
     }
@@ -188,14 +222,17 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     }
     let mut failure = None;
     let first = behind(ends, TOUCH_WIDTH, |fraction| {
-        let is_solved = step.look_within(fraction, TOUCH_SLACK).unwrap_or_else(|error| {
-            failure = Some(error);
-            false
-        });
+        let is_solved = step
+            .look_within(fraction, TOUCH_SLACK)
+            .unwrap_or_else(|error| {
+                failure = Some(error);
+                false
+            });
         is_solved.then(|| {
             let now = guards(step.solver, GuardKind::Touch, &step.probe);
-            let beyond =
-                passes.iter().map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
+            let beyond = passes
+                .iter()
+                .map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
             beyond.fold(f64::NEG_INFINITY, f64::max)
         })
     });
@@ -208,7 +245,11 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
 fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
     let Guard { value, stiffness } = guards[index];
     let element = solver.system().guarded(GuardKind::Touch)[index];
-    if value > 0.0 { value * (1.0 + stiffness * solver.geometry().own_compliance(element)) } else { value }
+    if value > 0.0 {
+        value * (1.0 + stiffness * solver.geometry().own_compliance(element))
+    } else {
+        value
+    }
 }
 
 /// Finds the first element that must become active or inactive within the step. Returns the fraction of the step at
@@ -243,13 +284,16 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
         step.return_to_end()?;
     }
     let passed = step.passed_switch(OVERSHOOT * largest);
-    Ok(passed.filter(|(share, _)| first.is_none_or(|(known, _)| *share < known)).or(first))
+    Ok(passed
+        .filter(|(share, _)| first.is_none_or(|(known, _)| *share < known))
+        .or(first))
 }
 
 /// Fraction of the step at which the switch guard of element `i` reaches the value `aim` on the interpolant.
 fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error> {
-    let beyond =
-        |solver: &Solver, at: &State| solver.switch_guard(i, &solver.frame(at)).unwrap_or(-1.0) - aim;
+    let beyond = |solver: &Solver, at: &State| {
+        solver.switch_guard(i, &solver.frame(at)).unwrap_or(-1.0) - aim
+    };
     // The geometry is that of the end of the step, so the value at the start is approximate.
     let [start, end] = [&step.from, &step.to].map(|at| beyond(step.solver, at));
     if end <= 0.0 {
@@ -257,7 +301,9 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
     }
     let mut failure = None;
     let [_, fraction] = narrow([start.min(-aim), end], 1e-12, |fraction| {
-        let value = step.look_at(fraction).map(|solved| solved.then(|| beyond(step.solver, &step.probe)));
+        let value = step
+            .look_at(fraction)
+            .map(|solved| solved.then(|| beyond(step.solver, &step.probe)));
         value.unwrap_or_else(|error| {
             failure = Some(error);
             None

@@ -23,7 +23,11 @@ impl Guesses {
     pub fn new(tableau: &Tableau) -> Self {
         let powers = powers(tableau);
         let of_stage = |(i, stages): (usize, &&[usize])| weights(&powers, i, stages);
-        Guesses { weights: tableau.guess.map(|stages| stages.iter().enumerate().map(of_stage).collect()) }
+        Guesses {
+            weights: tableau
+                .guess
+                .map(|stages| stages.iter().enumerate().map(of_stage).collect()),
+        }
     }
 
     /// Stages from which stage `i` is guessed, with their weights; none where the stage before it is the guess. `is_smooth` says
@@ -37,17 +41,25 @@ impl Guesses {
 fn powers(tableau: &Tableau) -> Vec<Vec<f64>> {
     let count = tableau.stages();
     let next = |last: &Vec<f64>| -> Option<Vec<f64>> {
-        let row =
-            |i: usize| last.iter().enumerate().map(|(j, power)| tableau.coefficient(i, j) * power).sum();
+        let row = |i: usize| {
+            last.iter()
+                .enumerate()
+                .map(|(j, power)| tableau.coefficient(i, j) * power)
+                .sum()
+        };
         Some((0..count).map(row).collect())
     };
-    std::iter::successors(Some(vec![1.0; count]), next).take(count).collect()
+    std::iter::successors(Some(vec![1.0; count]), next)
+        .take(count)
+        .collect()
 }
 
 fn weights(powers: &[Vec<f64>], i: usize, stages: &[usize]) -> Vec<(usize, f64)> {
     let conditions = &powers[..stages.len()];
-    let mut matrix: Vec<f64> =
-        conditions.iter().flat_map(|power| stages.iter().map(|&stage| power[stage])).collect();
+    let mut matrix: Vec<f64> = conditions
+        .iter()
+        .flat_map(|power| stages.iter().map(|&stage| power[stage]))
+        .collect();
     let mut weights: Vec<f64> = conditions.iter().map(|power| power[i]).collect();
     let is_solved = solve_general(&mut matrix, &mut weights);
     is_solved
@@ -64,8 +76,11 @@ mod tests {
     fn stages(tableau: &Tableau, z: f64) -> Vec<f64> {
         let mut slopes: Vec<f64> = Vec::new();
         for i in 0..tableau.stages() {
-            let known: f64 =
-                slopes.iter().enumerate().map(|(j, slope)| tableau.coefficient(i, j) * slope).sum();
+            let known: f64 = slopes
+                .iter()
+                .enumerate()
+                .map(|(j, slope)| tableau.coefficient(i, j) * slope)
+                .sum();
             slopes.push(z * (1.0 + known) / (1.0 - z * tableau.coefficient(i, i)));
         }
         slopes
@@ -77,13 +92,17 @@ mod tests {
     fn a_guess_from_n_stages_errs_by_the_derivatives_above_the_nth() {
         for tableau in [&SDIRK4, &ESDIRK5] {
             let guesses = Guesses::new(tableau);
-            for (is_smooth, i) in
-                [false, true].into_iter().flat_map(|s| (2..tableau.stages()).map(move |i| (s, i)))
+            for (is_smooth, i) in [false, true]
+                .into_iter()
+                .flat_map(|s| (2..tableau.stages()).map(move |i| (s, i)))
             {
                 let own = guesses.of_stage(i, is_smooth);
                 let error = |z: f64| {
                     let slopes = stages(tableau, z);
-                    own.iter().map(|&(j, weight)| weight * slopes[j]).sum::<f64>() - slopes[i]
+                    own.iter()
+                        .map(|&(j, weight)| weight * slopes[j])
+                        .sum::<f64>()
+                        - slopes[i]
                 };
                 let order = (error(0.1) / error(0.05)).log2();
                 let expected = (own.len() + 1) as f64;

@@ -19,21 +19,33 @@ pub(crate) struct ModalLoads {
 
 impl ModalLoads {
     pub fn new(system: &System) -> ModalLoads {
-        ModalLoads { reach: vec![0.0; system.mechanics.dofs] }
+        ModalLoads {
+            reach: vec![0.0; system.mechanics.dofs],
+        }
     }
 
     /// Takes the displacements at the wheels for the geometry of the solver.
     pub fn grow(&mut self, solver: &Solver) {
         for i in 0..solver.system().verticals() {
             let row = solver.geometry().rows().approach_row(i);
-            self.reach.iter_mut().zip(row).for_each(|(reach, own)| *reach = reach.max(own.abs()));
+            self.reach
+                .iter_mut()
+                .zip(row)
+                .for_each(|(reach, own)| *reach = reach.max(own.abs()));
         }
     }
 
     /// Error of the acceleration of degree of freedom `k` by the error `dq` of its displacement in a step, relative to
     /// [`ALLOWED`] times its load under the force `largest`; 0 for a degree of freedom that is no natural mode.
     pub fn relative(&self, system: &System, k: usize, dq: f64, largest: f64) -> f64 {
-        let (omega, load) = (system.mechanics.omegas[k].unwrap_or(0.0), self.reach[k] * largest);
-        if load > 0.0 { omega * omega * dq.abs() / (ALLOWED * load) } else { 0.0 }
+        let (omega, load) = (
+            system.mechanics.omegas[k].unwrap_or(0.0),
+            self.reach[k] * largest,
+        );
+        if load > 0.0 {
+            omega * omega * dq.abs() / (ALLOWED * load)
+        } else {
+            0.0
+        }
     }
 }

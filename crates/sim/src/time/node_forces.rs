@@ -107,7 +107,10 @@ impl NodeForces {
     /// The system of `count` nodes.
     pub fn new(system: &System, count: usize) -> Self {
         let size = count * system.elements.len();
-        let mut compliances = system.foundations.iter().filter_map(|own| own.compliance.as_ref());
+        let mut compliances = system
+            .foundations
+            .iter()
+            .filter_map(|own| own.compliance.as_ref());
         NodeForces {
             approach: vec![0.0; size],
             rate: vec![0.0; size],
@@ -159,7 +162,12 @@ impl NodeForces {
 
     /// Eliminates the forces of the `active` contacts first; see the head of this module.
     fn eliminate_forces(&mut self, solver: &Solver, motion: &NodeMotion, active: &[usize]) -> bool {
-        let (system, s, n, m) = (solver.system(), motion.nodes.count(), motion.dofs(), active.len());
+        let (system, s, n, m) = (
+            solver.system(),
+            motion.nodes.count(),
+            motion.dofs(),
+            active.len(),
+        );
         let (all, width) = (system.elements.len(), (2 * n + 1) * m);
         self.right.clear();
         self.right.resize(s * width, 0.0);
@@ -178,10 +186,16 @@ impl NodeForces {
             for (line, &i) in active.iter().enumerate() {
                 let law = system.law(i);
                 let ratio = law.damping / law.stiffness;
-                self.matrix[line * m + line] += 1.0 / (law.stiffness * system.mechanics.groups[i].count());
+                self.matrix[line * m + line] +=
+                    1.0 / (law.stiffness * system.mechanics.groups[i].count());
                 right[line] = self.approach[a * all + i] + ratio * self.rate[a * all + i];
                 let rows = geometry.rows();
-                for (r, (by_q, by_v)) in rows.approach_row(i).iter().zip(rows.rate_row(i)).enumerate() {
+                for (r, (by_q, by_v)) in rows
+                    .approach_row(i)
+                    .iter()
+                    .zip(rows.rate_row(i))
+                    .enumerate()
+                {
                     right[(1 + r) * m + line] = *by_q;
                     right[(1 + n + r) * m + line] = ratio * by_v;
                 }
@@ -195,8 +209,8 @@ impl NodeForces {
                     let own = &mut between[(a * n + k) * s * n..(a * n + k + 1) * s * n];
                     for b in 0..s {
                         for (r, [by_q, by_v]) in motion.responses(a, b).iter().enumerate() {
-                            let by_unit =
-                                by_q * right[(1 + r) * m + line] + by_v * right[(1 + n + r) * m + line];
+                            let by_unit = by_q * right[(1 + r) * m + line]
+                                + by_v * right[(1 + n + r) * m + line];
                             own[b * n + r] += spread * by_unit;
                         }
                     }
@@ -213,8 +227,10 @@ impl NodeForces {
                 let mut force = right[line];
                 for b in 0..s {
                     let own = &accelerations[b * n..(b + 1) * n];
-                    for (r, ([by_q, by_v], u)) in motion.responses(a, b).iter().zip(own).enumerate() {
-                        let by_unit = by_q * right[(1 + r) * m + line] + by_v * right[(1 + n + r) * m + line];
+                    for (r, ([by_q, by_v], u)) in motion.responses(a, b).iter().zip(own).enumerate()
+                    {
+                        let by_unit =
+                            by_q * right[(1 + r) * m + line] + by_v * right[(1 + n + r) * m + line];
                         force -= by_unit * u;
                     }
                 }
@@ -244,8 +260,10 @@ impl NodeForces {
             effects.clear();
             effects.resize(s * m * width, 0.0);
         }
-        let mut lines =
-            self.effect.chunks_exact_mut(width.max(1)).zip(self.rate_effect.chunks_exact_mut(width.max(1)));
+        let mut lines = self
+            .effect
+            .chunks_exact_mut(width.max(1))
+            .zip(self.rate_effect.chunks_exact_mut(width.max(1)));
         for (a, geometry) in motion.geometries.iter().enumerate() {
             let rows = geometry.rows();
             for (i, (effect, rate_effect)) in lines.by_ref().take(m).enumerate() {
@@ -255,19 +273,30 @@ impl NodeForces {
                     let (effect, rate_effect) = (&mut effect[own.clone()], &mut rate_effect[own]);
                     if is_constant {
                         let [by_q, by_v] = motion.responses(a, b)[0];
-                        let [approach, rate] =
-                            self.constant.each_ref().map(|own| &own[i * count..(i + 1) * count]);
-                        effect.iter_mut().zip(approach).for_each(|(effect, own)| *effect = by_q * own);
+                        let [approach, rate] = self
+                            .constant
+                            .each_ref()
+                            .map(|own| &own[i * count..(i + 1) * count]);
+                        effect
+                            .iter_mut()
+                            .zip(approach)
+                            .for_each(|(effect, own)| *effect = by_q * own);
                         if feels_rates {
-                            rate_effect.iter_mut().zip(rate).for_each(|(effect, own)| *effect = by_v * own);
+                            rate_effect
+                                .iter_mut()
+                                .zip(rate)
+                                .for_each(|(effect, own)| *effect = by_v * own);
                         }
                         continue;
                     }
                     let mut fill = |out: &mut [f64], row: &[f64], part: usize| {
                         let responses = motion.responses(a, b).iter();
                         self.by_load.clear();
-                        self.by_load.extend(row.iter().zip(responses).map(|(row, own)| row * own[part]));
-                        let sums = active.iter().map(|&j| dot(&self.by_load, motion.spread(b, j)));
+                        self.by_load
+                            .extend(row.iter().zip(responses).map(|(row, own)| row * own[part]));
+                        let sums = active
+                            .iter()
+                            .map(|&j| dot(&self.by_load, motion.spread(b, j)));
                         out.iter_mut().zip(sums).for_each(|(out, sum)| *out = sum);
                     };
                     fill(effect, rows.approach_row(i), 0);
@@ -290,7 +319,8 @@ impl NodeForces {
     fn solve_for_forces(&mut self, solver: &Solver, motion: &NodeMotion, active: &[usize]) -> bool {
         let (s, all) = (motion.nodes.count(), motion.from.force.len());
         self.index.clear();
-        self.index.extend((0..s).flat_map(|a| active.iter().map(move |i| a * all + i)));
+        self.index
+            .extend((0..s).flat_map(|a| active.iter().map(move |i| a * all + i)));
         let is_linear = solver.system().traits.has_linear_laws;
         for round in 0..if is_linear { 1 } else { ITERATIONS } {
             self.set_tangents(solver, motion, round == 0);
@@ -323,21 +353,36 @@ impl NodeForces {
             let (a, i) = (at / m, at % m);
             let law = system.law(i);
             if law.is_linear() {
-                return Tangent { by_penetration: law.stiffness, by_rate: law.damping, rest: 0.0 };
+                return Tangent {
+                    by_penetration: law.stiffness,
+                    by_rate: law.damping,
+                    rest: 0.0,
+                };
             }
             let penetration = |l: usize| self.penetration(l * m + i);
             let [p, rate] = if is_first {
                 [from.p[i], from.p_rate[i]]
             } else if solver.remembers(i) {
                 let by = |l: usize| motion.nodes.rate[a * s + l] / motion.h;
-                [penetration(a), (0..s).map(|l| by(l) * (penetration(l) - from.p[i])).sum()]
+                [
+                    penetration(a),
+                    (0..s).map(|l| by(l) * (penetration(l) - from.p[i])).sum(),
+                ]
             } else {
                 let feels_rates = system.fixed[i].feels_rates;
                 let effects = feels_rates.then(|| along(&self.rate_effect, at, &self.right));
                 [penetration(a), self.rate[at] - effects.unwrap_or(0.0)]
             };
-            let LawValue { force, by_penetration, by_rate } = law.at(p, rate);
-            Tangent { by_penetration, by_rate, rest: force - by_penetration * p - by_rate * rate }
+            let LawValue {
+                force,
+                by_penetration,
+                by_rate,
+            } = law.at(p, rate);
+            Tangent {
+                by_penetration,
+                by_rate,
+                rest: force - by_penetration * p - by_rate * rate,
+            }
         };
         tangents.extend(self.index.iter().map(tangent));
         self.tangents = tangents;
@@ -351,23 +396,32 @@ impl NodeForces {
         self.right.clear();
         for (line, (&at, tangent)) in self.index.iter().zip(&self.tangents).enumerate() {
             let (a, i) = (at / m, at % m);
-            let Tangent { by_penetration, by_rate, rest } = *tangent;
+            let Tangent {
+                by_penetration,
+                by_rate,
+                rest,
+            } = *tangent;
             let mut right = rest + by_penetration * self.approach[at];
             let effects = |at: usize| &self.effect[at * count..(at + 1) * count];
             let first = self.matrix.len();
-            self.matrix.extend(effects(at).iter().map(|effect| by_penetration * effect));
+            self.matrix
+                .extend(effects(at).iter().map(|effect| by_penetration * effect));
             let row = &mut self.matrix[first..];
             if solver.remembers(i) {
                 for (l, weight) in nodes.rate[a * s..(a + 1) * s].iter().enumerate() {
                     let (at, weight) = (l * m + i, weight * by_rate / h);
                     right += weight * (self.approach[at] - from.p[i]);
-                    row.iter_mut().zip(effects(at)).for_each(|(entry, effect)| *entry += weight * effect);
+                    row.iter_mut()
+                        .zip(effects(at))
+                        .for_each(|(entry, effect)| *entry += weight * effect);
                 }
             } else {
                 right += by_rate * self.rate[at];
                 if system.fixed[i].feels_rates {
                     let effects = &self.rate_effect[at * count..(at + 1) * count];
-                    row.iter_mut().zip(effects).for_each(|(entry, effect)| *entry += by_rate * effect);
+                    row.iter_mut()
+                        .zip(effects)
+                        .for_each(|(entry, effect)| *entry += by_rate * effect);
                 }
             }
             row[line] += 1.0 / system.mechanics.groups[i].count();
@@ -387,8 +441,11 @@ impl NodeForces {
         let m = at.force.len();
         at.force.copy_from_slice(&self.force[a * m..(a + 1) * m]);
         for i in 0..m {
-            at.p[i] =
-                if self.has_effects { self.penetration(a * m + i) } else { geometry.penetration(i, at) };
+            at.p[i] = if self.has_effects {
+                self.penetration(a * m + i)
+            } else {
+                geometry.penetration(i, at)
+            };
         }
     }
 }

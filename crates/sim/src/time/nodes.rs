@@ -55,7 +55,8 @@ impl Nodes {
         let mut a = vec![0.0; (s + 1) * s];
         for (i, &end) in ends.iter().enumerate() {
             for j in 0..s {
-                let terms = (0..s).map(|k| lagrange[j * s + k] * end.powi(k as i32 + 1) / (k + 1) as f64);
+                let terms =
+                    (0..s).map(|k| lagrange[j * s + k] * end.powi(k as i32 + 1) / (k + 1) as f64);
                 a[i * s + j] = terms.sum();
             }
         }
@@ -71,7 +72,9 @@ impl Nodes {
         for j in 0..s {
             let poly = polynomial(&with_start, j + 1);
             for i in 0..s {
-                rate[i * s + j] = (1..=s).map(|k| k as f64 * poly[k] * c[i].powi(k as i32 - 1)).sum();
+                rate[i * s + j] = (1..=s)
+                    .map(|k| k as f64 * poly[k] * c[i].powi(k as i32 - 1))
+                    .sum();
             }
         }
         let ahead = (0..s)
@@ -80,10 +83,22 @@ impl Nodes {
                 (0..s).map(|k| poly[k] * c[s - 1].powi(k as i32)).sum()
             })
             .collect();
-        let mut nodes = Nodes { c: ends, lagrange, a, a2, rate, ahead, middles: Vec::new() };
+        let mut nodes = Nodes {
+            c: ends,
+            lagrange,
+            a,
+            a2,
+            rate,
+            ahead,
+            middles: Vec::new(),
+        };
         let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]);
         let weights = |share: f64| (0..s).map(|b| nodes.value(b, share)).collect();
-        nodes.middles = c.windows(2).map(middle).map(|share| (share, weights(share))).collect();
+        nodes.middles = c
+            .windows(2)
+            .map(middle)
+            .map(|share| (share, weights(share)))
+            .collect();
         Some(nodes)
     }
 
@@ -91,13 +106,18 @@ impl Nodes {
     /// 0 for displacement and 1 for speed.
     pub fn load(&self, b: usize, powers: &[[f64; 2]; POWERS], part: usize) -> f64 {
         let s = self.count();
-        (0..s).map(|k| self.lagrange[b * s + k] * powers[k][part]).sum()
+        (0..s)
+            .map(|k| self.lagrange[b * s + k] * powers[k][part])
+            .sum()
     }
 
     /// Value of the Lagrange polynomial of node `b` at the fraction `share` of the step.
     pub fn value(&self, b: usize, share: f64) -> f64 {
         let s = self.count();
-        self.lagrange[b * s..(b + 1) * s].iter().rev().fold(0.0, |sum, factor| sum * share + factor)
+        self.lagrange[b * s..(b + 1) * s]
+            .iter()
+            .rev()
+            .fold(0.0, |sum, factor| sum * share + factor)
     }
 
     /// Displacement, speed and acceleration at the fraction `share` of a step of the length `h` by a unit acceleration
@@ -124,7 +144,12 @@ impl Nodes {
 fn polynomial(nodes: &[f64], j: usize) -> Vec<f64> {
     let mut poly = vec![0.0; nodes.len()];
     poly[0] = 1.0;
-    for (degree, (_, node)) in nodes.iter().enumerate().filter(|(i, _)| *i != j).enumerate() {
+    for (degree, (_, node)) in nodes
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != j)
+        .enumerate()
+    {
         let scale = 1.0 / (nodes[j] - node);
         for k in (0..=degree + 1).rev() {
             let lower = if k > 0 { poly[k - 1] } else { 0.0 };

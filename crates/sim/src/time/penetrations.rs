@@ -97,7 +97,13 @@ impl Penetrations {
     /// whose error is then of no effect. This time is infinite in the course of a motion without a jump; after a jump it is
     /// that below which the transient is not resolved. The springs' penetrations follow a polynomial where the motion
     /// `is_even`: it has no break at the ends of the step, and no waves that are shorter.
-    pub fn begin(&mut self, solver: &mut Solver, from: &State, h: f64, (settled, is_even): (f64, bool)) {
+    pub fn begin(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        h: f64,
+        (settled, is_even): (f64, bool),
+    ) {
         (self.is_known, self.h, self.places) = (true, h, 0);
         self.differences.clear();
         if !(is_suited(solver) && solver.active_contacts().any(|i| solver.remembers(i))) {
@@ -105,25 +111,41 @@ impl Penetrations {
             return;
         }
         let is_other = !solver.active_contacts().eq(self.contacts.iter().copied());
-        let Penetrations { contacts, stiffness, differences, is_free, followed, .. } = self;
+        let Penetrations {
+            contacts,
+            stiffness,
+            differences,
+            is_free,
+            followed,
+            ..
+        } = self;
         contacts.clear();
         contacts.extend(solver.active_contacts());
         // the course of a motion under linear laws goes on from the end of the step before
-        let is_continued =
-            self.is_continued && !is_other && settled.is_infinite() && solver.system().traits.has_linear_laws;
+        let is_continued = self.is_continued
+            && !is_other
+            && settled.is_infinite()
+            && solver.system().traits.has_linear_laws;
         if is_continued {
             followed.swap(0, COUNT - 1);
         } else {
             stiffness.clear();
             let law = |&i: &usize| solver.law_of(i, from.p[i], from.p_rate[i])[1].max(0.0);
             stiffness.extend(contacts.iter().map(law));
-            if solver.update(from).is_err() || !solver.follow(from, contacts, stiffness, &mut followed[0]) {
+            if solver.update(from).is_err()
+                || !solver.follow(from, contacts, stiffness, &mut followed[0])
+            {
                 contacts.clear();
                 return;
             }
         }
         let start = &followed[0];
-        differences.extend(contacts.iter().zip(&start.value).map(|(&i, value)| [from.p[i] - value; COUNT]));
+        differences.extend(
+            contacts
+                .iter()
+                .zip(&start.value)
+                .map(|(&i, value)| [from.p[i] - value; COUNT]),
+        );
         is_free.clear();
         self.delay = 0.0;
         for (r, &i) in contacts.iter().enumerate() {
@@ -152,7 +174,12 @@ impl Penetrations {
         solver.update(at)?;
         let node = &mut self.followed[self.places];
         if solver.follow(at, &self.contacts, &self.stiffness, node) {
-            for ((&i, value), own) in self.contacts.iter().zip(&node.value).zip(&mut self.differences) {
+            for ((&i, value), own) in self
+                .contacts
+                .iter()
+                .zip(&node.value)
+                .zip(&mut self.differences)
+            {
                 own[self.places] = at.p[i] - value;
             }
             self.places += 1;
@@ -176,14 +203,22 @@ impl Penetrations {
         let allowed = LEFT * solver.system().scene.accuracy / (1.0 + STEEP * self.delay / self.h);
         let (mut last, mut has_ended) = (f64::INFINITY, false);
         for iteration in 0..ITERATIONS {
-            let Newton { laws, residual, factors } = &mut newton;
+            let Newton {
+                laws,
+                residual,
+                factors,
+            } = &mut newton;
             self.set_laws(solver, laws);
             self.set_residual(laws, residual);
             if iteration == 0 || !is_linear {
                 let is_alike = is_linear && !self.is_free.contains(&false);
-                factors.set(&self.followed, laws, (self.h, is_alike), |a, r| self.is_solved(a, r));
+                factors.set(&self.followed, laws, (self.h, is_alike), |a, r| {
+                    self.is_solved(a, r)
+                });
             }
-            if !factors.solve(&self.followed, residual) || !residual.iter().flatten().all(|x| x.is_finite()) {
+            if !factors.solve(&self.followed, residual)
+                || !residual.iter().flatten().all(|x| x.is_finite())
+            {
                 last = f64::INFINITY;
                 break;
             }
@@ -233,11 +268,18 @@ impl Penetrations {
         let count = self.contacts.len();
         out.clear();
         out.resize(count, [0.0; COUNT]);
-        for ((a, node), laws) in self.followed.iter().enumerate().zip(laws.chunks_exact(count)) {
+        for ((a, node), laws) in self
+            .followed
+            .iter()
+            .enumerate()
+            .zip(laws.chunks_exact(count))
+        {
             for (r, (out, own)) in out.iter_mut().zip(&self.differences).enumerate() {
                 if self.is_solved(a, r) {
                     let forces = node.compliances(r).iter().zip(laws);
-                    let deflection: f64 = forces.map(|(compliance, [force, ..])| compliance * force).sum();
+                    let deflection: f64 = forces
+                        .map(|(compliance, [force, ..])| compliance * force)
+                        .sum();
                     out[a] = node.value[r] + own[a] - node.approach[r] + deflection;
                 }
             }
@@ -249,7 +291,12 @@ impl Penetrations {
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn set_rates(&mut self, solver: &mut Solver, share: f64, at: &mut State) -> Result<bool, Error> {
+    pub fn set_rates(
+        &mut self,
+        solver: &mut Solver,
+        share: f64,
+        at: &mut State,
+    ) -> Result<bool, Error> {
         if self.contacts.is_empty() {
             return Ok(false);
         }
@@ -260,8 +307,15 @@ impl Penetrations {
             }
         }
         let (values, slopes) = (values(share), slopes(share));
-        let springs = self.is_polynomial.then(|| SpringPolynomial::new(share, &values, &slopes));
-        for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
+        let springs = self
+            .is_polynomial
+            .then(|| SpringPolynomial::new(share, &values, &slopes));
+        for (r, &i) in self
+            .contacts
+            .iter()
+            .enumerate()
+            .filter(|(_, i)| solver.remembers(**i))
+        {
             let own = &self.differences[r];
             let by_springs = if let Some(springs) = &springs {
                 let [value, rate] = springs.at(&self.followed, r, self.h);
@@ -280,7 +334,9 @@ impl Penetrations {
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn apply_laws(&mut self, solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
-        let Penetrations { followed, residual, .. } = self;
+        let Penetrations {
+            followed, residual, ..
+        } = self;
         solver.apply_laws(at, followed[MIDDLE].factors(), residual)
     }
 }
@@ -292,7 +348,10 @@ fn is_suited(solver: &Solver) -> bool {
     system.mechanics.carried.is_empty()
         && system.mechanics.couplings.is_empty()
         && system.foundations.iter().all(|foundation| {
-            let is_symmetric = foundation.compliance.as_ref().is_none_or(|own| own.is_symmetric());
+            let is_symmetric = foundation
+                .compliance
+                .as_ref()
+                .is_none_or(|own| own.is_symmetric());
             foundation.parts.is_none() && foundation.carrier.is_none() && is_symmetric
         })
 }

@@ -48,7 +48,10 @@ impl Propagator {
     /// Requires `omega` > 0 and 0 <= `zeta` < 1.
     pub fn new(omega: f64, zeta: f64, h: f64) -> Self {
         let damped = omega * ((1.0 - zeta) * (1.0 + zeta)).sqrt();
-        Propagator { rate: Complex::new(-zeta * omega, damped), h }
+        Propagator {
+            rate: Complex::new(-zeta * omega, damped),
+            h,
+        }
     }
 
     /// Response to the initial state at time `c` h: [q per q0, q per v0, v per q0, v per v0].
@@ -56,7 +59,12 @@ impl Propagator {
         let (decay, damped) = (self.rate.re, self.rate.im);
         let wave = (self.rate * (c * self.h)).exp();
         let impulse = wave.im / damped;
-        [wave.re - decay * impulse, impulse, -self.rate.norm_sqr() * impulse, wave.re + decay * impulse]
+        [
+            wave.re - decay * impulse,
+            impulse,
+            -self.rate.norm_sqr() * impulse,
+            wave.re + decay * impulse,
+        ]
     }
 
     /// Displacement q and speed v at time `c` h under the load (t/h)^k, one pair for each k: q = k! c^(k+1) h
@@ -85,10 +93,19 @@ mod tests {
             let [one, linear, ..] = mode.forced(1.0);
             let half = (0.5 * angle).sin();
             let wanted = 2.0 * half * half / (angle * angle);
-            assert!((one[0] - wanted).abs() < 1e-13 * (wanted + 1.0 / (angle * angle).max(1.0)), "{angle}");
-            assert!((one[1] - angle.sin() / angle).abs() < 1e-13 / angle.max(1.0), "{angle}");
+            assert!(
+                (one[0] - wanted).abs() < 1e-13 * (wanted + 1.0 / (angle * angle).max(1.0)),
+                "{angle}"
+            );
+            assert!(
+                (one[1] - angle.sin() / angle).abs() < 1e-13 / angle.max(1.0),
+                "{angle}"
+            );
             // The speed under the linear load equals the displacement under the constant load.
-            assert!((linear[1] - one[0]).abs() < 1e-12 / (angle * angle).max(1.0), "{angle}");
+            assert!(
+                (linear[1] - one[0]).abs() < 1e-12 / (angle * angle).max(1.0),
+                "{angle}"
+            );
             let [qq, qv, vq, vv] = mode.free(1.0);
             assert!((qq * vv - qv * vq - 1.0).abs() < 1e-12, "{angle}");
         }
@@ -98,7 +115,10 @@ mod tests {
     #[test]
     fn two_halves_make_a_whole() {
         for angle in [1e-3, 0.5, 3.0, 50.0, 1e3] {
-            let (whole, half) = (Propagator::new(angle, 0.05, 1.0), Propagator::new(angle, 0.05, 0.5));
+            let (whole, half) = (
+                Propagator::new(angle, 0.05, 1.0),
+                Propagator::new(angle, 0.05, 0.5),
+            );
             let (first, free) = (half.forced(1.0), half.free(1.0));
             // (t/h)^2 over the whole is s^2/4 over the first half, (1 + 2 s + s^2)/4 over the second.
             for row in 0..2 {

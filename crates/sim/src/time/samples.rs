@@ -48,7 +48,10 @@ struct Acting {
 
 impl Acting {
     fn of(solver: &Solver) -> Self {
-        Acting { active: solver.active().clone(), pieces: solver.geometry().places().piece.clone() }
+        Acting {
+            active: solver.active().clone(),
+            pieces: solver.geometry().places().piece.clone(),
+        }
     }
 
     fn take(&mut self, solver: &Solver) {
@@ -76,7 +79,15 @@ impl Samples {
             steps
         });
         let (begun, inside) = (Acting::of(solver), Vec::new());
-        Ok(Samples { recorder, steps, inside, next: 1, sample: start.clone(), after: begun.clone(), begun })
+        Ok(Samples {
+            recorder,
+            steps,
+            inside,
+            next: 1,
+            sample: start.clone(),
+            after: begun.clone(),
+            begun,
+        })
     }
 
     /// Stores the active elements at the start of the next step; samples inside the step are computed with them.
@@ -105,12 +116,17 @@ impl Samples {
                 self.sample.copy_from(&step.to);
                 settle(step.solver, &mut self.sample)?;
             } else {
-                let fraction = if is_end { 1.0 } else { (t - from) / (to - from) };
+                let fraction = if is_end {
+                    1.0
+                } else {
+                    (t - from) / (to - from)
+                };
                 // a step ends just before a break of the rail, where the rail has the slope of this side
                 self.sample_within(step, fraction, t.min(to))?;
                 self.sample.t = t;
             }
-            self.recorder.record(system, step.solver.geometry(), &self.sample)?;
+            self.recorder
+                .record(system, step.solver.geometry(), &self.sample)?;
             self.after.restore(step.solver);
             self.next += 1;
         }
@@ -123,16 +139,27 @@ impl Samples {
     fn take_inside(&mut self, step: &mut Step) -> Result<(), Error> {
         let system = step.system();
         // the geometry of the solver is that of the end until another time is sampled
-        self.recorder.row(system, step.solver.geometry(), &step.arrived, &mut self.inside)?;
+        self.recorder.row(
+            system,
+            step.solver.geometry(),
+            &step.arrived,
+            &mut self.inside,
+        )?;
         let width = self.inside.len();
         let from = step.from.t;
         if from > 0.0 && !step.begins_smoothly {
             self.sample_within(step, AFTER, from + AFTER * step.length())?;
-            self.recorder.row(system, step.solver.geometry(), &self.sample, &mut self.inside)?;
+            self.recorder.row(
+                system,
+                step.solver.geometry(),
+                &self.sample,
+                &mut self.inside,
+            )?;
             self.after.restore(step.solver);
         }
         for (geometry, node) in step.inner_nodes() {
-            self.recorder.row(system, geometry, node, &mut self.inside)?;
+            self.recorder
+                .row(system, geometry, node, &mut self.inside)?;
         }
         self.inside.rotate_left(width);
         Ok(())
@@ -185,7 +212,8 @@ impl Samples {
         let step = stepper.step();
         let system = step.system();
         if system.scene.output_time(self.next - 1) < step.to.t {
-            self.recorder.record(system, step.solver.geometry(), &step.to)?;
+            self.recorder
+                .record(system, step.solver.geometry(), &step.to)?;
         }
         Ok(())
     }

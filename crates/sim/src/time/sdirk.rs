@@ -44,7 +44,11 @@ struct Done {
 impl Sdirk {
     pub fn new(system: &System, start: &State, method: Method) -> Self {
         let (n, count) = (system.mechanics.dofs, start.p.len());
-        let smooth = if method == Method::Esdirk5 { &ESDIRK5 } else { &SDIRK4 };
+        let smooth = if method == Method::Esdirk5 {
+            &ESDIRK5
+        } else {
+            &SDIRK4
+        };
         let done = || Done {
             accelerations: DVector::zeros(n),
             rates: DVector::zeros(n),
@@ -59,14 +63,24 @@ impl Sdirk {
             guesses: [&SDIRK4, smooth].map(Guesses::new),
             power: Exchanged::default(),
             stage: start.clone(),
-            known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
-            done: std::iter::repeat_with(done).take(ESDIRK5.stages().max(SDIRK4.stages())).collect(),
+            known: Known {
+                q: DVector::zeros(n),
+                v: DVector::zeros(n),
+                p: vec![0.0; count],
+            },
+            done: std::iter::repeat_with(done)
+                .take(ESDIRK5.stages().max(SDIRK4.stages()))
+                .collect(),
         }
     }
 
     /// The method of a step that `begins_smoothly`, or after a break or an event.
     fn tableau(&self, begins_smoothly: bool) -> &'static Tableau {
-        if begins_smoothly { self.smooth } else { &SDIRK4 }
+        if begins_smoothly {
+            self.smooth
+        } else {
+            &SDIRK4
+        }
     }
 
     /// Length of a step that `begins_smoothly`, or after a break or an event, relative to one that begins smoothly with the same
@@ -149,8 +163,12 @@ impl Sdirk {
     fn note_stage(&mut self, solver: &mut Solver, i: usize) {
         let done = &mut self.done[i];
         done.forces.copy_from_slice(&self.stage.force);
-        done.accelerations.as_mut_slice().copy_from_slice(self.stage.a.as_slice());
-        done.rates.as_mut_slice().copy_from_slice(self.stage.v.as_slice());
+        done.accelerations
+            .as_mut_slice()
+            .copy_from_slice(self.stage.a.as_slice());
+        done.rates
+            .as_mut_slice()
+            .copy_from_slice(self.stage.v.as_slice());
         solver.end_stage(&self.stage, [&mut done.rates, &mut done.accelerations]);
         done.p_rates.copy_from_slice(&self.stage.p_rate);
         if solver.system().traits.has_motions {
@@ -161,7 +179,9 @@ impl Sdirk {
             let frame = solver.frame(&self.stage);
             // A penetration that is a state has only the first order inside a step.
             let exact = (0..solver.system().verticals()).filter(|&i| !solver.remembers(i));
-            done.excess = exact.map(|i| solver.excess(i, &frame)).fold(f64::NEG_INFINITY, f64::max);
+            done.excess = exact
+                .map(|i| solver.excess(i, &frame))
+                .fold(f64::NEG_INFINITY, f64::max);
         }
     }
 
@@ -169,7 +189,9 @@ impl Sdirk {
     fn start(&mut self, solver: &mut Solver, from: &State) {
         let done = &mut self.done[0];
         done.forces.copy_from_slice(&from.force);
-        done.accelerations.as_mut_slice().copy_from_slice(from.a.as_slice());
+        done.accelerations
+            .as_mut_slice()
+            .copy_from_slice(from.a.as_slice());
         if self.tableau.weight(0) == 0.0 {
             return;
         }
@@ -200,9 +222,19 @@ impl Sdirk {
         if !solver.system().mechanics.moves_freely {
             return;
         }
-        let Sdirk { tableau, stage, done, .. } = self;
-        let acts_alike =
-            |later: &Done| later.forces.iter().zip(&done[0].forces).all(|(a, b)| (*a == 0.0) == (*b == 0.0));
+        let Sdirk {
+            tableau,
+            stage,
+            done,
+            ..
+        } = self;
+        let acts_alike = |later: &Done| {
+            later
+                .forces
+                .iter()
+                .zip(&done[0].forces)
+                .all(|(a, b)| (*a == 0.0) == (*b == 0.0))
+        };
         let is_smooth = done[1..i].iter().all(acts_alike);
         let guesses = &self.guesses[usize::from(std::ptr::eq(*tableau, self.smooth))];
         let weights = guesses.of_stage(i, is_smooth);
@@ -211,7 +243,10 @@ impl Sdirk {
         }
         let is_guessed = |k: &usize| !solver.is_charted(*k);
         for k in (0..stage.a.len()).filter(is_guessed) {
-            stage.a[k] = weights.iter().map(|&(j, weight)| weight * done[j].accelerations[k]).sum();
+            stage.a[k] = weights
+                .iter()
+                .map(|&(j, weight)| weight * done[j].accelerations[k])
+                .sum();
         }
         stage.force.fill(0.0);
         for &(j, weight) in weights {
@@ -222,7 +257,12 @@ impl Sdirk {
     /// Stages of the step just taken, as fractions of it, with the largest force by which a vertical contact had exceeded its
     /// limit of opening or closing there.
     pub fn excesses(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.tableau.c.iter().zip(&self.done).skip(1).map(|(share, done)| (*share, done.excess))
+        self.tableau
+            .c
+            .iter()
+            .zip(&self.done)
+            .skip(1)
+            .map(|(share, done)| (*share, done.excess))
     }
 
     /// Embedded error of q and v of degree of freedom `k`, per unit of step length.
@@ -237,8 +277,13 @@ impl Sdirk {
 
     /// Error of the penetration rate in the last stage that follows from the embedded error of penetration `i`.
     pub fn rate_error(&self, i: usize) -> f64 {
-        let error: f64 =
-            self.tableau.error.iter().zip(&self.done).map(|(weight, done)| weight * done.p_rates[i]).sum();
+        let error: f64 = self
+            .tableau
+            .error
+            .iter()
+            .zip(&self.done)
+            .map(|(weight, done)| weight * done.p_rates[i])
+            .sum();
         error / self.tableau.gamma
     }
 
@@ -259,5 +304,7 @@ impl Sdirk {
 
 /// Adds `share` times `from` to `to`.
 fn add(share: f64, from: &[f64], to: &mut [f64]) {
-    to.iter_mut().zip(from).for_each(|(to, from)| *to += share * from);
+    to.iter_mut()
+        .zip(from)
+        .for_each(|(to, from)| *to += share * from);
 }

@@ -92,7 +92,9 @@ impl<'a, 'b> Step<'a, 'b> {
     pub fn new(solver: &'b mut Solver<'a>, start: State, method: Method) -> Self {
         let system = solver.system();
         let integrator = match Nodes::new(method, system.traits.has_memory) {
-            Some(nodes) => Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start))),
+            Some(nodes) => {
+                Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start)))
+            }
             None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start, method))),
         };
         let zeros = |count: usize| vec![0.0; count];
@@ -169,7 +171,8 @@ impl<'a, 'b> Step<'a, 'b> {
             }
             Integrator::Sdirk(sdirk) => {
                 let how = (limit, self.begins_smoothly);
-                let done = sdirk.attempt(self.solver, &self.from, h, how, (&mut self.to, stages))?;
+                let done =
+                    sdirk.attempt(self.solver, &self.from, h, how, (&mut self.to, stages))?;
                 self.geometry_time = sdirk.time();
                 done
             }
@@ -214,7 +217,11 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Length `h`, reduced to a power of 2^(1/4) if modal responses are stored by step length.
     pub fn rounded(&self, h: f64) -> f64 {
-        if self.propagates_modes() { ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2() } else { h }
+        if self.propagates_modes() {
+            ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2()
+        } else {
+            h
+        }
     }
 
     /// Embedded error of the step just taken: the largest value of `weigh` over the degrees of freedom. Its arguments
@@ -225,7 +232,9 @@ impl<'a, 'b> Step<'a, 'b> {
             Integrator::Collocation(collocation) => collocation.error(k).map(|error| error / h),
             Integrator::Sdirk(sdirk) => sdirk.error(k),
         };
-        self.solver.for_errors(&self.to, of, |k, errors| largest = largest.max(weigh(k, errors)));
+        self.solver.for_errors(&self.to, of, |k, errors| {
+            largest = largest.max(weigh(k, errors))
+        });
         largest
     }
 
@@ -234,19 +243,41 @@ impl<'a, 'b> Step<'a, 'b> {
     /// those of natural modes for every period.
     pub fn force_errors(&mut self) -> &[f64] {
         let (h, end) = (self.length(), self.system().scene.end);
-        let Step { solver, from, to, integrator, errors, bounces: total, .. } = self;
-        let Errors { q, v, rate, force, frequency, ringing } = errors;
+        let Step {
+            solver,
+            from,
+            to,
+            integrator,
+            errors,
+            bounces: total,
+            ..
+        } = self;
+        let Errors {
+            q,
+            v,
+            rate,
+            force,
+            frequency,
+            ringing,
+        } = errors;
         let of = |k: usize| match &*integrator {
             Integrator::Collocation(collocation) => collocation.error(k),
             Integrator::Sdirk(sdirk) => sdirk.error(k).map(|error| h * error),
         };
         solver.for_errors(to, of, |k, [dq, dv]| (q[k], v[k]) = (dq, dv));
         for (i, rate) in rate.iter_mut().enumerate() {
-            let delay = if solver.remembers(i) { solver.delay(i, to) } else { 0.0 };
-            let is_settling = delay > self.shortest_delay && from.t - self.last_jump < SETTLED * delay;
+            let delay = if solver.remembers(i) {
+                solver.delay(i, to)
+            } else {
+                0.0
+            };
+            let is_settling =
+                delay > self.shortest_delay && from.t - self.last_jump < SETTLED * delay;
             *rate = match &*integrator {
                 Integrator::Sdirk(sdirk) if is_settling || delay > QUICK * h => sdirk.rate_error(i),
-                Integrator::Collocation(collocation) if is_settling => collocation.rate_error(from, i),
+                Integrator::Collocation(collocation) if is_settling => {
+                    collocation.rate_error(from, i)
+                }
                 _ => 0.0,
             };
         }
@@ -254,7 +285,17 @@ impl<'a, 'b> Step<'a, 'b> {
         let bounces = total.min(BOUNCES);
         let is_staged = matches!(integrator, Integrator::Sdirk(_));
         solver.ringing([&*from, &*to], end, is_staged, ringing);
-        let errors = StateErrors { at: to, h, is_staged, q, v, rate, frequency, bounces, ringing };
+        let errors = StateErrors {
+            at: to,
+            h,
+            is_staged,
+            q,
+            v,
+            rate,
+            frequency,
+            bounces,
+            ringing,
+        };
         if !solver.force_errors(&errors, force) {
             force.fill(f64::INFINITY);
         }
@@ -269,7 +310,9 @@ impl<'a, 'b> Step<'a, 'b> {
             passed.min_by(|a, b| a.0.total_cmp(&b.0))
         };
         match &self.integrator {
-            Integrator::Collocation(collocation) => first(&mut collocation.excesses(self.solver).into_iter()),
+            Integrator::Collocation(collocation) => {
+                first(&mut collocation.excesses(self.solver).into_iter())
+            }
             Integrator::Sdirk(sdirk) => first(&mut sdirk.excesses()),
         }
     }
@@ -314,11 +357,16 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
-        let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };
+        let settled = if self.begins_smoothly {
+            f64::INFINITY
+        } else {
+            self.shortest_delay
+        };
         // at a break rates jump, and natural modes that move by their propagators may have many periods in a step
         let is_even = self.begins_smoothly && self.ends_smoothly && !self.propagates_modes();
         let h = self.length();
-        self.penetrations.begin(self.solver, &self.from, h, (settled, is_even));
+        self.penetrations
+            .begin(self.solver, &self.from, h, (settled, is_even));
         for fraction in self.penetrations.fractions() {
             self.interpolate(fraction, at)?;
             self.penetrations.add(self.solver, at)?;
@@ -329,7 +377,8 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Sets `at` to the interpolating polynomials of the step just taken; collocation has its own for the motion.
     fn interpolate(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
-        self.solver.interpolate([&self.from, &self.arrived], fraction, at)?;
+        self.solver
+            .interpolate([&self.from, &self.arrived], fraction, at)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
             collocation.interpolate(&self.from, fraction, at);
         }
@@ -352,7 +401,8 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Any error from evaluating the rails.
     pub fn look_within(&mut self, fraction: f64, slack: [f64; 2]) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
-        self.solver.interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
+        self.solver
+            .interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
             collocation.interpolate(&self.from, fraction, &mut self.probe);
         }
@@ -377,8 +427,16 @@ impl<'a, 'b> Step<'a, 'b> {
     pub fn reach_end(&mut self) -> Result<(), Error> {
         let system = self.system();
         let is_there = system.traits.has_constant_rows && self.geometry_time == self.to.t;
-        let has_grounded = system.scene.wheels.iter().any(|wheel| wheel.normal.is_grounded());
-        if has_grounded && !is_there { self.solver.update(&self.to) } else { Ok(()) }
+        let has_grounded = system
+            .scene
+            .wheels
+            .iter()
+            .any(|wheel| wheel.normal.is_grounded());
+        if has_grounded && !is_there {
+            self.solver.update(&self.to)
+        } else {
+            Ok(())
+        }
     }
 
     /// Sets the paths of the wheels in a step of length `h` and in those that follow it, of the length `usual`, from `start`,

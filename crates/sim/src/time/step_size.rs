@@ -36,7 +36,13 @@ pub(crate) struct StepSize {
 
 impl StepSize {
     /// Creates a controller for a run from `start`, whose first step has the length `first`.
-    pub fn new(solver: &Solver, start: &State, tolerance: f64, fixed: Option<f64>, first: f64) -> Self {
+    pub fn new(
+        solver: &Solver,
+        start: &State,
+        tolerance: f64,
+        fixed: Option<f64>,
+        first: f64,
+    ) -> Self {
         let wheels = &solver.system().scene.wheels;
         let (scale, rate_scale) = least_scales(solver, start);
         StepSize {
@@ -46,7 +52,9 @@ impl StepSize {
             last_error: 1.0,
             scale,
             rate_scale,
-            radius: wheels.iter().fold(f64::INFINITY, |min, wheel| min.min(wheel.radius)),
+            radius: wheels
+                .iter()
+                .fold(f64::INFINITY, |min, wheel| min.min(wheel.radius)),
         }
     }
 
@@ -83,20 +91,34 @@ impl StepSize {
     /// Length of the next trial after a step of length `h` with error `error` was rejected, where the error decreases with the
     /// given power of the length.
     pub fn shorter(h: f64, error: f64, power: f64) -> f64 {
-        h * if error.is_finite() { (0.9 * error.powf(-1.0 / power)).clamp(0.1, 0.9) } else { 0.25 }
+        h * if error.is_finite() {
+            (0.9 * error.powf(-1.0 / power)).clamp(0.1, 0.9)
+        } else {
+            0.25
+        }
     }
 
     /// Plans the next step after a step of length `h` with error `error`, which was `share` times as long as one that begins
     /// smoothly and whose error decreases with the given `power` of the length; `rounded` reduces a length to one for which the
     /// modal responses are stored.
-    pub fn plan(&mut self, h: f64, error: f64, [share, power]: [f64; 2], rounded: impl Fn(f64) -> f64) {
+    pub fn plan(
+        &mut self,
+        h: f64,
+        error: f64,
+        [share, power]: [f64; 2],
+        rounded: impl Fn(f64) -> f64,
+    ) {
         let h = h / share;
         let factor = || 0.9 * error.powf(-0.7 / power) * self.last_error.powf(0.4 / power);
         let growth = if error > 0.0 { factor() } else { 5.0 };
         self.last_error = error.max(1e-4);
         let proposed = h * growth.clamp(0.2, 5.0);
         // A step that was shortened by a limit is no reason to shorten the planned step.
-        let wanted = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
+        let wanted = if h < self.h && growth > 1.0 {
+            proposed.max(self.h)
+        } else {
+            proposed
+        };
         self.h = rounded(wanted);
     }
 
@@ -114,11 +136,21 @@ impl StepSize {
 fn least_scales(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system();
     let n = system.mechanics.dofs;
-    let depth = start.p[..system.verticals()].iter().fold(0.0_f64, |max, p| max.max(*p));
-    let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
+    let depth = start.p[..system.verticals()]
+        .iter()
+        .fold(0.0_f64, |max, p| max.max(*p));
+    let radius = system
+        .scene
+        .wheels
+        .iter()
+        .fold(1.0_f64, |max, wheel| max.max(wheel.radius));
     let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
     let gravity = system.scene.gravity;
-    let frequency = if gravity > 0.0 { (gravity / depth).sqrt() } else { 1.0 };
+    let frequency = if gravity > 0.0 {
+        (gravity / depth).sqrt()
+    } else {
+        1.0
+    };
     let rows = solver.geometry().rows();
     let lever = |k: usize| {
         let rows = rows.approach.iter().chain(&rows.rate).skip(k).step_by(n);

@@ -113,8 +113,14 @@ enum Reason {
 
 /// Reasons that are checked before a step is tried, and those checked after it, in their order.
 const BEFORE: [Reason; 1] = [Reason::PrescribedBreak];
-const AFTER: [Reason; 6] =
-    [Reason::RollingBreak, Reason::Touch, Reason::Error, Reason::Switch, Reason::Trigger, Reason::Corner];
+const AFTER: [Reason; 6] = [
+    Reason::RollingBreak,
+    Reason::Touch,
+    Reason::Error,
+    Reason::Switch,
+    Reason::Trigger,
+    Reason::Corner,
+];
 
 /// A step that is tried with decreasing lengths.
 struct Trial {
@@ -200,7 +206,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
             step,
             counts: Counts::default(),
             limit: f64::INFINITY,
-            force_scale: scene.bodies.iter().map(|body| body.mass * scene.gravity).sum(),
+            force_scale: scene
+                .bodies
+                .iter()
+                .map(|body| body.mass * scene.gravity)
+                .sum(),
             bounces: 0.0,
             strike: None,
             stalled: 0,
@@ -274,17 +284,28 @@ impl<'a, 'b> Stepper<'a, 'b> {
         // A step that was shortened gives no information about the error of longer steps.
         if !trial.ends_at_event {
             let step = &self.step;
-            self.size.plan(trial.h, trial.error, step.lengths(), |h| step.rounded(h));
+            self.size
+                .plan(trial.h, trial.error, step.lengths(), |h| step.rounded(h));
         }
-        self.stalled = if trial.h <= 4.0 * trial.smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if trial.ends_at_event && trial.breaks == 0 { self.chatter + 1 } else { 0 };
-        let crawls = self.size.fixed.is_none() && !trial.ends_at_event && trial.h < CRAWL * self.period;
+        self.stalled = if trial.h <= 4.0 * trial.smallest {
+            self.stalled + 1
+        } else {
+            0
+        };
+        self.chatter = if trial.ends_at_event && trial.breaks == 0 {
+            self.chatter + 1
+        } else {
+            0
+        };
+        let crawls =
+            self.size.fixed.is_none() && !trial.ends_at_event && trial.h < CRAWL * self.period;
         self.crawling = if crawls { self.crawling + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER || self.crawling > CRAWLING {
             return Err(Failure::TooSmall);
         }
         self.accept(trial.h)?;
-        self.step.ends_smoothly = !(trial.ends_at_event || ends_at_break || self.step.to.t >= self.limit);
+        self.step.ends_smoothly =
+            !(trial.ends_at_event || ends_at_break || self.step.to.t >= self.limit);
         Ok(())
     }
 
@@ -294,7 +315,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if !self.step.is_collocation() {
             self.size.set_accuracy(self.step.solver);
         }
-        let widest = if self.chatter > SHORT { WIDER * self.step.length() } else { f64::INFINITY };
+        let widest = if self.chatter > SHORT {
+            WIDER * self.step.length()
+        } else {
+            f64::INFINITY
+        };
         self.step.begin();
         self.step.begins_smoothly = self.step.ends_smoothly;
         if !self.step.begins_smoothly {
@@ -305,8 +330,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         self.meets = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let instant = if self.chatter >= RATTLE { self.instant() } else { 0.0 };
-        let planned = self.size.planned(self.step.lengths()[0], widest.max(instant));
+        let instant = if self.chatter >= RATTLE {
+            self.instant()
+        } else {
+            0.0
+        };
+        let planned = self
+            .size
+            .planned(self.step.lengths()[0], widest.max(instant));
         let mut trial = Trial {
             h: self.size.within(planned, limit - self.step.from.t),
             smallest,
@@ -331,7 +362,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 trial.h = h;
             }
         }
-        self.step.set_paths(PathStart::StepStart, [trial.h, self.size.planned(1.0, widest)]);
+        self.step.set_paths(
+            PathStart::StepStart,
+            [trial.h, self.size.planned(1.0, widest)],
+        );
         trial
     }
 
@@ -350,8 +384,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         let loads = self.modal_loads.as_ref();
         let error = step.error(|k, errors| {
-            let of_mode =
-                loads.map_or(0.0, |own| own.relative(step.system(), k, length * errors[0], largest));
+            let of_mode = loads.map_or(0.0, |own| {
+                own.relative(step.system(), k, length * errors[0], largest)
+            });
             self.size.weigh(&step.to, length, k, errors).max(of_mode)
         });
         if length <= self.instant()
@@ -371,7 +406,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let is_long = trial.h > trial.shortest;
         let cut = match reason {
             Reason::PrescribedBreak => {
-                return Ok(prescribed_break(self.step.system(), self.step.from.t, trial.h));
+                return Ok(prescribed_break(
+                    self.step.system(),
+                    self.step.from.t,
+                    trial.h,
+                ));
             }
             Reason::RollingBreak => {
                 if !(has_converged && trial.breaks < REFINEMENTS) {
@@ -418,7 +457,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 }
                 trial.switches += 1;
                 // If the estimates do not converge, the step is halved.
-                let fraction = if trial.switches < GUESSES { fraction } else { 0.5 };
+                let fraction = if trial.switches < GUESSES {
+                    fraction
+                } else {
+                    0.5
+                };
                 Some((trial.h * fraction).max(trial.shortest))
             }
             Reason::Trigger => {
@@ -447,7 +490,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
             return false;
         }
         let exchanged = self.step.exchanged(h);
-        let gap = self.books.gap(self.step.solver, &exchanged, &self.step.to, self.stored());
+        let gap = self
+            .books
+            .gap(self.step.solver, &exchanged, &self.step.to, self.stored());
         gap.abs() > ENERGY * self.size.tolerance * self.books.audit().peak_stored
     }
 
@@ -455,8 +500,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// whether it touches there.
     fn touched(&mut self) -> Option<(usize, bool)> {
         let Step { solver, to, .. } = &self.step;
-        let now = self.ending.get_or_insert_with(|| guards(solver, GuardKind::Touch, to));
-        let index = self.touches.iter().zip(&*now).position(|(old, new)| old.value * new.value < 0.0)?;
+        let now = self
+            .ending
+            .get_or_insert_with(|| guards(solver, GuardKind::Touch, to));
+        let index = self
+            .touches
+            .iter()
+            .zip(&*now)
+            .position(|(old, new)| old.value * new.value < 0.0)?;
         let system = self.step.system();
         let element = system.guarded(GuardKind::Touch)[index];
         Some((system.first_wheel[element]?, now[index].value > 0.0))
@@ -464,7 +515,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Notes a strike at the end of the step if it is the first.
     fn note_strike(&mut self, by: StruckBy) {
-        self.strike.get_or_insert(Strike { time: self.step.to.t, by });
+        self.strike.get_or_insert(Strike {
+            time: self.step.to.t,
+            by,
+        });
     }
 
     /// Fraction of the step at which a freely rolling wheel meets a break; stores the wheel in `meets`.
@@ -494,7 +548,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.note_strike(StruckBy::Flange(wheel));
         }
         let exchanged = self.step.exchanged(h);
-        self.books.book_step(self.step.solver, &exchanged, &self.step.to);
+        self.books
+            .book_step(self.step.solver, &exchanged, &self.step.to);
         self.step.reach_end()?;
         self.size.grow(&self.step.to);
         if self.step.to.t >= self.limit {
@@ -506,7 +561,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.books.book_rail(by_joint);
         let before = self.stored();
         let system = self.step.system();
-        let has_crossed = system.traits.is_uneven && pass_corners(self.step.solver, &mut self.step.to)?;
+        let has_crossed =
+            system.traits.is_uneven && pass_corners(self.step.solver, &mut self.step.to)?;
         let mut after = before;
         if has_crossed || self.is_switch_due() {
             self.ending = None;
@@ -520,19 +576,31 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 let now = self.step.solver.active().flags();
                 self.counts.events += usize::from(active != now);
                 let switched = (0..now.len()).find(|&i| active[i] != now[i]);
-                let met = (0..now.len()).filter(|&i| now[i] && !active[i]).find_map(|i| system.stop(i));
+                let met = (0..now.len())
+                    .filter(|&i| now[i] && !active[i])
+                    .find_map(|i| system.stop(i));
                 if let Some(stop) = met {
                     self.note_strike(StruckBy::Stop(stop));
                 }
-                cause = switched.and_then(|i| system.first_wheel[i]).map_or(cause, GapCause::Contact);
+                cause = switched
+                    .and_then(|i| system.first_wheel[i])
+                    .map_or(cause, GapCause::Contact);
                 after = self.stored();
                 let gained = after.total() - before.total();
-                if has_crossed { self.books.book_rail(gained) } else { self.books.book_switch(-gained) }
+                if has_crossed {
+                    self.books.book_rail(gained)
+                } else {
+                    self.books.book_switch(-gained)
+                }
             }
         }
-        self.books.close_step(self.step.solver, &self.step.to, after, cause);
+        self.books
+            .close_step(self.step.solver, &self.step.to, after, cause);
         let Step { solver, to, .. } = &self.step;
-        self.touches = self.ending.take().unwrap_or_else(|| guards(solver, GuardKind::Touch, to));
+        self.touches = self
+            .ending
+            .take()
+            .unwrap_or_else(|| guards(solver, GuardKind::Touch, to));
         self.step.note_start();
         Ok(())
     }
@@ -541,13 +609,18 @@ impl<'a, 'b> Stepper<'a, 'b> {
     fn is_switch_due(&self) -> bool {
         let (solver, to) = (&*self.step.solver, &self.step.to);
         let system = solver.system();
-        let has_let_go = (0..system.verticals()).any(|i| solver.active().has(i) && solver.opens(i, to));
+        let has_let_go =
+            (0..system.verticals()).any(|i| solver.active().has(i) && solver.opens(i, to));
         has_let_go || solver.next_switch(0, to).is_some()
     }
 
     /// Energy stored at the end of the step.
     fn stored(&self) -> Stored {
-        stored(self.step.system(), self.step.solver.geometry(), &self.step.to)
+        stored(
+            self.step.system(),
+            self.step.solver.geometry(),
+            &self.step.to,
+        )
     }
 
     /// Time around an event in which forces need not keep the accuracy, accuracy x 2 pi sqrt(m/k), for the contact for
@@ -583,13 +656,21 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let slack = self.break_slack();
         let Step { solver, to, .. } = &mut self.step;
         let system = solver.system();
-        let Some(w) = self.meets.take().filter(|_| system.mechanics.has_sliding_rails()) else {
+        let Some(w) = self
+            .meets
+            .take()
+            .filter(|_| system.mechanics.has_sliding_rails())
+        else {
             return Ok(0.0);
         };
         let speed = system.mechanics.speed_along(w, to);
-        let Some(near) = at_break(solver, w, to, slack).filter(|_| speed != 0.0) else { return Ok(0.0) };
+        let Some(near) = at_break(solver, w, to, slack).filter(|_| speed != 0.0) else {
+            return Ok(0.0);
+        };
         let before = stored(system, solver.geometry(), to);
-        let felt: Vec<usize> = (0..system.verticals()).filter(|&i| solver.remembers(i)).collect();
+        let felt: Vec<usize> = (0..system.verticals())
+            .filter(|&i| solver.remembers(i))
+            .collect();
         for &i in &felt {
             to.p[i] += solver.geometry().deflection(i, &to.force);
         }
@@ -597,8 +678,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let contact = system.mechanics.wheels[w].contact;
         solver.clear_path(system.scene.contacts[contact].structure);
         let usual = self.size.planned(1.0, f64::INFINITY);
-        self.step.set_paths(PathStart::StepEnd, [usual * self.step.lengths_of(false)[0], usual]);
-        let Step { solver, to, probe, .. } = &mut self.step;
+        self.step.set_paths(
+            PathStart::StepEnd,
+            [usual * self.step.lengths_of(false)[0], usual],
+        );
+        let Step {
+            solver, to, probe, ..
+        } = &mut self.step;
         probe.q.copy_from(&to.q);
         probe.q.axpy(near / speed.abs(), &to.v, 1.0);
         solver.update_to(to, &probe.q)?;
@@ -611,7 +697,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Largest contact force so far, including the end of the current step.
     fn largest_force(&self) -> f64 {
-        self.step.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
+        self.step
+            .to
+            .force
+            .iter()
+            .fold(self.force_scale, |max, force| max.max(force.abs()))
     }
 
     /// Rules whose conditions are met at the end of the last step.
@@ -662,6 +752,8 @@ fn period(solver: &Solver, at: &State) -> f64 {
         let [_, stiffness, _] = solver.law_of(i, at.p[i], 0.0);
         (weight(i).max(0.0) / stiffness).sqrt()
     };
-    let pressed = (0..system.verticals()).filter(|&i| at.force[i] > 0.0).map(period);
+    let pressed = (0..system.verticals())
+        .filter(|&i| at.force[i] > 0.0)
+        .map(period);
     TAU * pressed.fold(f64::INFINITY, f64::min)
 }

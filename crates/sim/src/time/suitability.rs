@@ -30,7 +30,9 @@ impl Method {
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
-            Method::Auto if Method::Radau.check(system).is_ok() && !is_large(system) => Method::Radau,
+            Method::Auto if Method::Radau.check(system).is_ok() && !is_large(system) => {
+                Method::Radau
+            }
             Method::Auto => Method::Esdirk5,
             method => method,
         }
@@ -43,28 +45,47 @@ impl Method {
         if matches!(self, Method::Auto | Method::Sdirk4 | Method::Esdirk5) {
             return Ok(());
         }
-        let modal =
-            system.foundations.iter().filter_map(|f| f.structure.as_ref()).all(|structure| match &structure
-                .dynamics
-            {
+        let modal = system
+            .foundations
+            .iter()
+            .filter_map(|f| f.structure.as_ref())
+            .all(|structure| match &structure.dynamics {
                 Dynamics::Matrices { .. } => false,
                 Dynamics::Modes { ratio, .. } => ratio.iter().all(|ratio| *ratio < 1.0),
             });
         let trouble = [
-            (system.mechanics.moves_freely, "places along the rail that are prescribed"),
+            (
+                system.mechanics.moves_freely,
+                "places along the rail that are prescribed",
+            ),
             (!system.traits.is_vertical, "vertical contacts alone"),
-            (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
-            (!system.mechanics.carried.is_empty(), "bodies that ride on the ground's rails"),
-            (!system.mechanics.couplings.is_empty(), "structures on the ground"),
+            (
+                system.foundations.iter().any(|f| f.parts.is_some()),
+                "one force a wheel",
+            ),
+            (
+                !system.mechanics.carried.is_empty(),
+                "bodies that ride on the ground's rails",
+            ),
+            (
+                !system.mechanics.couplings.is_empty(),
+                "structures on the ground",
+            ),
             (!modal, "structures in natural modes, damped below critical"),
             (
                 self != Method::Radau && system.traits.has_memory,
                 "contacts without a damper between wheel and rail",
             ),
         ];
-        let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
+        let found = trouble
+            .into_iter()
+            .find(|(found, _)| *found)
+            .map(|(_, wanted)| wanted);
         match found.or_else(|| missing(system).filter(|_| self == Method::Series)) {
-            Some(wanted) => Err(Error::Method { method: self, wanted }),
+            Some(wanted) => Err(Error::Method {
+                method: self,
+                wanted,
+            }),
             None => Ok(()),
         }
     }

@@ -92,7 +92,11 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
         &[],
         &[0.184],
         &[0.222_107_647_738_324_75, 0.222_107_647_738_324_75],
-        &[-0.014_049_475_381_926_283, -0.014_049_475_381_926_283, -0.017_090_850_935_864_15],
+        &[
+            -0.014_049_475_381_926_283,
+            -0.014_049_475_381_926_283,
+            -0.017_090_850_935_864_15,
+        ],
         &[
             -0.408_388_592_549_314_64,
             -0.408_388_592_549_314_64,
@@ -116,8 +120,24 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
         ],
     ],
     guess: [
-        &[&[], &[], &[0, 1], &[0, 1, 2], &[1, 2, 3], &[0, 1, 2], &[0, 1, 4, 5]],
-        &[&[], &[], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3], &[0, 1, 2, 3, 4], &[0, 1, 2, 4, 5]],
+        &[
+            &[],
+            &[],
+            &[0, 1],
+            &[0, 1, 2],
+            &[1, 2, 3],
+            &[0, 1, 2],
+            &[0, 1, 4, 5],
+        ],
+        &[
+            &[],
+            &[],
+            &[0, 1],
+            &[0, 1, 2],
+            &[0, 1, 2, 3],
+            &[0, 1, 2, 3, 4],
+            &[0, 1, 2, 4, 5],
+        ],
     ],
     error: &[
         CAUTION * 0.041_223_397_456_907_174,
@@ -141,9 +161,12 @@ mod tests {
     fn residuals(tableau: &Tableau, weights: &[f64]) -> [Vec<f64>; 5] {
         let s = tableau.stages();
         let times = |vector: &[f64]| -> Vec<f64> {
-            (0..s).map(|i| (0..s).map(|j| tableau.coefficient(i, j) * vector[j]).sum()).collect()
+            (0..s)
+                .map(|i| (0..s).map(|j| tableau.coefficient(i, j) * vector[j]).sum())
+                .collect()
         };
-        let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let product =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         let sum = |vector: &[f64]| -> f64 { weights.iter().zip(vector).map(|(w, x)| w * x).sum() };
         let ones = vec![1.0; s];
         let c = times(&ones);
@@ -183,16 +206,28 @@ mod tests {
             let s = tableau.stages();
             for (i, abscissa) in tableau.c.iter().enumerate() {
                 let sum: f64 = (0..s).map(|j| tableau.coefficient(i, j)).sum();
-                assert!((sum - abscissa).abs() < 2e-15, "order {order}, stage {i}: {sum} for {abscissa}");
+                assert!(
+                    (sum - abscissa).abs() < 2e-15,
+                    "order {order}, stage {i}: {sum} for {abscissa}"
+                );
             }
             let own: Vec<f64> = (0..s).map(|i| tableau.weight(i)).collect();
-            let embedded: Vec<f64> = own.iter().zip(tableau.error).map(|(own, error)| own - error).collect();
+            let embedded: Vec<f64> = own
+                .iter()
+                .zip(tableau.error)
+                .map(|(own, error)| own - error)
+                .collect();
             for (weights, order) in [(own, order), (embedded, order - 1)] {
-                let largest = |residuals: &[f64]| residuals.iter().fold(0.0_f64, |max, r| max.max(r.abs()));
+                let largest =
+                    |residuals: &[f64]| residuals.iter().fold(0.0_f64, |max, r| max.max(r.abs()));
                 for (index, residuals) in residuals(tableau, &weights).iter().enumerate() {
                     let found = largest(residuals);
                     if index < order {
-                        assert!(found < 1e-14, "order {order}, conditions of {}: {found:e}", index + 1);
+                        assert!(
+                            found < 1e-14,
+                            "order {order}, conditions of {}: {found:e}",
+                            index + 1
+                        );
                     } else if index == order {
                         assert!(found > 1e-4, "order {order} is higher: {found:e}");
                     }
@@ -206,8 +241,13 @@ mod tests {
     fn esdirk5_has_stages_of_order_two() {
         let s = ESDIRK5.stages();
         for i in 1..s {
-            let found: f64 = (0..s).map(|j| ESDIRK5.coefficient(i, j) * ESDIRK5.c[j]).sum();
-            assert!((found - 0.5 * ESDIRK5.c[i].powi(2)).abs() < 2e-15, "stage {i}: {found}");
+            let found: f64 = (0..s)
+                .map(|j| ESDIRK5.coefficient(i, j) * ESDIRK5.c[j])
+                .sum();
+            assert!(
+                (found - 0.5 * ESDIRK5.c[i].powi(2)).abs() < 2e-15,
+                "stage {i}: {found}"
+            );
         }
     }
 }

@@ -39,8 +39,13 @@ impl Triggers {
         let rules = &system.scene.actuators.rules;
         let recorder = (!rules.is_empty()).then(|| Recorder::new(system));
         let column = |channel, rule| {
-            let position = recorder.as_ref().and_then(|recorder| recorder.history().position(channel));
-            position.ok_or(Error::NoSuch { what: "quantity of rule", index: rule })
+            let position = recorder
+                .as_ref()
+                .and_then(|recorder| recorder.history().position(channel));
+            position.ok_or(Error::NoSuch {
+                what: "quantity of rule",
+                index: rule,
+            })
         };
         let mut pending = Vec::new();
         for (rule, given) in rules.iter().enumerate() {
@@ -50,7 +55,13 @@ impl Triggers {
                 .collect::<Result<_, Error>>()?;
             pending.push(Trigger { rule, columns });
         }
-        Ok(Triggers { pending, recorder, row: Vec::new(), has_cut: false, missed: 0 })
+        Ok(Triggers {
+            pending,
+            recorder,
+            row: Vec::new(),
+            has_cut: false,
+            missed: 0,
+        })
     }
 
     /// Rules whose conditions are met in the state `at`, for which the geometry of the solver must be current.
@@ -62,10 +73,19 @@ impl Triggers {
         self.row.clear();
         recorder.row(system, solver.geometry(), at, &mut self.row)?;
         let is_met = |trigger: &&Trigger| {
-            let sum = trigger.columns.iter().map(|&(column, factor)| factor * self.row[column]).sum();
+            let sum = trigger
+                .columns
+                .iter()
+                .map(|&(column, factor)| factor * self.row[column])
+                .sum();
             system.scene.actuators.rules[trigger.rule].when.is_met(sum)
         };
-        Ok(self.pending.iter().filter(is_met).map(|trigger| trigger.rule).collect())
+        Ok(self
+            .pending
+            .iter()
+            .filter(is_met)
+            .map(|trigger| trigger.rule)
+            .collect())
     }
 
     /// Finds by bisection the length of the step that ends where the first rule acts. Returns `None` if no rule acts

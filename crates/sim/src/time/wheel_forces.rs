@@ -34,14 +34,32 @@ impl WheelForces {
                     Channel::Traction(wheel) => (wheel, 2),
                     _ => continue,
                 };
-                shares.push(Share { wheel, element, divisor, axis });
+                shares.push(Share {
+                    wheel,
+                    element,
+                    divisor,
+                    axis,
+                });
             }
         }
         let count = system.mechanics.wheels.len();
-        let weight: f64 = system.scene.bodies.iter().map(|body| body.mass * system.scene.gravity).sum();
-        let mut forces = WheelForces { shares, size: vec![0.0; count], sums: vec![[0.0; 3]; count] };
+        let weight: f64 = system
+            .scene
+            .bodies
+            .iter()
+            .map(|body| body.mass * system.scene.gravity)
+            .sum();
+        let mut forces = WheelForces {
+            shares,
+            size: vec![0.0; count],
+            sums: vec![[0.0; 3]; count],
+        };
         forces.grow(force);
-        forces.size.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = weight / count as f64);
+        forces
+            .size
+            .iter_mut()
+            .filter(|size| **size == 0.0)
+            .for_each(|size| *size = weight / count as f64);
         forces
     }
 
@@ -64,8 +82,15 @@ impl WheelForces {
     pub fn relative(&mut self, errors: &[f64]) -> f64 {
         self.add_up(errors);
         let mut largest = 0.0_f64;
-        for (size, sums) in self.size.iter().zip(&self.sums).filter(|(size, _)| **size > 0.0) {
-            largest = sums.iter().fold(largest, |max, sum| max.max(sum.abs() / size));
+        for (size, sums) in self
+            .size
+            .iter()
+            .zip(&self.sums)
+            .filter(|(size, _)| **size > 0.0)
+        {
+            largest = sums
+                .iter()
+                .fold(largest, |max, sum| max.max(sum.abs() / size));
         }
         largest
     }

@@ -1,6 +1,8 @@
 //! A bridge on two runways with a trolley on it.
 
-use sim::{Body, BodyDof, CarriedRail, Carrier, Contact, Damper, Foundation, MotionKind, Profile, Scene};
+use sim::{
+    Body, BodyDof, CarriedRail, Carrier, Contact, Damper, Foundation, MotionKind, Profile, Scene,
+};
 
 use super::bogie;
 
@@ -15,7 +17,8 @@ pub const AXLES: f64 = 5.0;
 
 pub fn body(mass: f64, inertia: [f64; 3], free: &[BodyDof]) -> Body {
     let mut is_free = [false; 6];
-    free.iter().for_each(|freedom| is_free[*freedom as usize] = true);
+    free.iter()
+        .for_each(|freedom| is_free[*freedom as usize] = true);
     Body {
         mass,
         inertia,
@@ -32,13 +35,24 @@ pub fn body(mass: f64, inertia: [f64; 3], free: &[BodyDof]) -> Body {
 pub fn mount(along: [f64; 3], at: [f64; 3]) -> Carrier {
     // Analytic: z = x cross y for a level x.
     let across = [-along[2], 0.0, along[0]];
-    let rail = |side: f64| CarriedRail { origin: [0, 1, 2].map(|k| at[k] + side * across[k]), along };
-    Carrier { body: 0, rails: vec![rail(-GAUGE), rail(GAUGE)], mass: [[0.0; 6]; 6], coupling: Vec::new() }
+    let rail = |side: f64| CarriedRail {
+        origin: [0, 1, 2].map(|k| at[k] + side * across[k]),
+        along,
+    };
+    Carrier {
+        body: 0,
+        rails: vec![rail(-GAUGE), rail(GAUGE)],
+        mass: [[0.0; 6]; 6],
+        coupling: Vec::new(),
+    }
 }
 
 /// Rigid girders on body 0.
 pub fn carried(along: [f64; 3], at: [f64; 3]) -> Foundation {
-    Foundation { carrier: Some(mount(along, at)), ..Foundation::rigid() }
+    Foundation {
+        carrier: Some(mount(along, at)),
+        ..Foundation::rigid()
+    }
 }
 
 /// A bridge on four wheels and a trolley on four, bilateral and undamped.
@@ -65,7 +79,11 @@ pub fn crane_of(bridge: Body, trolley: Body, end: f64) -> Scene {
 
 /// The same with usual inertias.
 pub fn crane(bridge: &[BodyDof], trolley: &[BodyDof], end: f64) -> Scene {
-    crane_of(body(BRIDGE, [1e6, 4e6, 4e6], bridge), body(TROLLEY, [9e4, 2e5, 2e5], trolley), end)
+    crane_of(
+        body(BRIDGE, [1e6, 4e6, 4e6], bridge),
+        body(TROLLEY, [9e4, 2e5, 2e5], trolley),
+        end,
+    )
 }
 
 pub fn travelling(speed: f64, x0: f64) -> Option<Profile> {

@@ -12,13 +12,41 @@ const STAGES: [[f64; 6]; 6] = [
     [0.2, 0.0, 0.0, 0.0, 0.0, 0.0],
     [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
     [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
-    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
-    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
-    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+    [
+        19372.0 / 6561.0,
+        -25360.0 / 2187.0,
+        64448.0 / 6561.0,
+        -212.0 / 729.0,
+        0.0,
+        0.0,
+    ],
+    [
+        9017.0 / 3168.0,
+        -355.0 / 33.0,
+        46732.0 / 5247.0,
+        49.0 / 176.0,
+        -5103.0 / 18656.0,
+        0.0,
+    ],
+    [
+        35.0 / 384.0,
+        0.0,
+        500.0 / 1113.0,
+        125.0 / 192.0,
+        -2187.0 / 6784.0,
+        11.0 / 84.0,
+    ],
 ];
 /// Weights of all seven rates in the error.
-const ERROR: [f64; 7] =
-    [-71.0 / 57600.0, 0.0, 71.0 / 16695.0, -71.0 / 1920.0, 17253.0 / 339_200.0, -22.0 / 525.0, 1.0 / 40.0];
+const ERROR: [f64; 7] = [
+    -71.0 / 57600.0,
+    0.0,
+    71.0 / 16695.0,
+    -71.0 / 1920.0,
+    17253.0 / 339_200.0,
+    -22.0 / 525.0,
+    1.0 / 40.0,
+];
 
 fn norm<const N: usize>(values: [f64; N]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / N as f64).sqrt()
@@ -38,16 +66,26 @@ pub fn dormand<const N: usize>(
     mut watch: impl FnMut(f64, [f64; N]),
 ) -> Ended<N> {
     let scaled = |values: [f64; N], a: [f64; N], b: [f64; N]| {
-        norm(std::array::from_fn::<f64, N, _>(|j| values[j] / (atol + rtol * a[j].abs().max(b[j].abs()))))
+        norm(std::array::from_fn::<f64, N, _>(|j| {
+            values[j] / (atol + rtol * a[j].abs().max(b[j].abs()))
+        }))
     };
     let mut y = y;
     let mut first = rate(y);
     let (size, slope) = (scaled(y, y, y), scaled(first, y, y));
-    let guess = if size < 1e-5 || slope < 1e-5 { 1e-6 } else { 0.01 * size / slope };
+    let guess = if size < 1e-5 || slope < 1e-5 {
+        1e-6
+    } else {
+        0.01 * size / slope
+    };
     let ahead = rate(std::array::from_fn(|j| y[j] + guess * first[j]));
     let bend = scaled(std::array::from_fn(|j| ahead[j] - first[j]), y, y) / guess;
     let most = slope.max(bend);
-    let second = if most <= 1e-15 { (1e-3 * guess).max(1e-6) } else { (0.01 / most).powf(0.2) };
+    let second = if most <= 1e-15 {
+        (1e-3 * guess).max(1e-6)
+    } else {
+        (0.01 / most).powf(0.2)
+    };
     let mut h = (100.0 * guess).min(second);
     let (mut t, mut rates) = (0.0, 2);
     while t < end {
@@ -59,13 +97,23 @@ pub fn dormand<const N: usize>(
             let mut to = y;
             for (s, row) in STAGES.iter().enumerate() {
                 to = std::array::from_fn(|j| {
-                    y[j] + step * row.iter().zip(&k).take(s + 1).map(|(weight, k)| weight * k[j]).sum::<f64>()
+                    y[j] + step
+                        * row
+                            .iter()
+                            .zip(&k)
+                            .take(s + 1)
+                            .map(|(weight, k)| weight * k[j])
+                            .sum::<f64>()
                 });
                 k[s + 1] = rate(to);
             }
             rates += 6;
             let error = std::array::from_fn(|j| {
-                step * ERROR.iter().zip(&k).map(|(weight, k)| weight * k[j]).sum::<f64>()
+                step * ERROR
+                    .iter()
+                    .zip(&k)
+                    .map(|(weight, k)| weight * k[j])
+                    .sum::<f64>()
             });
             let error = scaled(error, y, to);
             let factor = 0.9 * error.powf(-0.2);

@@ -12,8 +12,11 @@ impl Hinged {
     /// Displacement of a place by support `n`, and its slope.
     fn share(p: &Probe, n: i32) -> [f64; 2] {
         let from = 0.1 * p.x - f64::from(n);
-        let (hat, slope) =
-            if from.abs() < 1.0 { (1.0 - from.abs(), -0.1 * from.signum()) } else { (0.0, 0.0) };
+        let (hat, slope) = if from.abs() < 1.0 {
+            (1.0 - from.abs(), -0.1 * from.signum())
+        } else {
+            (0.0, 0.0)
+        };
         match p.axis {
             Axis::Vertical => [hat, slope],
             _ => [HEIGHT * slope, 0.0],

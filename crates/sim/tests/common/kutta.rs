@@ -71,9 +71,16 @@ impl Shapes for Sled {
 /// A rail on one freedom of mass `m`, stiffness `k` and damping `c`, which moves it by `along` (x, y, z).
 pub fn sled(m: f64, k: f64, c: f64, along: [f64; 3]) -> Foundation {
     let one = |value: f64| DMatrix::from_element(1, 1, value);
-    let dynamics = Dynamics::Matrices { mass: one(m), damping: one(c), stiffness: one(k) };
+    let dynamics = Dynamics::Matrices {
+        mass: one(m),
+        damping: one(c),
+        stiffness: one(k),
+    };
     Foundation {
-        structure: Some(Structure { dynamics, shapes: Box::new(Sled(along)) }),
+        structure: Some(Structure {
+            dynamics,
+            shapes: Box::new(Sled(along)),
+        }),
         is_loaded_along: true,
         ..Foundation::default()
     }

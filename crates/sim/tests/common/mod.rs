@@ -17,8 +17,12 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use serde_json::Value;
-use sim::{Analysis, Body, Contact, Damper, Foundation, MotionKind, NormalLaw, Profile, Scene, Wheel};
-use splines::{Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
+use sim::{
+    Analysis, Body, Contact, Damper, Foundation, MotionKind, NormalLaw, Profile, Scene, Wheel,
+};
+use splines::{
+    Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails,
+};
 
 /// Span, ft, and bending stiffness, lb ft^2, of the paper's girder.
 pub const SPAN: f64 = 60.0;
@@ -35,12 +39,21 @@ pub struct ClosedForm;
 /// # Source
 /// Macaulay's method: EI w''' = jumps at the supports 0 and L and the load.
 pub fn give(x: f64, z: f64) -> (f64, f64) {
-    let cube = |a: f64| if a > 0.0 { (a * a * a, 3.0 * a * a) } else { (0.0, 0.0) };
+    let cube = |a: f64| {
+        if a > 0.0 {
+            (a * a * a, 3.0 * a * a)
+        } else {
+            (0.0, 0.0)
+        }
+    };
     // Reactions up at 0 and L balance the load down at z.
     let (r0, rl) = ((SPAN - z) / SPAN, z / SPAN);
     let shape = |x: f64| {
         let ((c0, d0), (cl, dl), (cz, dz)) = (cube(x), cube(x - SPAN), cube(x - z));
-        ((cz - r0 * c0 - rl * cl) / (6.0 * EI), (dz - r0 * d0 - rl * dl) / (6.0 * EI))
+        (
+            (cz - r0 * c0 - rl * cl) / (6.0 * EI),
+            (dz - r0 * d0 - rl * dl) / (6.0 * EI),
+        )
     };
     let (at0, atl) = (shape(0.0).0, shape(SPAN).0);
     let (w, slope) = shape(x);
@@ -80,7 +93,14 @@ pub fn girder() -> Foundation {
 
 /// One wheel of kind 0 under the origin of body 0, on the first rail of structure 0.
 pub fn single() -> Contact {
-    Contact { body: 0, structure: 0, rail: 0, at: [0.0; 3], offsets: vec![0.0], wheel: 0 }
+    Contact {
+        body: 0,
+        structure: 0,
+        rail: 0,
+        at: [0.0; 3],
+        offsets: vec![0.0],
+        wheel: 0,
+    }
 }
 
 /// The paper's two-wheel bogie at constant `speed`.
@@ -95,7 +115,9 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             free: [false, true, false, false, false, true],
             start: [0.0; 6],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            motion: Some(
+                Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table"),
+            ),
             pinned: None,
         }],
         wheels: vec![Wheel {
@@ -132,10 +154,23 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
 pub fn reference(text: &str) -> Vec<[f64; 5]> {
     let json: Value = serde_json::from_str(text).expect("the file is JSON");
     let column = |name: &str| -> Vec<f64> {
-        json[name].as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
+        json[name]
+            .as_array()
+            .expect("an array")
+            .iter()
+            .map(|v| v.as_f64().expect("a number"))
+            .collect()
     };
-    let (t, z, pitch, f1, f2) = (column("time"), column("z"), column("pitch"), column("F1"), column("F2"));
-    (0..t.len()).map(|i| [t[i], z[i], pitch[i], f1[i], f2[i]]).collect()
+    let (t, z, pitch, f1, f2) = (
+        column("time"),
+        column("z"),
+        column("pitch"),
+        column("F1"),
+        column("F2"),
+    );
+    (0..t.len())
+        .map(|i| [t[i], z[i], pitch[i], f1[i], f2[i]])
+        .collect()
 }
 
 /// Stations of the exact surface.
@@ -152,7 +187,10 @@ pub fn surface() -> ExactSurface {
             nodal[(6 * i + 5, 6 * j + 5)] = turn(x, z);
         }
     }
-    let flexibility = Flexibility { bending_z: 1.0 / EI, ..Flexibility::default() };
+    let flexibility = Flexibility {
+        bending_z: 1.0 / EI,
+        ..Flexibility::default()
+    };
     let cells = STATIONS.windows(2).enumerate().map(|(k, x)| RailElement {
         rail: 0,
         x: [x[0], x[1]],
@@ -163,8 +201,11 @@ pub fn surface() -> ExactSurface {
         flexibility,
         member: None,
     });
-    ExactSurface::new(Arc::new(Rails::new(cells.collect()).expect("valid cells")), nodal)
-        .expect("the shape fits")
+    ExactSurface::new(
+        Arc::new(Rails::new(cells.collect()).expect("valid cells")),
+        nodal,
+    )
+    .expect("the shape fits")
 }
 
 /// Rotation at x for a unit moment at z: the derivative of [`give`]'s slope by z.
@@ -174,7 +215,10 @@ fn turn(x: f64, z: f64) -> f64 {
     let shape = |x: f64| {
         let cubes = (beyond(x).powi(3) - beyond(x - SPAN).powi(3)) / SPAN;
         let squares = 3.0 * (square(x) - square(x - SPAN)) / SPAN;
-        ((cubes - 3.0 * square(x - z)) / (6.0 * EI), (squares - 6.0 * beyond(x - z)) / (6.0 * EI))
+        (
+            (cubes - 3.0 * square(x - z)) / (6.0 * EI),
+            (squares - 6.0 * beyond(x - z)) / (6.0 * EI),
+        )
     };
     shape(x).1 - (shape(SPAN).0 - shape(0.0).0) / SPAN
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use sim::{
-    Analysis, Body, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind, NormalLaw, Profile, Scene,
-    Shapes, Structure, Wheel,
+    Analysis, Body, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind, NormalLaw, Profile,
+    Scene, Shapes, Structure, Wheel,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -77,10 +77,16 @@ pub fn beam(modes: usize, with_rest: bool) -> Foundation {
     Foundation {
         compliance: with_rest.then(|| Box::new(Rest { modes }) as Box<dyn Compliance>),
         structure: (modes > 0).then(|| Structure {
-            dynamics: Dynamics::Modes { ratio: vec![0.0; omega.len()], omega },
+            dynamics: Dynamics::Modes {
+                ratio: vec![0.0; omega.len()],
+                omega,
+            },
             shapes: Box::new(Sines),
         }),
-        rails: vec![Extent { range: Some([0.0, SPAN]), breaks: vec![0.0, SPAN] }],
+        rails: vec![Extent {
+            range: Some([0.0, SPAN]),
+            breaks: vec![0.0, SPAN],
+        }],
         ..Foundation::default()
     }
 }
@@ -100,18 +106,30 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
             free: [false, true, false, false, false, false],
             start: [0.0; 6],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            motion: Some(
+                Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table"),
+            ),
             pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.0,
-            normal: NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, 0.0, Damper::Rail) },
+            normal: NormalLaw {
+                bilateral: true,
+                ..NormalLaw::linear(stiffness, 0.0, Damper::Rail)
+            },
             flange: None,
             friction: None,
             spin_inertia: None,
         }],
         contacts: vec![single()],
-        gauges: vec![Gauge { structure: 0, probe: Probe { rail: 0, x: SPAN / 2.0, axis: Axis::Vertical } }],
+        gauges: vec![Gauge {
+            structure: 0,
+            probe: Probe {
+                rail: 0,
+                x: SPAN / 2.0,
+                axis: Axis::Vertical,
+            },
+        }],
         actuators: sim::Actuators::default(),
         analysis: Analysis::Dynamic,
         end: SPAN / speed,

@@ -16,7 +16,9 @@ pub fn basis() -> Matrix4x2<f64> {
 /// Euler-Bernoulli beam of length `l`: v and slope at both ends.
 pub fn beam(l: f64) -> Matrix4<f64> {
     let (a, b, c) = (6.0 * l, 4.0 * l * l, 2.0 * l * l);
-    Matrix4::new(12.0, a, -12.0, a, a, b, -a, c, -12.0, -a, 12.0, -a, a, c, -a, b) * (EI / l.powi(3))
+    Matrix4::new(
+        12.0, a, -12.0, a, a, b, -a, c, -12.0, -a, 12.0, -a, a, c, -a, b,
+    ) * (EI / l.powi(3))
 }
 
 /// Stiffness of the parts' rotations: the beam of 45 ft between the centres.
@@ -66,7 +68,10 @@ pub fn massive(factor: f64) -> Foundation {
     }
     let chain = chain(Some(60.0));
     Foundation {
-        rails: vec![Extent { range: Some(chain.range()), breaks: chain.breaks() }],
+        rails: vec![Extent {
+            range: Some(chain.range()),
+            breaks: chain.breaks(),
+        }],
         structure: Some(Structure {
             dynamics: Dynamics::Matrices {
                 mass: DMatrix::identity(2, 2) * inertia(factor),

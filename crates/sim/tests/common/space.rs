@@ -22,12 +22,28 @@ pub fn body(mass: f64, free: [bool; 3], start: [f64; 3], speed: [f64; 3]) -> Bod
 pub fn rope(stiffness: f64, length: f64, ends: [Option<usize>; 2]) -> Rope {
     let [from, to] = ends.map(|body| RopeEnd { body, at: [0.0; 3] });
     let still = Schedule::new(&[[0.0, 0.0]]).expect("one row");
-    Rope { from, to, stiffness, damping: 0.0, length, speed: still }
+    Rope {
+        from,
+        to,
+        stiffness,
+        damping: 0.0,
+        length,
+        speed: still,
+    }
 }
 
 /// A floor below body 0 at the height `place`.
 pub fn floor(place: f64, stiffness: f64) -> Stop {
-    Stop { body: 0, against: None, at: [0.0; 3], axis: 1, place, side: -1.0, stiffness, damping: 0.0 }
+    Stop {
+        body: 0,
+        against: None,
+        at: [0.0; 3],
+        axis: 1,
+        place,
+        side: -1.0,
+        stiffness,
+        damping: 0.0,
+    }
 }
 
 /// Bodies without wheels.

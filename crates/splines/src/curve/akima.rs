@@ -46,7 +46,11 @@ pub fn akima(x: &[f64], y: &[f64]) -> Result<PiecewiseCubic, Error> {
     let slope = |i: usize| {
         let (before, after) = ((m[i + 1] - m[i]).abs(), (m[i + 3] - m[i + 2]).abs());
         let sum = before + after;
-        if sum == 0.0 { 0.5 * (m[i + 1] + m[i + 2]) } else { (after * m[i + 1] + before * m[i + 2]) / sum }
+        if sum == 0.0 {
+            0.5 * (m[i + 1] + m[i + 2])
+        } else {
+            (after * m[i + 1] + before * m[i + 2]) / sum
+        }
     };
     Ok(PiecewiseCubic::new(x, y, (0..n).map(slope).collect()))
 }

@@ -40,7 +40,11 @@ pub struct PiecewiseCubic {
 
 impl PiecewiseCubic {
     pub(crate) fn new(x: &[f64], y: &[f64], t: Vec<f64>) -> PiecewiseCubic {
-        PiecewiseCubic { x: x.to_vec(), y: y.to_vec(), t }
+        PiecewiseCubic {
+            x: x.to_vec(),
+            y: y.to_vec(),
+            t,
+        }
     }
 
     /// Value and derivatives at x, any finite number.
@@ -50,10 +54,20 @@ impl PiecewiseCubic {
         if x < self.x[0] || x > self.x[last] {
             let k = if x < self.x[0] { 0 } else { last };
             let value = self.y[k] + self.t[k] * (x - self.x[k]);
-            return CurveValue { value, slope: self.t[k], curvature: 0.0, outside: true };
+            return CurveValue {
+                value,
+                slope: self.t[k],
+                curvature: 0.0,
+                outside: true,
+            };
         }
         let (value, slope, curvature) = self.inside(&Interval::find(&self.x, x));
-        CurveValue { value, slope, curvature, outside: false }
+        CurveValue {
+            value,
+            slope,
+            curvature,
+            outside: false,
+        }
     }
 
     /// Slopes at the points.
@@ -100,7 +114,11 @@ impl Interval {
         let inner = &points[1..points.len() - 1];
         let k = inner.partition_point(|&p| p <= x);
         let h = points[k + 1] - points[k];
-        Interval { k, s: (x - points[k]) / h, h }
+        Interval {
+            k,
+            s: (x - points[k]) / h,
+            h,
+        }
     }
 
     /// Weights of y0, t0, y1 and t1 in the value (the Hermite basis).
@@ -108,7 +126,12 @@ impl Interval {
     pub fn weights(&self) -> [f64; 4] {
         let Interval { s, h, .. } = *self;
         let r = 1.0 - s;
-        [(1.0 + 2.0 * s) * r * r, s * r * r * h, s * s * (1.0 + 2.0 * r), -s * s * r * h]
+        [
+            (1.0 + 2.0 * s) * r * r,
+            s * r * r * h,
+            s * s * (1.0 + 2.0 * r),
+            -s * s * r * h,
+        ]
     }
 
     /// Weights of y0, t0, y1 and t1 in the first derivative by x.
@@ -116,7 +139,12 @@ impl Interval {
     pub fn slope_weights(&self) -> [f64; 4] {
         let Interval { s, h, .. } = *self;
         let r = 1.0 - s;
-        [-6.0 * s * r / h, r * (r - 2.0 * s), 6.0 * s * r / h, s * (s - 2.0 * r)]
+        [
+            -6.0 * s * r / h,
+            r * (r - 2.0 * s),
+            6.0 * s * r / h,
+            s * (s - 2.0 * r),
+        ]
     }
 
     /// Weights of y0, t0, y1 and t1 in the second derivative by x.
@@ -124,23 +152,38 @@ impl Interval {
     pub fn curvature_weights(&self) -> [f64; 4] {
         let Interval { s, h, .. } = *self;
         let (first, last) = (12.0 * s - 6.0, 6.0 * s);
-        [first / (h * h), (last - 4.0) / h, -first / (h * h), (last - 2.0) / h]
+        [
+            first / (h * h),
+            (last - 4.0) / h,
+            -first / (h * h),
+            (last - 2.0) / h,
+        ]
     }
 
     /// The same place as the end of the interval to the left; `None` unless it is an inner point.
     pub fn before(&self, points: &[f64]) -> Option<Interval> {
         let k = self.k.checked_sub(1).filter(|_| self.s == 0.0)?;
-        Some(Interval { k, s: 1.0, h: points[self.k] - points[k] })
+        Some(Interval {
+            k,
+            s: 1.0,
+            h: points[self.k] - points[k],
+        })
     }
 }
 
 /// Checks that there are at least `least` points, as many y as x, all finite, with x increasing.
 pub(crate) fn check_points(x: &[f64], y: &[f64], least: usize) -> Result<(), Error> {
     if x.len() < least {
-        return Err(Error::TooFewPoints { found: x.len(), least });
+        return Err(Error::TooFewPoints {
+            found: x.len(),
+            least,
+        });
     }
     if x.len() != y.len() {
-        return Err(Error::PointCount { x: x.len(), y: y.len() });
+        return Err(Error::PointCount {
+            x: x.len(),
+            y: y.len(),
+        });
     }
     check_increasing(x)?;
     match y.iter().position(|y| !y.is_finite()) {

@@ -55,7 +55,11 @@ fn slopes(x: &[f64], y: &[f64], clamped: [bool; 2]) -> Vec<f64> {
         if i + 1 < n {
             load += 3.0 * m(i) * above;
         }
-        let (factor, previous) = if i > 0 { (upper[i - 1], right[i - 1]) } else { (0.0, 0.0) };
+        let (factor, previous) = if i > 0 {
+            (upper[i - 1], right[i - 1])
+        } else {
+            (0.0, 0.0)
+        };
         let pivot = 2.0 * (below + above) - below * factor;
         upper[i] = above / pivot;
         right[i] = (load - below * previous) / pivot;

@@ -50,7 +50,11 @@ impl<'a> CouplingBlock<'a> {
     /// The block of deflections and loads along the same direction.
     #[must_use]
     pub fn direct(compliance: &'a dyn Compliance, way: RailDirection) -> CouplingBlock<'a> {
-        CouplingBlock { compliance, deflection: way, load: way }
+        CouplingBlock {
+            compliance,
+            deflection: way,
+            load: way,
+        }
     }
 
     /// Whether deflections and loads have the same direction.
@@ -65,9 +69,14 @@ impl<'a> CouplingBlock<'a> {
     /// Those of the compliance; a coefficient that is not finite.
     pub fn at(&self, x: f64, z: f64) -> Result<f64, Error> {
         let mut out = Influence::zeros(2);
-        self.compliance.fill(&[probe(self.deflection, z), probe(self.load, x)], &mut out)?;
+        self.compliance
+            .fill(&[probe(self.deflection, z), probe(self.load, x)], &mut out)?;
         let value = out.value[(0, 1)];
-        if value.is_finite() { Ok(value) } else { Err(Error::Coefficient { x, z }) }
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(Error::Coefficient { x, z })
+        }
     }
 
     /// Matrix z.len() x x.len() of the deflections at `z` per unit load at `x`, length/force.
@@ -85,14 +94,23 @@ impl<'a> CouplingBlock<'a> {
         let at: Vec<Probe> = rows.chain(x.iter().map(|&x| probe(self.load, x))).collect();
         let mut out = Influence::zeros(at.len());
         self.compliance.fill(&at, &mut out)?;
-        finite(out.value.view((0, z.len()), (z.len(), x.len())).into_owned(), z, x)
+        finite(
+            out.value
+                .view((0, z.len()), (z.len(), x.len()))
+                .into_owned(),
+            z,
+            x,
+        )
     }
 
     /// First and last coordinate of loads, then of deflections; `None` where a rail does not exist or has no
     /// end.
     #[must_use]
     pub fn range(&self) -> Option<[[f64; 2]; 2]> {
-        Some([self.compliance.range(self.load.0)?, self.compliance.range(self.deflection.0)?])
+        Some([
+            self.compliance.range(self.load.0)?,
+            self.compliance.range(self.deflection.0)?,
+        ])
     }
 }
 
@@ -104,7 +122,10 @@ fn probe((rail, axis): RailDirection, x: f64) -> Probe {
 fn finite(block: DMatrix<f64>, z: &[f64], x: &[f64]) -> Result<DMatrix<f64>, Error> {
     let wrong = block.iter().position(|value| !value.is_finite());
     match wrong.filter(|_| !block.is_empty()) {
-        Some(k) => Err(Error::Coefficient { x: x[k / z.len()], z: z[k % z.len()] }),
+        Some(k) => Err(Error::Coefficient {
+            x: x[k / z.len()],
+            z: z[k % z.len()],
+        }),
         None => Ok(block),
     }
 }

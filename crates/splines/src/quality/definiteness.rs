@@ -36,7 +36,10 @@ impl Spectrum {
             return Spectrum::default();
         }
         let values = (0.5 * (matrix + matrix.transpose())).symmetric_eigenvalues();
-        Spectrum { smallest: values.min(), largest: values.max() }
+        Spectrum {
+            smallest: values.min(),
+            largest: values.max(),
+        }
     }
 }
 
@@ -87,18 +90,28 @@ pub fn weakest_layouts(
     places: &[f64],
 ) -> Result<Vec<WheelLayout>, Error> {
     let mut out: Vec<WheelLayout> = Vec::with_capacity(wheels.len());
-    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(out) };
+    let (Some(&first), Some(&last)) = (places.first(), places.last()) else {
+        return Ok(out);
+    };
     let g = block.matrix(places, places)?;
     let negative = |at: &[f64]| Ok(-Spectrum::of(&block.matrix(at, at)?).smallest);
     let step = (last - first) / places.len() as f64;
     for &wheels in wheels {
-        let mut starts = vec![best_exchange(&g, wheels).iter().map(|&k| places[k]).collect()];
+        let mut starts = vec![
+            best_exchange(&g, wheels)
+                .iter()
+                .map(|&k| places[k])
+                .collect(),
+        ];
         starts.extend(worst_random(negative, wheels, [first, last])?);
         if let Some(fewer) = out.last() {
             // By Cauchy's interlacing theorem the smallest eigenvalue does not rise, wherever wheels are
             // added.
             let mut at = fewer.places.clone();
-            at.extend((at.len()..wheels).map(|k| first + (last - first) * (k as f64 + 0.5) / wheels as f64));
+            at.extend(
+                (at.len()..wheels)
+                    .map(|k| first + (last - first) * (k as f64 + 0.5) / wheels as f64),
+            );
             at.truncate(wheels);
             starts.push(at);
         }
@@ -112,7 +125,11 @@ pub fn weakest_layouts(
         let (smallest, mut at) = (-best.0, best.1);
         at.sort_by(f64::total_cmp);
         let stiffness = (smallest < -ROUNDING * g.amax()).then(|| -1.0 / smallest);
-        out.push(WheelLayout { places: at, smallest, stiffness });
+        out.push(WheelLayout {
+            places: at,
+            smallest,
+            stiffness,
+        });
     }
     Ok(out)
 }
@@ -175,7 +192,12 @@ fn worst_pair(g: &DMatrix<f64>) -> Vec<usize> {
 }
 
 /// Moves wheel k to the place that makes the smallest eigenvalue smallest, and returns whether it moved.
-fn exchange(chosen: &mut [usize], k: usize, places: usize, smallest: impl Fn(&[usize]) -> f64) -> bool {
+fn exchange(
+    chosen: &mut [usize],
+    k: usize,
+    places: usize,
+    smallest: impl Fn(&[usize]) -> f64,
+) -> bool {
     let (mut best, mut found) = (smallest(chosen), chosen[k]);
     let before = found;
     for place in 0..places {
@@ -207,7 +229,11 @@ pub fn indefinite_fraction(
         let g = block.matrix(&at, &at)?;
         indefinite += usize::from(Spectrum::of(&g).smallest < -ROUNDING * g.amax());
     }
-    Ok(if count == 0 { 0.0 } else { indefinite as f64 / count as f64 })
+    Ok(if count == 0 {
+        0.0
+    } else {
+        indefinite as f64 / count as f64
+    })
 }
 
 /// A sequence of pseudo-random layouts, always the same, by the generator xorshift64*.
@@ -219,7 +245,9 @@ impl Random {
     }
 
     fn layout(&mut self, wheels: usize, [first, last]: [f64; 2]) -> Vec<f64> {
-        (0..wheels).map(|_| first + (last - first) * self.unit()).collect()
+        (0..wheels)
+            .map(|_| first + (last - first) * self.unit())
+            .collect()
     }
 
     fn unit(&mut self) -> f64 {

@@ -24,7 +24,11 @@ impl ReadingError {
     /// The largest error relative to the largest exact coefficient, without sign; 0 where that is 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
-        if self.scale > 0.0 { self.largest.value.abs() / self.scale } else { 0.0 }
+        if self.scale > 0.0 {
+            self.largest.value.abs() / self.scale
+        } else {
+            0.0
+        }
     }
 }
 
@@ -42,7 +46,9 @@ pub fn reading_error(
     x: &[f64],
     z: &[f64],
 ) -> Result<ReadingError, Error> {
-    let (&[first_x, .., last_x], &[first_z, .., last_z]) = (x, z) else { return Ok(ReadingError::default()) };
+    let (&[first_x, .., last_x], &[first_z, .., last_z]) = (x, z) else {
+        return Ok(ReadingError::default());
+    };
     let truth = exact.matrix(z, x)?;
     let error = reading.matrix(z, x)? - &truth;
     let bounds = [first_x.max(first_z), last_x.min(last_z)];
@@ -50,7 +56,11 @@ pub fn reading_error(
     let step = (last_x - first_x) / x.len() as f64;
     let mut largest = BlockExtreme::default();
     for (i, j) in peaks(&error) {
-        let found = BlockExtreme { value: error[(i, j)], x: x[j], z: z[i] };
+        let found = BlockExtreme {
+            value: error[(i, j)],
+            x: x[j],
+            z: z[i],
+        };
         if found.value.abs() > largest.value.abs() || largest == BlockExtreme::default() {
             largest = found;
         }
@@ -61,21 +71,34 @@ pub fn reading_error(
         refine_maximum(|p| Ok(signed(p[0], p[1])?.abs()), &mut at, step, bounds)?;
         let value = signed(at[0], at[1])?;
         if value.abs() > largest.value.abs() {
-            largest = BlockExtreme { value, x: at[0], z: at[1] };
+            largest = BlockExtreme {
+                value,
+                x: at[0],
+                z: at[1],
+            };
         }
     }
     let mut diagonal = None;
     if reading.is_direct() && x == z {
-        let worst = (0..x.len()).max_by(|&i, &j| error[(i, i)].abs().total_cmp(&error[(j, j)].abs()));
+        let worst =
+            (0..x.len()).max_by(|&i, &j| error[(i, i)].abs().total_cmp(&error[(j, j)].abs()));
         let mut at = [x[worst.unwrap_or(0)]];
         refine_maximum(|p| Ok(signed(p[0], p[0])?.abs()), &mut at, step, bounds)?;
-        let found = BlockExtreme { value: signed(at[0], at[0])?, x: at[0], z: at[0] };
+        let found = BlockExtreme {
+            value: signed(at[0], at[0])?,
+            x: at[0],
+            z: at[0],
+        };
         if found.value.abs() > largest.value.abs() {
             largest = found;
         }
         diagonal = Some(found);
     }
-    Ok(ReadingError { scale: truth.amax(), largest, diagonal })
+    Ok(ReadingError {
+        scale: truth.amax(),
+        largest,
+        diagonal,
+    })
 }
 
 /// The largest entries by absolute value that no neighbour exceeds, no two next to each other, at most four.
@@ -88,9 +111,9 @@ fn peaks(error: &DMatrix<f64>) -> Vec<(usize, usize)> {
         for i in 0..rows {
             let near = i.saturating_sub(1)..=(i + 1).min(rows - 1);
             let value = size(i, j);
-            let top = near
-                .clone()
-                .all(|a| (j.saturating_sub(1)..=(j + 1).min(columns - 1)).all(|b| size(a, b) <= value));
+            let top = near.clone().all(|a| {
+                (j.saturating_sub(1)..=(j + 1).min(columns - 1)).all(|b| size(a, b) <= value)
+            });
             if top && value > 0.0 {
                 best.push((value, i, j));
             }
@@ -101,7 +124,10 @@ fn peaks(error: &DMatrix<f64>) -> Vec<(usize, usize)> {
         if out.len() == STARTS {
             break;
         }
-        if out.iter().all(|&(a, b)| a.abs_diff(i) > 1 || b.abs_diff(j) > 1) {
+        if out
+            .iter()
+            .all(|&(a, b)| a.abs_diff(i) > 1 || b.abs_diff(j) > 1)
+        {
             out.push((i, j));
         }
     }

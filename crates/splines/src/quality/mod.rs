@@ -27,4 +27,6 @@ pub use reciprocity::{LoopWork, asymmetry, loop_work, station_asymmetry};
 pub use search::sample_places;
 pub use slopes::{SlopeJump, diagonal_slope_jumps, pair_slope_jumps, slope_jumps};
 pub use stations::{MakeReading, StationSearch, StationSet, fewest_stations, station_error};
-pub use table::{ExtrapolatedRow, TablePrecision, extrapolated_rows, support_stations, table_precision};
+pub use table::{
+    ExtrapolatedRow, TablePrecision, extrapolated_rows, support_stations, table_precision,
+};

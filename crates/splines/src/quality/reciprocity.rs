@@ -13,12 +13,20 @@ pub fn station_asymmetry(table: &SplineTable) -> Option<BlockExtreme> {
     if table.z() != x {
         return None;
     }
-    let mut worst = BlockExtreme { value: 0.0, x: x[0], z: x[0] };
+    let mut worst = BlockExtreme {
+        value: 0.0,
+        x: x[0],
+        z: x[0],
+    };
     for i in 0..x.len() {
         for j in 0..i {
             let value = (table.values()[(i, j)] - table.values()[(j, i)]).abs();
             if value > worst.value {
-                worst = BlockExtreme { value, x: x[j], z: x[i] };
+                worst = BlockExtreme {
+                    value,
+                    x: x[j],
+                    z: x[i],
+                };
             }
         }
     }
@@ -34,12 +42,20 @@ pub fn asymmetry(block: &CouplingBlock<'_>, places: &[f64]) -> Result<BlockExtre
         return Ok(BlockExtreme::default());
     };
     let g = block.matrix(places, places)?;
-    let mut worst = BlockExtreme { value: 0.0, x: first, z: first };
+    let mut worst = BlockExtreme {
+        value: 0.0,
+        x: first,
+        z: first,
+    };
     for i in 0..places.len() {
         for j in 0..i {
             let value = (g[(i, j)] - g[(j, i)]).abs();
             if value > worst.value {
-                worst = BlockExtreme { value, x: places[j], z: places[i] };
+                worst = BlockExtreme {
+                    value,
+                    x: places[j],
+                    z: places[i],
+                };
             }
         }
     }
@@ -50,7 +66,11 @@ pub fn asymmetry(block: &CouplingBlock<'_>, places: &[f64]) -> Result<BlockExtre
     let skew = |p: &[f64]| Ok((block.at(p[0], p[1])? - block.at(p[1], p[0])?).abs());
     let step = (last - first) / places.len() as f64;
     let value = refine_maximum(skew, &mut at, step, [first, last])?;
-    Ok(BlockExtreme { value, x: at[0], z: at[1] })
+    Ok(BlockExtreme {
+        value,
+        x: at[0],
+        z: at[1],
+    })
 }
 
 /// Work of two wheels whose forces go round the closed loop (0, 0), (P, 0), (P, P), (0, P) and back.
@@ -71,8 +91,14 @@ pub struct LoopWork {
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn loop_work(block: &CouplingBlock<'_>, spacing: f64, places: &[f64]) -> Result<LoopWork, Error> {
-    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(LoopWork::default()) };
+pub fn loop_work(
+    block: &CouplingBlock<'_>,
+    spacing: f64,
+    places: &[f64],
+) -> Result<LoopWork, Error> {
+    let (Some(&first), Some(&last)) = (places.first(), places.last()) else {
+        return Ok(LoopWork::default());
+    };
     let top = last - spacing;
     if spacing <= 0.0 || top < first {
         return Ok(LoopWork::default());
@@ -95,5 +121,9 @@ pub fn loop_work(block: &CouplingBlock<'_>, spacing: f64, places: &[f64]) -> Res
     let step = (last - first) / places.len() as f64;
     let work = refine_maximum(|p| skew(p[0]), &mut at, step, [first, top])?;
     let stored = 0.5 * pair(at[0])?.sum();
-    Ok(LoopWork { at: [at[0], at[0] + spacing], work, stored })
+    Ok(LoopWork {
+        at: [at[0], at[0] + spacing],
+        work,
+        stored,
+    })
 }

@@ -83,7 +83,11 @@ pub(super) fn refine_maximum(
                 let axis = direction / 2;
                 for (k, (t, a)) in trial.iter_mut().zip(at.iter()).enumerate() {
                     let moves = axis == n || axis == k;
-                    *t = if moves { (a + signed).clamp(bounds[0], bounds[1]) } else { *a };
+                    *t = if moves {
+                        (a + signed).clamp(bounds[0], bounds[1])
+                    } else {
+                        *a
+                    };
                 }
                 let value = f(&trial)?;
                 if value > best {

@@ -48,7 +48,11 @@ pub fn slope_jumps(
     for three in ends.windows(3) {
         let before = end_slope(&f, three[1], three[0])?;
         let beyond = end_slope(&f, three[1], three[2])?;
-        out.push(SlopeJump { x: three[1], before, beyond });
+        out.push(SlopeJump {
+            x: three[1],
+            before,
+            beyond,
+        });
     }
     Ok(out)
 }
@@ -60,7 +64,11 @@ fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Res
     let place = |k: usize| 0.5 - 0.5 * (std::f64::consts::PI * k as f64 / last).cos();
     let weight = |k: usize| {
         let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        if k == 0 || k == NODES - 1 { 0.5 * sign } else { sign }
+        if k == 0 || k == NODES - 1 {
+            0.5 * sign
+        } else {
+            sign
+        }
     };
     let start = f(end)?;
     let mut slope = 0.0;
@@ -75,8 +83,15 @@ fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Res
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn diagonal_slope_jumps(block: &CouplingBlock<'_>, range: [f64; 2]) -> Result<Vec<SlopeJump>, Error> {
-    slope_jumps(|x| block.at(x, x), &block.compliance.breaks(block.load.0), range)
+pub fn diagonal_slope_jumps(
+    block: &CouplingBlock<'_>,
+    range: [f64; 2],
+) -> Result<Vec<SlopeJump>, Error> {
+    slope_jumps(
+        |x| block.at(x, x),
+        &block.compliance.breaks(block.load.0),
+        range,
+    )
 }
 
 /// The same for the mean deflection under two wheels at the distance `spacing` with half the unit load each:

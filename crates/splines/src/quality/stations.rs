@@ -98,7 +98,10 @@ pub fn fewest_stations(search: &StationSearch<'_>) -> Result<StationSet, Error> 
     let fixed = breaks_within(search.fixed, search.range);
     let least = fixed.len().max(SplineTable::FEWEST_X);
     let most = search.max_stations.max(least);
-    let mut density = Density { ends: fixed.clone(), value: vec![1.0; fixed.len() - 1] };
+    let mut density = Density {
+        ends: fixed.clone(),
+        value: vec![1.0; fixed.len() - 1],
+    };
     let (mut count, mut failures) = (least, Vec::<(usize, f64)>::new());
     // Raise the number by prediction until the tolerance holds.
     let mut best = loop {
@@ -107,19 +110,27 @@ pub fn fewest_stations(search: &StationSearch<'_>) -> Result<StationSet, Error> 
             break found;
         }
         if count == most {
-            return Err(Error::TooFewStations { most, error: found.error });
+            return Err(Error::TooFewStations {
+                most,
+                error: found.error,
+            });
         }
         let observed = failures.last().map(|&(fewer, error): &(usize, f64)| {
             (error / found.error).ln() / (count as f64 / fewer as f64).ln()
         });
-        let order = observed.map_or(search.order, |observed| observed.clamp(SMALLEST_ORDER, search.order));
+        let order = observed.map_or(search.order, |observed| {
+            observed.clamp(SMALLEST_ORDER, search.order)
+        });
         failures.push((count, found.error));
         let wanted = count as f64 * (found.error / search.tolerance).powf(1.0 / order);
         if wanted > HOPELESS * most as f64 && failures.len() > 1 {
             // Evaluated once at the largest number, without iteration: give up if it is far from enough.
             let found = station_error(search, &density.stations(&fixed, most))?;
             if found.error > HOPELESS * search.tolerance {
-                return Err(Error::TooFewStations { most, error: found.error });
+                return Err(Error::TooFewStations {
+                    most,
+                    error: found.error,
+                });
             }
         }
         count = (wanted.min(4.0 * count as f64).ceil() as usize).clamp(count + 1, most);
@@ -175,9 +186,18 @@ pub fn station_error(search: &StationSearch<'_>, at: &[f64]) -> Result<StationSe
             });
             let scale = (scales[a] * scales[b]).sqrt();
             let worst = reading_error(&both[0], &both[1], &x, &x)?;
-            let error = if scale > 0.0 { worst.largest.value.abs() / scale } else { 0.0 };
+            let error = if scale > 0.0 {
+                worst.largest.value.abs() / scale
+            } else {
+                0.0
+            };
             if error > found.error {
-                found = StationSet { error, directions: [deflection, load], worst: worst.largest, ..found };
+                found = StationSet {
+                    error,
+                    directions: [deflection, load],
+                    worst: worst.largest,
+                    ..found
+                };
             }
         }
     }
@@ -190,20 +210,36 @@ fn directions<'a>(search: &'a StationSearch<'_>) -> impl Iterator<Item = RailDir
 }
 
 /// Tables of the exact compliance at the stations `at`, and the largest coefficient of each direction.
-fn tabulate(search: &StationSearch<'_>, at: &[f64]) -> Result<(Vec<InfluenceBlock>, Vec<f64>), Error> {
+fn tabulate(
+    search: &StationSearch<'_>,
+    at: &[f64],
+) -> Result<(Vec<InfluenceBlock>, Vec<f64>), Error> {
     let mut blocks = Vec::new();
     let mut scales = Vec::new();
-    let dense = sample_places(&[at, search.fixed].concat(), search.range, 4 * at.len().max(16));
+    let dense = sample_places(
+        &[at, search.fixed].concat(),
+        search.range,
+        4 * at.len().max(16),
+    );
     for direction in directions(search) {
         let block = CouplingBlock::direct(search.exact, direction);
         scales.push(block.matrix(&dense, &dense)?.amax());
     }
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate().skip(a) {
-            let values = CouplingBlock { compliance: search.exact, deflection, load }.matrix(at, at)?;
+            let values = CouplingBlock {
+                compliance: search.exact,
+                deflection,
+                load,
+            }
+            .matrix(at, at)?;
             if a == b || values.amax() > UNCOUPLED * (scales[a] * scales[b]).sqrt() {
                 let table = SplineTable::new(at.to_vec(), at.to_vec(), values)?;
-                blocks.push(InfluenceBlock { deflection, load, table });
+                blocks.push(InfluenceBlock {
+                    deflection,
+                    load,
+                    table,
+                });
             }
         }
     }
@@ -221,7 +257,9 @@ impl Density {
     /// Integral from the first end to x.
     fn total(&self, x: f64) -> f64 {
         let parts = self.ends.windows(2).zip(&self.value);
-        parts.map(|(pair, value)| value * (x.min(pair[1]) - pair[0]).max(0.0)).sum()
+        parts
+            .map(|(pair, value)| value * (x.min(pair[1]) - pair[0]).max(0.0))
+            .sum()
     }
 
     /// The coordinate at which the integral reaches `total`.
@@ -241,8 +279,10 @@ impl Density {
     /// over an interval is as small as possible; within each stretch between fixed stations the integrals are
     /// equal.
     fn stations(&self, fixed: &[f64], count: usize) -> Vec<f64> {
-        let integrals: Vec<f64> =
-            fixed.windows(2).map(|pair| self.total(pair[1]) - self.total(pair[0])).collect();
+        let integrals: Vec<f64> = fixed
+            .windows(2)
+            .map(|pair| self.total(pair[1]) - self.total(pair[0]))
+            .collect();
         let mut parts = vec![1_usize; integrals.len()];
         for _ in fixed.len()..count {
             let own = |k: &usize| integrals[*k] / parts[*k] as f64;
@@ -289,14 +329,26 @@ fn equidistribute(
             .zip(at.windows(2))
             .map(|(e, pair)| e.powf(1.0 / search.order) / (pair[1] - pair[0]))
             .collect();
-        let mean = value.iter().zip(at.windows(2)).map(|(v, pair)| v * (pair[1] - pair[0])).sum::<f64>()
+        let mean = value
+            .iter()
+            .zip(at.windows(2))
+            .map(|(v, pair)| v * (pair[1] - pair[0]))
+            .sum::<f64>()
             / (at[at.len() - 1] - at[0]);
         if mean <= 0.0 {
             break;
         }
-        now = Density { ends: at, value: value.iter().map(|v| v.max(SMALLEST_DENSITY * mean)).collect() };
+        now = Density {
+            ends: at,
+            value: value
+                .iter()
+                .map(|v| v.max(SMALLEST_DENSITY * mean))
+                .collect(),
+        };
     }
-    let Some((_, at, left)) = best else { return station_error(search, fixed) };
+    let Some((_, at, left)) = best else {
+        return station_error(search, fixed);
+    };
     *density = left;
     station_error(search, &at)
 }
@@ -328,7 +380,9 @@ fn interval_errors(search: &StationSearch<'_>, at: &[f64]) -> Result<(f64, Vec<f
                 let inside = parts * k..=parts * (k + 1);
                 for i in inside.clone() {
                     for j in (0..x.len()).step_by(parts).chain(inside.clone()) {
-                        *own = own.max(error[(i, j)].abs() / scale).max(error[(j, i)].abs() / scale);
+                        *own = own
+                            .max(error[(i, j)].abs() / scale)
+                            .max(error[(j, i)].abs() / scale);
                     }
                 }
             }

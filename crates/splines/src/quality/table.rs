@@ -48,7 +48,11 @@ pub fn extrapolated_rows(table: &SplineTable, x: f64) -> Result<Vec<Extrapolated
         return Ok(Vec::new());
     }
     // The last point, its neighbour and the next.
-    let k = if x > points[n - 1] { [n - 1, n - 2, n - 3] } else { [0, 1, 2] };
+    let k = if x > points[n - 1] {
+        [n - 1, n - 2, n - 3]
+    } else {
+        [0, 1, 2]
+    };
     let [a, b, c] = k.map(|k| points[k]);
     let mut out = Vec::new();
     for row in 0..table.values().nrows() {
@@ -91,14 +95,23 @@ pub struct TablePrecision {
 #[must_use]
 pub fn table_precision(table: &SplineTable) -> TablePrecision {
     let all = table.values();
-    let reproduced =
-        |count: usize| all.iter().all(|value| format!("{:.*e}", count - 1, value).parse() == Ok(*value));
+    let reproduced = |count: usize| {
+        all.iter()
+            .all(|value| format!("{:.*e}", count - 1, value).parse() == Ok(*value))
+    };
     let count = (1..17).find(|&count| reproduced(count)).unwrap_or(17);
     let unit = |value: f64| {
         let power = || value.abs().log10().floor() as i32 + 1 - count as i32;
-        if value == 0.0 { 0.0 } else { 10_f64.powi(power()) }
+        if value == 0.0 {
+            0.0
+        } else {
+            10_f64.powi(power())
+        }
     };
-    TablePrecision { digits: count, slack: all.iter().map(|v| unit(*v).powi(2)).sum::<f64>().sqrt() }
+    TablePrecision {
+        digits: count,
+        slack: all.iter().map(|v| unit(*v).powi(2)).sum::<f64>().sqrt(),
+    }
 }
 
 /// Stations along z whose rows are zero (below 1e-12 of the table's largest entry), which are rigid supports.
@@ -106,5 +119,8 @@ pub fn table_precision(table: &SplineTable) -> TablePrecision {
 pub fn support_stations(table: &SplineTable) -> Vec<f64> {
     let zero = ZERO * table.values().amax();
     let is_zero = |i: &usize| table.values().row(*i).amax() <= zero;
-    (0..table.z().len()).filter(is_zero).map(|i| table.z()[i]).collect()
+    (0..table.z().len())
+        .filter(is_zero)
+        .map(|i| table.z()[i])
+        .collect()
 }

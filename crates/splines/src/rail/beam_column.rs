@@ -152,14 +152,24 @@ impl<T: RealNumber> BeamColumn<T> {
     pub(crate) fn shape_sizes(&self, load: [T; 2]) -> [[T; 4]; 4] {
         let [growth, one] = [bent_powers(self.z)[0], T::from(1.0)];
         let growth = if growth > one { growth } else { one };
-        self.absolute().combinations(load, one).map(|[a, b, c, d]| [a, b, growth * c, growth * d])
+        self.absolute()
+            .combinations(load, one)
+            .map(|[a, b, c, d]| [a, b, growth * c, growth * d])
     }
 
     /// `minus` is -1, or 1 for the sum of the sizes of all terms.
     fn combinations(&self, [force, moment]: [T; 2], minus: T) -> [[T; 4]; 4] {
         let [zero, half, one, two, third] = [0.0, 0.5, 1.0, 2.0, 1.0].map(T::from);
         let third = third / T::from(3.0);
-        let BeamColumn { length: l, mu, z, symmetric, shares: [bent, sheared], kappa, .. } = *self;
+        let BeamColumn {
+            length: l,
+            mu,
+            z,
+            symmetric,
+            shares: [bent, sheared],
+            kappa,
+            ..
+        } = *self;
         let [_, g] = self.flexibility;
         let (over, curved) = (one / mu, kappa / mu);
         let chord = (sheared + g * self.tension) * over;
@@ -175,12 +185,26 @@ impl<T: RealNumber> BeamColumn<T> {
                 l * third * over * (two * z + curved),
             ],
             [zero, chord, curved, minus * cubic],
-            [zero, minus * half * l * over * sheared, half * l * over * kept, l * third * over * curved],
+            [
+                zero,
+                minus * half * l * over * sheared,
+                half * l * over * kept,
+                l * third * over * curved,
+            ],
         ];
-        let [rise, bow, twist] = [two * kappa / l, two * (z + curved) / l, two * two * third * z * kappa / l];
+        let [rise, bow, twist] = [
+            two * kappa / l,
+            two * (z + curved) / l,
+            two * two * third * z * kappa / l,
+        ];
         let theta = [
             [zero, minus * rise, bow, minus * twist],
-            [one, minus * turned, two * z + curved, minus * two * third * z * turned],
+            [
+                one,
+                minus * turned,
+                two * z + curved,
+                minus * two * third * z * turned,
+            ],
             [zero, rise, minus * bow, twist],
             [zero, kept, curved, two * third * z * kept],
         ];
@@ -204,7 +228,12 @@ impl<T: RealNumber> BeamColumn<T> {
         let [c, g] = self.flexibility;
         let (l, over) = (self.length, one / self.mu);
         let [v0, t0, v1, t1] = self.shapes([one, zero]);
-        let by_force = [zero, g * l * over, zero, zero - c * l * l * l * over * over / (two * three)];
+        let by_force = [
+            zero,
+            g * l * over,
+            zero,
+            zero - c * l * l * l * over * over / (two * three),
+        ];
         let by_moment = [zero, zero, half * c * l * l * over, zero];
         // A combination of the four functions, seen from the other end by its value and derivatives there.
         let seen = |of: [T; 4]| {
@@ -219,7 +248,10 @@ impl<T: RealNumber> BeamColumn<T> {
                 zero - third / (two * three),
             ]
         };
-        [[v0, t0, by_force, by_moment], [v1, t1.map(|x| zero - x), seen(by_force), seen(by_moment)]]
+        [
+            [v0, t0, by_force, by_moment],
+            [v1, t1.map(|x| zero - x), seen(by_force), seen(by_moment)],
+        ]
     }
 
     /// Moment at the clamped ends under a uniform load, by that without axial force, q l^2/12: 3 F/mu.
@@ -241,7 +273,10 @@ impl<T: RealNumber> BeamColumn<T> {
         let [_, all, _, c3] = bent_powers(self.z);
         let l = self.length;
         let moment = ((s * s * c2 - c3) / all - self.ratio) / self.mu;
-        [quarter * l * l * (moment - half * (s * s - one)), half * l * s * (c1 / (self.mu * all) - one)]
+        [
+            quarter * l * l * (moment - half * (s * s - one)),
+            half * l * s * (c1 / (self.mu * all) - one),
+        ]
     }
 
     /// Deflection, slope, rotation and its derivative at the distance `a` from the nearer end of the clamped member under a
@@ -280,9 +315,17 @@ impl<T: RealNumber> BeamColumn<T> {
             shapes = [v1, t1.map(|x| zero - x), v0, t0.map(|x| zero - x)];
         }
         let [of, by_r, _] = self.powers_with_derivatives(if is_near { at } else { far });
-        let rate = if is_near { one / self.length } else { zero - one / self.length };
-        let sum = |c: [T; 4], of: &[T; 4]| c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3];
-        [shapes.map(|c| sum(c, &of)), shapes.map(|c| rate * sum(c, &by_r))]
+        let rate = if is_near {
+            one / self.length
+        } else {
+            zero - one / self.length
+        };
+        let sum =
+            |c: [T; 4], of: &[T; 4]| c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3];
+        [
+            shapes.map(|c| sum(c, &of)),
+            shapes.map(|c| rate * sum(c, &by_r)),
+        ]
     }
 
     /// Deflection at the distance a from a clamp with the transverse force H and the moment m0:
@@ -362,7 +405,12 @@ impl BeamColumn<f64> {
         let theta = self.clamped_rotation(a, force, moment);
         let bend = c * (moment * c0 - force * a * c1 / self.mu);
         let lambda = self.square() / (self.length * self.length);
-        [bend, (theta + g * force) / self.mu, lambda * theta - c * force / self.mu, bend / self.mu]
+        [
+            bend,
+            (theta + g * force) / self.mu,
+            lambda * theta - c * force / self.mu,
+            bend / self.mu,
+        ]
     }
 }
 
@@ -370,7 +418,12 @@ impl BeamColumn<f64> {
 #[inline]
 pub(crate) fn powers<T: RealNumber>(square: T, r: T) -> [T; 4] {
     let [_, _, c2, c3] = bent_powers(square * r * r);
-    [T::from(1.0), r, T::from(2.0) * r * r * c2, T::from(6.0) * r * r * r * c3]
+    [
+        T::from(1.0),
+        r,
+        T::from(2.0) * r * r * c2,
+        T::from(6.0) * r * r * r * c3,
+    ]
 }
 
 /// First and second derivatives of [`powers`] by r.
@@ -378,7 +431,10 @@ pub(crate) fn powers<T: RealNumber>(square: T, r: T) -> [T; 4] {
 pub(crate) fn power_derivatives<T: RealNumber>(square: T, r: T) -> [[T; 4]; 2] {
     let [c0, c1, c2, _] = bent_powers(square * r * r);
     let [zero, one, two, six] = [0.0, 1.0, 2.0, 6.0].map(T::from);
-    [[zero, one, two * r * c1, six * r * r * c2], [zero, zero, two * c0, six * r * c1]]
+    [
+        [zero, one, two * r * c1, six * r * r * c2],
+        [zero, zero, two * c0, six * r * c1],
+    ]
 }
 
 /// C0 = cosh x, C1 = sinh x/x, C2 = (cosh x - 1)/x^2 and C3 = (sinh x - x)/x^3 for x^2 = z; the circular functions where
@@ -437,7 +493,9 @@ pub fn lowered(coefficients: &[f64]) -> [f64; 9] {
         for p in (0..9).rev() {
             power[p] = if p > 0 { power[p - 1] } else { 0.0 } - top * zero[p];
         }
-        out.iter_mut().zip(power).for_each(|(out, power)| *out += c * power);
+        out.iter_mut()
+            .zip(power)
+            .for_each(|(out, power)| *out += c * power);
     }
     out
 }
@@ -481,12 +539,25 @@ mod tests {
     fn bent_powers_are_the_closed_forms() {
         for x in [0.3_f64, 1.0, 2.5, 6.0, 11.0] {
             let [c0, c1, c2, c3] = bent_powers(x * x);
-            let known = [x.cosh(), x.sinh() / x, (x.cosh() - 1.0) / (x * x), (x.sinh() - x) / x.powi(3)];
+            let known = [
+                x.cosh(),
+                x.sinh() / x,
+                (x.cosh() - 1.0) / (x * x),
+                (x.sinh() - x) / x.powi(3),
+            ];
             for (found, known) in [c0, c1, c2, c3].into_iter().zip(known) {
-                assert!((found / known - 1.0).abs() < 1e-14 * (1.0 + 40.0 * f64::exp(-3.0 * x)), "{x}");
+                assert!(
+                    (found / known - 1.0).abs() < 1e-14 * (1.0 + 40.0 * f64::exp(-3.0 * x)),
+                    "{x}"
+                );
             }
             let [c0, c1, c2, c3] = bent_powers(-x * x);
-            let known = [x.cos(), x.sin() / x, (1.0 - x.cos()) / (x * x), (x - x.sin()) / x.powi(3)];
+            let known = [
+                x.cos(),
+                x.sin() / x,
+                (1.0 - x.cos()) / (x * x),
+                (x - x.sin()) / x.powi(3),
+            ];
             for (found, known) in [c0, c1, c2, c3].into_iter().zip(known) {
                 assert!((found - known).abs() < 4e-14, "{x}: {found}, not {known}");
             }
@@ -497,12 +568,17 @@ mod tests {
     /// Identity: values at the places stay, and a polynomial of degree eight is itself.
     #[test]
     fn lowered_polynomials_have_the_same_values() {
-        let own = [0.3, -1.0, 2.0, 0.7, -0.2, 1.1, 0.4, -2.0, 0.9, 1.3, -0.8, 0.25];
+        let own = [
+            0.3, -1.0, 2.0, 0.7, -0.2, 1.1, 0.4, -2.0, 0.9, 1.3, -0.8, 0.25,
+        ];
         let value = |c: &[f64], s: f64| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
         let found = lowered(&own);
         for k in 0..9 {
             let place = 0.5 * (1.0 - (std::f64::consts::PI * f64::from(k) / 8.0).cos());
-            assert!((value(&found, place) - value(&own, place)).abs() < 1e-13, "{place}");
+            assert!(
+                (value(&found, place) - value(&own, place)).abs() < 1e-13,
+                "{place}"
+            );
         }
         assert!((value(&found, 0.43) - value(&own, 0.43)).abs() < 1e-4);
         assert_eq!(lowered(&own[..9])[..], own[..9]);
@@ -513,7 +589,10 @@ mod tests {
     fn rotation_ratio_is_one_function_of_both_signs() {
         for h in [0.7_f64, 2.0, 9.0, 80.0, 3000.0] {
             let known = (h / h.tanh() - 1.0) / (h * h);
-            assert!((rotation_ratio(h * h) / known - 1.0).abs() < 2e-15 * (1.0 + 4.0 / (h * h)), "{h}");
+            assert!(
+                (rotation_ratio(h * h) / known - 1.0).abs() < 2e-15 * (1.0 + 4.0 / (h * h)),
+                "{h}"
+            );
         }
         for h in [0.7_f64, 2.0, 3.0, 4.0] {
             let known = (1.0 - h / h.tan()) / (h * h);

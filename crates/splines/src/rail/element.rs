@@ -113,7 +113,11 @@ impl<T: RealNumber> RailElement<T> {
     #[must_use]
     pub fn member_axes(&self) -> [[T; 3]; 3] {
         let [x, y, z] = self.frame;
-        if self.is_reversed() { [x.map(|a| -a), y, z.map(|a| -a)] } else { self.frame }
+        if self.is_reversed() {
+            [x.map(|a| -a), y, z.map(|a| -a)]
+        } else {
+            self.frame
+        }
     }
 
     /// Whether the element is a rigid arm of one node state.
@@ -141,36 +145,69 @@ impl RailElement {
     #[must_use]
     pub fn place_on_member(&self, x: f64) -> f64 {
         let [first, last] = self.x;
-        let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
-        if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
+        let r = if x >= last {
+            1.0
+        } else {
+            ((x - first) / (last - first)).clamp(0.0, 1.0)
+        };
+        if self.is_reversed() {
+            (1.0 - r) * self.length
+        } else {
+            r * self.length
+        }
     }
 
     /// Checks the numbers of element number `index`.
     pub(crate) fn check(&self, index: usize) -> Result<(), Error> {
         let numbers = self.x.iter().chain(&self.offset);
-        if numbers.copied().any(|x| !x.is_finite()) || self.ends.iter().any(|&end| end > u32::MAX as usize) {
+        if numbers.copied().any(|x| !x.is_finite())
+            || self.ends.iter().any(|&end| end > u32::MAX as usize)
+        {
             return Err(Error::ElementNumber { cell: index });
         }
         if self.x[0] >= self.x[1] {
-            return Err(Error::ElementExtent { cell: index, x: self.x });
+            return Err(Error::ElementExtent {
+                cell: index,
+                x: self.x,
+            });
         }
         if self.is_rigid_arm() {
             return Ok(());
         }
         if !(self.length > 0.0 && self.length.is_finite()) {
-            return Err(Error::ElementLength { cell: index, length: self.length });
+            return Err(Error::ElementLength {
+                cell: index,
+                length: self.length,
+            });
         }
         let [x, y, z] = self.frame;
         let third = cross(x, y);
         let third = [third[0] - z[0], third[1] - z[1], third[2] - z[2]];
-        let defects = [dot(&x, &x) - 1.0, dot(&y, &y) - 1.0, dot(&x, &y), dot(&third, &third).sqrt()];
-        if defects.iter().any(|d| d.abs() > ORTHOGONALITY || d.is_nan()) {
+        let defects = [
+            dot(&x, &x) - 1.0,
+            dot(&y, &y) - 1.0,
+            dot(&x, &y),
+            dot(&third, &third).sqrt(),
+        ];
+        if defects
+            .iter()
+            .any(|d| d.abs() > ORTHOGONALITY || d.is_nan())
+        {
             return Err(Error::ElementFrame { cell: index });
         }
         let f = &self.flexibility;
-        let all = [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z];
+        let all = [
+            f.axial,
+            f.torsion,
+            f.bending_y,
+            f.bending_z,
+            f.shear_y,
+            f.shear_z,
+        ];
         // Shear that is softer than the compression has no stable straight state.
-        let collapses = [f.shear_y, f.shear_z].iter().any(|shear| shear * f.tension <= -1.0);
+        let collapses = [f.shear_y, f.shear_z]
+            .iter()
+            .any(|shear| shear * f.tension <= -1.0);
         if all.iter().any(|x| *x < 0.0 || x.is_nan()) || !f.tension.is_finite() || collapses {
             return Err(Error::ElementFlexibility { cell: index });
         }
@@ -203,9 +240,15 @@ impl<T: RealNumber> LocalPlace<T> {
         let [first, last] = distances.map(|distance| distance * scale);
         let inside = |r: T| if r > T::from(0.0) { r } else { T::from(0.0) };
         if first <= T::from(0.5) {
-            LocalPlace { end: 0, r: inside(first) }
+            LocalPlace {
+                end: 0,
+                r: inside(first),
+            }
         } else {
-            LocalPlace { end: 1, r: inside(last) }
+            LocalPlace {
+                end: 1,
+                r: inside(last),
+            }
         }
     }
 
@@ -235,12 +278,19 @@ impl<T: RealNumber> MemberPlace<T> {
     /// The place as seen from the other end.
     #[inline(always)]
     pub fn mirrored(self) -> MemberPlace<T> {
-        MemberPlace { s: self.q, q: self.s }
+        MemberPlace {
+            s: self.q,
+            q: self.s,
+        }
     }
 
     /// Whether the place is before another one, judged by the accurate distances.
     #[inline(always)]
     pub fn is_before(self, other: MemberPlace<T>) -> bool {
-        if self.s > self.q && other.s > other.q { self.q > other.q } else { self.s < other.s }
+        if self.s > self.q && other.s > other.q {
+            self.q > other.q
+        } else {
+            self.s < other.s
+        }
     }
 }

@@ -45,7 +45,11 @@ impl<T: RealNumber> ElementFunctions<T> {
     #[must_use]
     pub fn new(element: RailElement<T>) -> ElementFunctions<T> {
         let clamped = (!element.is_rigid_arm()).then(|| ClampedElement::new(&element));
-        ElementFunctions { scale: T::from(1.0) / (element.x[1] - element.x[0]), element, clamped }
+        ElementFunctions {
+            scale: T::from(1.0) / (element.x[1] - element.x[0]),
+            element,
+            clamped,
+        }
     }
 
     /// The element.
@@ -67,12 +71,28 @@ impl<T: RealNumber> ElementFunctions<T> {
     /// same member or this one, with both ends of the member held, length/force. Zero for a rigid arm, and without
     /// what the section has no stiffness for.
     #[must_use]
-    pub fn clamped_green(&self, axis: Axis, x: T, other: &ElementFunctions<T>, other_axis: Axis, z: T) -> T {
-        let (Some(own), Some(loaded)) = (&self.clamped, &other.clamped) else { return T::from(0.0) };
-        let place = |of: &ElementFunctions<T>, x: T| {
-            of.local(x).on_member(of.element.length, of.element.is_reversed())
+    pub fn clamped_green(
+        &self,
+        axis: Axis,
+        x: T,
+        other: &ElementFunctions<T>,
+        other_axis: Axis,
+        z: T,
+    ) -> T {
+        let (Some(own), Some(loaded)) = (&self.clamped, &other.clamped) else {
+            return T::from(0.0);
         };
-        own.value(axis.component(), place(self, x), loaded, other_axis.component(), place(other, z))
+        let place = |of: &ElementFunctions<T>, x: T| {
+            of.local(x)
+                .on_member(of.element.length, of.element.is_reversed())
+        };
+        own.value(
+            axis.component(),
+            place(self, x),
+            loaded,
+            other_axis.component(),
+            place(other, z),
+        )
     }
 
     fn local(&self, x: T) -> LocalPlace<T> {

@@ -43,9 +43,21 @@ impl<T: RealNumber> Plane<T> {
         let d = (c * l * l + T::from(12.0) * g) * l;
         if d > zero && d < T::from(f64::INFINITY) {
             let column = (tension != 0.0).then(|| BeamColumn::new(bending, shear, tension, l));
-            Plane { c, g, l, inverse: T::from(1.0) / d, column }
+            Plane {
+                c,
+                g,
+                l,
+                inverse: T::from(1.0) / d,
+                column,
+            }
         } else {
-            Plane { c: zero, g: zero, l: zero, inverse: zero, column: None }
+            Plane {
+                c: zero,
+                g: zero,
+                l: zero,
+                inverse: zero,
+                column: None,
+            }
         }
     }
 
@@ -62,7 +74,9 @@ impl<T: RealNumber> Plane<T> {
             return column_reactions(column, at, load);
         }
         let (MemberPlace { s: b, q }, [force, moment]) = (at, load);
-        let Plane { c, g, l, inverse, .. } = *self;
+        let Plane {
+            c, g, l, inverse, ..
+        } = *self;
         let [two, three, six, twelve] = [2.0, 3.0, 6.0, 12.0].map(T::from);
         let (cl, by_force) = (c * l, c * l * q + six * g);
         let by_moment = cl * (q - two * b) + twelve * g;
@@ -70,12 +84,22 @@ impl<T: RealNumber> Plane<T> {
         let first = force * (six * c * q * b + twelve * g) + six * c * moment * (q - b);
         let second = six * c * force * (b - q) + twelve * c * moment;
         let bent = q * (force * b * by_force + moment * by_moment);
-        let bent_first = force * ((b - q) * by_force + q * b * cl) + moment * (by_moment + three * q * cl);
+        let bent_first =
+            force * ((b - q) * by_force + q * b * cl) + moment * (by_moment + three * q * cl);
         let bent_second = force * (two * (b - q) * cl - two * by_force) + six * cl * moment;
         [
-            Reaction { shear: shear * inverse, moment: bent * inverse },
-            Reaction { shear: first * inverse, moment: bent_first * inverse },
-            Reaction { shear: second * inverse, moment: bent_second * inverse },
+            Reaction {
+                shear: shear * inverse,
+                moment: bent * inverse,
+            },
+            Reaction {
+                shear: first * inverse,
+                moment: bent_first * inverse,
+            },
+            Reaction {
+                shear: second * inverse,
+                moment: bent_second * inverse,
+            },
         ]
     }
 
@@ -85,7 +109,8 @@ impl<T: RealNumber> Plane<T> {
         if let Some(column) = &self.column {
             return column.clamped_deflection(a, shear, moment);
         }
-        a * (self.g * shear + self.c * a * (T::from(0.5) * moment - shear * a * T::from(1.0) / T::from(6.0)))
+        a * (self.g * shear
+            + self.c * a * (T::from(0.5) * moment - shear * a * T::from(1.0) / T::from(6.0)))
     }
 
     /// Rotation theta = c (m0 a - V a^2/2) there.
@@ -130,10 +155,17 @@ fn column_reactions<T: RealNumber>(
     };
     let [values, first, second] = column.powers_with_derivatives(distance / length);
     // The second derivative has no sign; the first is by q.
-    let rate = if is_near { -T::from(1.0) / length } else { T::from(1.0) / length };
+    let rate = if is_near {
+        -T::from(1.0) / length
+    } else {
+        T::from(1.0) / length
+    };
     [(values, T::from(1.0)), (first, rate), (second, rate * rate)].map(|(of, scale)| {
         let sum = |c: &[T; 4]| scale * (c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3]);
-        Reaction { shear: sum(&by_deflection), moment: sum(&by_rotation) }
+        Reaction {
+            shear: sum(&by_deflection),
+            moment: sum(&by_rotation),
+        }
     })
 }
 
@@ -153,7 +185,12 @@ impl Plane {
             return column.clamped_derivatives(a, shear, moment);
         }
         let bend = self.c * (moment - shear * a);
-        [bend, self.rotation(a, reaction) + self.g * shear, -(self.c * shear), bend]
+        [
+            bend,
+            self.rotation(a, reaction) + self.g * shear,
+            -(self.c * shear),
+            bend,
+        ]
     }
 
     /// Green's function of a clamped Timoshenko beam, and its derivatives.
@@ -188,8 +225,14 @@ impl Plane {
         if a.s <= a.q {
             return self.green(a.s, p, b, q);
         }
-        let seen = self.green(b.q, turned(q), a.mirrored(), turned(p)).swapped();
-        Partials { p: -seen.p, q: -seen.q, ..seen }
+        let seen = self
+            .green(b.q, turned(q), a.mirrored(), turned(p))
+            .swapped();
+        Partials {
+            p: -seen.p,
+            q: -seen.q,
+            ..seen
+        }
     }
 
     /// Green's function between the loads `p` at s and `q` at t, each a force and a moment, in either order
@@ -203,7 +246,11 @@ impl Plane {
             self.nearer_end(t, q, s, p).swapped()
         } else {
             let one = self.nearer_end(s, p, t, q);
-            one.mean(if p == q { one.swapped() } else { self.nearer_end(t, q, s, p).swapped() })
+            one.mean(if p == q {
+                one.swapped()
+            } else {
+                self.nearer_end(t, q, s, p).swapped()
+            })
         }
     }
 
@@ -233,13 +280,18 @@ impl Plane {
             [value, load[0] * slope + load[1] * bend]
         });
         let [[v, v_slope], [m, m_slope]] = near;
-        [[[v, m], [v_slope, m_slope]], [[far.shear, far.moment], [-first.shear, -first.moment]]]
+        [
+            [[v, m], [v_slope, m_slope]],
+            [[far.shear, far.moment], [-first.shear, -first.moment]],
+        ]
     }
 
     /// Sum of the absolute values of the terms from which `Plane::green` of a place with itself is computed.
     fn magnitude(&self, at: MemberPlace, [f, m]: [f64; 2]) -> f64 {
         let MemberPlace { s, q } = if at.s <= at.q { at } else { at.mirrored() };
-        let Plane { c, g, l, inverse, .. } = *self;
+        let Plane {
+            c, g, l, inverse, ..
+        } = *self;
         let (f, m) = (f.abs(), m.abs());
         if let Some(column) = &self.column {
             let r = s / l;
@@ -250,7 +302,8 @@ impl Plane {
             return BENT_ROUNDINGS * (f * deflection + m * rotation);
         }
         let shear = q * (f * (c * q * (l + 2.0 * s) + 12.0 * g) + 6.0 * c * m * s) * inverse;
-        let moment = q * (f * s * (c * l * q + 6.0 * g) + m * (c * l * (q + 2.0 * s) + 12.0 * g)) * inverse;
+        let moment =
+            q * (f * s * (c * l * q + 6.0 * g) + m * (c * l * (q + 2.0 * s) + 12.0 * g)) * inverse;
         f * s * (g * shear + c * s * (0.5 * moment + shear * s * (1.0 / 6.0)))
             + m * c * s * (moment + 0.5 * shear * s)
     }
@@ -298,8 +351,18 @@ impl<T: RealNumber> ClampedElement<T> {
             length: element.length,
             axial: finite(flexibility.axial),
             torsion: finite(flexibility.torsion),
-            xy: Plane::new(flexibility.bending_z, flexibility.shear_y, flexibility.tension, element.length),
-            xz: Plane::new(flexibility.bending_y, flexibility.shear_z, flexibility.tension, element.length),
+            xy: Plane::new(
+                flexibility.bending_z,
+                flexibility.shear_y,
+                flexibility.tension,
+                element.length,
+            ),
+            xz: Plane::new(
+                flexibility.bending_y,
+                flexibility.shear_z,
+                flexibility.tension,
+                element.length,
+            ),
             loads: [0, 1, 2].map(|axis| AxisLoad::new(element, &element.member_axes(), axis)),
             without_stiffness: element.without_stiffness(),
         }
@@ -325,7 +388,11 @@ impl<T: RealNumber> ClampedElement<T> {
         }
         let bars = self.axial * p.axial * q.axial + self.torsion * p.twist * q.twist;
         if bars != zero {
-            let (first, last) = if t.is_before(s) { (t.s, s.q) } else { (s.s, t.q) };
+            let (first, last) = if t.is_before(s) {
+                (t.s, s.q)
+            } else {
+                (s.s, t.q)
+            };
             sum = sum + bars * first * last / self.length;
         }
         sum
@@ -370,11 +437,21 @@ impl ClampedElement {
     /// The factors of Green's function for a load along rail direction `axis` at a place, times `weight`. `rate` is the
     /// derivative of s by the rail coordinate.
     #[inline]
-    pub fn separated(&self, axis: usize, place: MemberPlace, rate: f64, weight: f64) -> SeparatedLoad {
+    pub fn separated(
+        &self,
+        axis: usize,
+        place: MemberPlace,
+        rate: f64,
+        weight: f64,
+    ) -> SeparatedLoad {
         let load = &self.loads[axis];
         let (mut near, mut far) = ([Factors::default(); 2], [Factors::default(); 2]);
         for (end, at) in [place, place.mirrored()].into_iter().enumerate() {
-            let along = if end == 0 { rate * weight } else { -rate * weight };
+            let along = if end == 0 {
+                rate * weight
+            } else {
+                -rate * weight
+            };
             for (first, plane, load) in [(0, &self.xy, load.xy), (2, &self.xz, load.xz)] {
                 if plane.inverse == 0.0 || load == [0.0; 2] {
                     continue;
@@ -383,18 +460,25 @@ impl ClampedElement {
                 let both = plane.factors(at, seen);
                 for (to, [value, slope]) in [&mut near[end], &mut far[end]].into_iter().zip(both) {
                     for k in 0..2 {
-                        (to.value[first + k], to.slope[first + k]) = (weight * value[k], along * slope[k]);
+                        (to.value[first + k], to.slope[first + k]) =
+                            (weight * value[k], along * slope[k]);
                     }
                 }
             }
             let bars = [(self.axial, load.axial), (self.torsion, load.twist)];
             for (k, (flexibility, load)) in bars.into_iter().enumerate() {
                 let by = load * flexibility / self.length;
-                (near[end].value[4 + k], near[end].slope[4 + k]) = (weight * load * at.s, along * load);
+                (near[end].value[4 + k], near[end].slope[4 + k]) =
+                    (weight * load * at.s, along * load);
                 (far[end].value[4 + k], far[end].slope[4 + k]) = (weight * by * at.q, -along * by);
             }
         }
-        SeparatedLoad { place, uses: load.uses(), near, far }
+        SeparatedLoad {
+            place,
+            uses: load.uses(),
+            near,
+            far,
+        }
     }
 
     /// Second derivatives of [`ClampedElement::pair`] by s and t: `pp`, `pq` and `qq` alone.
@@ -408,7 +492,11 @@ impl ClampedElement {
     ) -> Partials {
         let (p, q) = (&self.loads[a], &other.loads[b]);
         let bending = |plane: &Plane, p: [f64; 2], q: [f64; 2]| {
-            if plane.inverse == 0.0 { Partials::default() } else { plane.ordered(s, p, t, q) }
+            if plane.inverse == 0.0 {
+                Partials::default()
+            } else {
+                plane.ordered(s, p, t, q)
+            }
         };
         let mut sum = bending(&self.xy, p.xy, q.xy);
         sum.add(bending(&self.xz, p.xz, q.xz));
@@ -479,19 +567,30 @@ impl SeparatedLoad {
             return [value, by_own, by_other];
         }
         let seen = self.before(other);
-        [0.5 * (value + seen[0]), 0.5 * (by_own + seen[1]), 0.5 * (by_other + seen[2])]
+        [
+            0.5 * (value + seen[0]),
+            0.5 * (by_own + seen[1]),
+            0.5 * (by_other + seen[2]),
+        ]
     }
 
     /// Whether Green's function between the two can differ from zero: both bend in a common plane, stretch or twist.
     #[inline]
     pub fn meets(&self, other: &SeparatedLoad) -> bool {
-        self.uses.iter().zip(other.uses).any(|(own, other)| *own && other)
+        self.uses
+            .iter()
+            .zip(other.uses)
+            .any(|(own, other)| *own && other)
     }
 
     /// The value alone: [`ClampedElement::value`] of the two.
     #[inline]
     pub fn value_with(&self, other: &SeparatedLoad) -> f64 {
-        let (first, second) = if other.place.is_before(self.place) { (other, self) } else { (self, other) };
+        let (first, second) = if other.place.is_before(self.place) {
+            (other, self)
+        } else {
+            (self, other)
+        };
         let (near, far) = if first.place.s <= first.place.q {
             (&first.near[0], &second.far[0])
         } else {
@@ -506,17 +605,26 @@ impl SeparatedLoad {
         let dot = sum_of_products;
         if self.place.s <= self.place.q {
             let (near, far) = (&self.near[0], &other.far[0]);
-            [dot(&near.value, &far.value), dot(&near.slope, &far.value), dot(&near.value, &far.slope)]
+            [
+                dot(&near.value, &far.value),
+                dot(&near.slope, &far.value),
+                dot(&near.value, &far.slope),
+            ]
         } else {
             let (near, far) = (&other.near[1], &self.far[1]);
-            [dot(&near.value, &far.value), dot(&near.value, &far.slope), dot(&near.slope, &far.value)]
+            [
+                dot(&near.value, &far.value),
+                dot(&near.value, &far.slope),
+                dot(&near.slope, &far.value),
+            ]
         }
     }
 }
 
 #[inline(always)]
 fn sum_of_products(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    let two: [f64; 2] = std::array::from_fn(|k| a[k] * b[k] + a[2 + k] * b[2 + k] + a[4 + k] * b[4 + k]);
+    let two: [f64; 2] =
+        std::array::from_fn(|k| a[k] * b[k] + a[2 + k] * b[2 + k] + a[4 + k] * b[4 + k]);
     two[0] + two[1]
 }
 
@@ -545,35 +653,75 @@ pub(crate) fn separated(element: &RailElement, axis: usize) -> Option<[[[f64; 4]
             let ends = [[fall, rise], [rise, fall]];
             return Some(ends.map(|[far, near]| [far.map(|x| scale * x), zero, near, zero]));
         }
-        [false, false, true, false] if load.xy[1] == 0.0 => {
-            (load.xy[0], Plane::new(f.bending_z, f.shear_y, f.tension, element.length))
-        }
-        [false, false, false, true] if load.xz[1] == 0.0 => {
-            (load.xz[0], Plane::new(f.bending_y, f.shear_z, f.tension, element.length))
-        }
+        [false, false, true, false] if load.xy[1] == 0.0 => (
+            load.xy[0],
+            Plane::new(f.bending_z, f.shear_y, f.tension, element.length),
+        ),
+        [false, false, false, true] if load.xz[1] == 0.0 => (
+            load.xz[0],
+            Plane::new(f.bending_y, f.shear_z, f.tension, element.length),
+        ),
         _ => return None,
     };
-    let Plane { c, g, l, inverse, column } = plane;
+    let Plane {
+        c,
+        g,
+        l,
+        inverse,
+        column,
+    } = plane;
     if inverse == 0.0 {
         return Some([[[0.0; 4]; 4]; 2]);
     }
     if let Some(column) = column {
-        return Some(column.separated().map(|four| four.map(|of| of.map(|x| force * x))));
+        return Some(
+            column
+                .separated()
+                .map(|four| four.map(|of| of.map(|x| force * x))),
+        );
     }
     let first = [
-        [1.0, -12.0 * g * inverse, -3.0 * c * l * inverse, 2.0 * c * inverse],
-        [0.0, 1.0 - 6.0 * g * l * inverse, -1.5 * c * l * l * inverse - 0.5 / l, c * l * inverse],
+        [
+            1.0,
+            -12.0 * g * inverse,
+            -3.0 * c * l * inverse,
+            2.0 * c * inverse,
+        ],
+        [
+            0.0,
+            1.0 - 6.0 * g * l * inverse,
+            -1.5 * c * l * l * inverse - 0.5 / l,
+            c * l * inverse,
+        ],
         [0.0, g, 0.0, -c / 6.0],
         [0.0, 0.0, 0.5 * c, 0.0],
     ];
     let last = [
-        [0.0, 12.0 * g * inverse, 3.0 * c * l * inverse, -2.0 * c * inverse],
-        [0.0, 6.0 * g * l * inverse, 1.5 * c * l * l * inverse - 0.5 / l, -c * l * inverse],
-        [g * l - c * l * l * l / 6.0, 0.5 * c * l * l - g, -0.5 * c * l, c / 6.0],
+        [
+            0.0,
+            12.0 * g * inverse,
+            3.0 * c * l * inverse,
+            -2.0 * c * inverse,
+        ],
+        [
+            0.0,
+            6.0 * g * l * inverse,
+            1.5 * c * l * l * inverse - 0.5 / l,
+            -c * l * inverse,
+        ],
+        [
+            g * l - c * l * l * l / 6.0,
+            0.5 * c * l * l - g,
+            -0.5 * c * l,
+            c / 6.0,
+        ],
         [0.5 * c * l * l, -c * l, 0.5 * c, 0.0],
     ];
     let powers = [1.0, l, l * l, l * l * l];
-    Some([first, last].map(|four| four.map(|cubic| std::array::from_fn(|p| force * cubic[p] * powers[p]))))
+    Some(
+        [first, last]
+            .map(|four| four.map(|cubic| std::array::from_fn(|p| force * cubic[p] * powers[p]))),
+    )
 }
 
 #[cfg(test)]
@@ -592,7 +740,11 @@ mod tests {
             length: l,
             frame: IDENTITY,
             offset: [0.0; 3],
-            flexibility: Flexibility { bending_z: c, shear_y: g, ..Flexibility::default() },
+            flexibility: Flexibility {
+                bending_z: c,
+                shear_y: g,
+                ..Flexibility::default()
+            },
             member: None,
         };
         let whole = ClampedElement::new(&element);
@@ -608,7 +760,10 @@ mod tests {
                 let known = whole.pair(1, p, &whole, 1, q).value;
                 for end in [0, 1] {
                     let found = at(end, 0, s) * at(end, 2, t) + at(end, 1, s) * at(end, 3, t);
-                    assert!((found - known).abs() < 1e-14, "{s} {t}: {found}, not {known}");
+                    assert!(
+                        (found - known).abs() < 1e-14,
+                        "{s} {t}: {found}, not {known}"
+                    );
                 }
             }
         }

@@ -16,7 +16,10 @@ pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[
     let l = element.length;
     let (rest, middle) = (l - s, l - 2.0 * s);
     let without_stiffness = element.without_stiffness();
-    let planes = [(f.bending_z, f.shear_y, load.xy), (f.bending_y, f.shear_z, load.xz)];
+    let planes = [
+        (f.bending_z, f.shear_y, load.xy),
+        (f.bending_y, f.shear_z, load.xz),
+    ];
     let mut out = [[0.0; 2]; 2];
     for (k, (c, g, [force, moment])) in planes.into_iter().enumerate() {
         if without_stiffness[2 + k] {
@@ -27,14 +30,25 @@ pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[
             let [deflection, slope, rotation, curvature] = column.clamped_under_load(s.min(rest));
             // seen from the last end slopes and rotations have the other sign
             let sign = if s <= rest { 1.0 } else { -1.0 };
-            out[k] =
-                [force * deflection + moment * sign * rotation, force * sign * slope + moment * curvature];
+            out[k] = [
+                force * deflection + moment * sign * rotation,
+                force * sign * slope + moment * curvature,
+            ];
             continue;
         }
         let product = s * rest;
-        let (deflection, rotation) = (product * (c * product / 24.0 + 0.5 * g), c * product * middle / 12.0);
-        let (slope, curvature) = (rotation + 0.5 * g * middle, c * (middle * middle - 2.0 * product) / 12.0);
-        out[k] = [force * deflection + moment * rotation, force * slope + moment * curvature];
+        let (deflection, rotation) = (
+            product * (c * product / 24.0 + 0.5 * g),
+            c * product * middle / 12.0,
+        );
+        let (slope, curvature) = (
+            rotation + 0.5 * g * middle,
+            c * (middle * middle - 2.0 * product) / 12.0,
+        );
+        out[k] = [
+            force * deflection + moment * rotation,
+            force * slope + moment * curvature,
+        ];
     }
     out
 }

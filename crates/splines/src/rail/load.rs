@@ -24,16 +24,29 @@ impl<T: RealNumber> AxisLoad<T> {
     /// those of the element, or those of its member.
     pub fn new(element: &RailElement<T>, frame: &[[T; 3]; 3], axis: usize) -> AxisLoad<T> {
         let moment = cross(element.offset, unit(axis));
-        let largest = element.offset.iter().fold(T::from(0.0), |a, &b| if size(b) > a { size(b) } else { a });
+        let largest = element
+            .offset
+            .iter()
+            .fold(T::from(0.0), |a, &b| if size(b) > a { size(b) } else { a });
         let force = |k: usize| without_rounding(frame[k][axis], T::from(1.0));
         let about = |k: usize| without_rounding(dot3(&frame[k], &moment), largest);
-        AxisLoad { axial: force(0), twist: about(0), xy: [force(1), about(2)], xz: [force(2), -about(1)] }
+        AxisLoad {
+            axial: force(0),
+            twist: about(0),
+            xy: [force(1), about(2)],
+            xz: [force(2), -about(1)],
+        }
     }
 
     /// Whether the load acts axially, in torsion, in the x-y plane and in the x-z plane.
     pub fn uses(&self) -> [bool; 4] {
         let zero = T::from(0.0);
-        [self.axial != zero, self.twist != zero, self.xy != [zero; 2], self.xz != [zero; 2]]
+        [
+            self.axial != zero,
+            self.twist != zero,
+            self.xy != [zero; 2],
+            self.xz != [zero; 2],
+        ]
     }
 }
 
@@ -48,5 +61,9 @@ pub(crate) fn size<T: RealNumber>(value: T) -> T {
 pub(crate) fn without_rounding<T: RealNumber>(value: T, scale: T) -> T {
     let one = T::from(1.0);
     let wide = one + T::from(0.25 * f64::EPSILON) != one;
-    if !wide && size(value) <= T::from(4.0 * f64::EPSILON) * scale { T::from(0.0) } else { value }
+    if !wide && size(value) <= T::from(4.0 * f64::EPSILON) * scale {
+        T::from(0.0)
+    } else {
+        value
+    }
 }

@@ -52,7 +52,14 @@ impl EndForm {
     pub fn of(q: &Polynomial) -> EndForm {
         let size: f64 = q.iter().map(|c| c.abs()).sum();
         let sum: f64 = q.iter().sum();
-        let [start, end] = [q[0], if sum.abs() <= ROUNDING * size { 0.0 } else { sum }];
+        let [start, end] = [
+            q[0],
+            if sum.abs() <= ROUNDING * size {
+                0.0
+            } else {
+                sum
+            },
+        ];
         let first = q[1];
         let last: f64 = q.iter().enumerate().map(|(p, c)| p as f64 * c).sum();
         // The cubic is taken off; what is left begins with s^2.
@@ -65,7 +72,11 @@ impl EndForm {
             all[p + 2] = rest[p] + 2.0 * all[p + 1] - all[p];
         }
         let [_, _, quotient @ ..] = all;
-        EndForm { values: [start, end], slopes: [first, last], quotient }
+        EndForm {
+            values: [start, end],
+            slopes: [first, last],
+            quotient,
+        }
     }
 }
 
@@ -83,14 +94,23 @@ mod tests {
                 q[0] = 0.0;
                 q[8] -= q.iter().sum::<f64>();
             }
-            let EndForm { values: [start, end], slopes: [first, last], quotient } = EndForm::of(&q);
-            assert!(start == q[0] && (end - q.iter().sum::<f64>()).abs() < 1e-14 && (!clamped || end == 0.0));
+            let EndForm {
+                values: [start, end],
+                slopes: [first, last],
+                quotient,
+            } = EndForm::of(&q);
+            assert!(
+                start == q[0]
+                    && (end - q.iter().sum::<f64>()).abs() < 1e-14
+                    && (!clamped || end == 0.0)
+            );
             for k in 0..=10 {
                 let s = f64::from(k) / 10.0;
                 let r = 1.0 - s;
-                let cubic =
-                    start * r * r * (1.0 + 2.0 * s) + end * s * s * (1.0 + 2.0 * r) + first * s * r * r
-                        - last * s * s * r;
+                let cubic = start * r * r * (1.0 + 2.0 * s)
+                    + end * s * s * (1.0 + 2.0 * r)
+                    + first * s * r * r
+                    - last * s * s * r;
                 let found = cubic + s * s * r * r * value(&quotient, s);
                 assert!((found - value(&q, s)).abs() < 1e-13, "{s}");
             }

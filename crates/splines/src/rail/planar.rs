@@ -30,7 +30,9 @@ pub(crate) struct PlanarCubics {
 impl PlanarCubics {
     /// `None` where the direction involves more than one plane or bar.
     pub fn new(element: &RailElement, axis: usize, shapes: &ShapeCubics) -> Option<PlanarCubics> {
-        let [group] = shapes.groups() else { return None };
+        let [group] = shapes.groups() else {
+            return None;
+        };
         let [first, last] = separated(element, axis)?;
         // One plane alone: its coefficients are in one of the two lists, and zero in the other.
         let bent = shapes.bent();
@@ -38,17 +40,36 @@ impl PlanarCubics {
         let square = bent.map_or(0.0, |bent| bent.squares[usize::from(in_second)]);
         // Along x, far and near are exchanged where the member runs against the element.
         let exchange = |[a, b, c, d]: [[f64; 4]; 4]| [c, d, a, b];
-        let ends = if element.is_reversed() { [exchange(last), exchange(first)] } else { [first, last] };
+        let ends = if element.is_reversed() {
+            [exchange(last), exchange(first)]
+        } else {
+            [first, last]
+        };
         let value: [[[f64; 8]; 4]; 2] = [0, 1].map(|end| {
-            let shape = bent.filter(|_| in_second).map_or(&group.cubic[end], |bent| &bent.across[0][end]);
+            let shape = bent
+                .filter(|_| in_second)
+                .map_or(&group.cubic[end], |bent| &bent.across[0][end]);
             std::array::from_fn(|p| {
-                std::array::from_fn(|k| if k < 4 { shape[p][k] } else { ends[end][k - 4][p] })
+                std::array::from_fn(|k| {
+                    if k < 4 {
+                        shape[p][k]
+                    } else {
+                        ends[end][k - 4][p]
+                    }
+                })
             })
         });
         let rate = 1.0 / (element.x[1] - element.x[0]);
-        let slope = [(0, rate), (1, -rate)]
-            .map(|(end, rate)| [1.0, 2.0, 3.0].map(|p: f64| value[end][p as usize].map(|x| rate * p * x)));
-        Some(PlanarCubics { index: group.index, value, slope, square, rates: [rate, -rate] })
+        let slope = [(0, rate), (1, -rate)].map(|(end, rate)| {
+            [1.0, 2.0, 3.0].map(|p: f64| value[end][p as usize].map(|x| rate * p * x))
+        });
+        Some(PlanarCubics {
+            index: group.index,
+            value,
+            slope,
+            square,
+            rates: [rate, -rate],
+        })
     }
 
     /// Values of all eight at a place.
@@ -67,7 +88,9 @@ impl PlanarCubics {
         let [a, b, c] = &self.slope[end];
         if self.square != 0.0 {
             let rate = self.rates[end];
-            return self.bent(end, &power_derivatives(self.square, r)[0]).map(|slope| rate * slope);
+            return self
+                .bent(end, &power_derivatives(self.square, r)[0])
+                .map(|slope| rate * slope);
         }
         std::array::from_fn(|k| a[k] + r * (b[k] + r * c[k]))
     }

@@ -109,14 +109,23 @@ impl Rails {
             let carrier = element.member.filter(|_| !rigid);
             let group = carrier.map_or(index, |carrier| *first.entry(carrier.id).or_insert(index));
             shares_members |= group != index;
-            let same = |a: &RailElement| a.length == element.length && a.flexibility == element.flexibility;
+            let same = |a: &RailElement| {
+                a.length == element.length && a.flexibility == element.flexibility
+            };
             if group != index && !same(&elements[group]) {
-                return Err(Error::ElementMember { first: group, second: index });
+                return Err(Error::ElementMember {
+                    first: group,
+                    second: index,
+                });
             }
             let without = element.without_stiffness();
             let along = |axis: usize| {
                 let uses = AxisLoad::new(element, &element.frame, axis).uses();
-                !rigid && uses.iter().zip(without).any(|(&used, missing)| used && missing)
+                !rigid
+                    && uses
+                        .iter()
+                        .zip(without)
+                        .any(|(&used, missing)| used && missing)
             };
             prepared.push(Prepared {
                 cubics: Default::default(),
@@ -127,7 +136,14 @@ impl Rails {
         }
         let tracks = Track::all(&elements)?;
         let rests = vec![[0.0; 2]; elements.len()];
-        Ok(Rails { elements, rests, prepared, tracks, states, shares_members })
+        Ok(Rails {
+            elements,
+            rests,
+            prepared,
+            tracks,
+            states,
+            shares_members,
+        })
     }
 
     /// The same rails, the ends of whose elements are at `x` + `rests`: at coordinates that doubles do not hold. A place
@@ -138,7 +154,9 @@ impl Rails {
     #[must_use]
     pub fn with_rests(mut self, rests: Vec<[f64; 2]>) -> Rails {
         if rests.len() == self.elements.len() {
-            self.tracks.iter_mut().for_each(|track| track.set_rests(&rests));
+            self.tracks
+                .iter_mut()
+                .for_each(|track| track.set_rests(&rests));
             self.rests = rests;
         }
         self
@@ -194,13 +212,20 @@ impl Rails {
         row.element = span.element;
         row.axis = axis;
         row.place = place.on_member(span.length, span.reversed);
-        row.rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
+        row.rate = if span.reversed {
+            -span.length * span.scale
+        } else {
+            span.length * span.scale
+        };
         row.evaluate(&self.cubics(span.element, axis).shapes, place, span.scale);
         Ok(())
     }
 
     /// The row of a probe, and the second derivatives of its values by x.
-    pub(crate) fn row_with_second_derivatives(&self, p: Probe) -> Result<(ShapeRow, [[f64; 4]; 3]), Error> {
+    pub(crate) fn row_with_second_derivatives(
+        &self,
+        p: Probe,
+    ) -> Result<(ShapeRow, [[f64; 4]; 3]), Error> {
         let row = self.row(p)?;
         let span = self.span(p.rail, p.x)?;
         let shapes = &self.cubics(row.element, row.axis).shapes;
@@ -214,7 +239,12 @@ impl Rails {
         let axis = p.axis.component();
         let found = |cubics| {
             let (block, at) = (3 * span.element + axis, span.local(p.x));
-            PlanarPlace { cubics, block, at, scale: span.scale }
+            PlanarPlace {
+                cubics,
+                block,
+                at,
+                scale: span.scale,
+            }
         };
         Ok(self.cubics(span.element, axis).planar.as_deref().map(found))
     }
@@ -228,13 +258,18 @@ impl Rails {
     pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [ShapeRow; 2] {
         [0, 1].map(|end| {
             let mut row = ShapeRow::EMPTY;
-            row.evaluate(&self.cubics(element, axis).shapes, LocalPlace { end, r: 0.0 }, 1.0);
+            row.evaluate(
+                &self.cubics(element, axis).shapes,
+                LocalPlace { end, r: 0.0 },
+                1.0,
+            );
             row
         })
     }
 
     fn cubics(&self, element: usize, axis: usize) -> &AxisCubics {
-        self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
+        self.prepared[element].cubics[axis]
+            .get_or_init(|| AxisCubics::new(&self.elements[element], axis))
     }
 
     /// The element that carries a probe, and for uniform loads of intensity one on its member, along its local y axis
@@ -271,10 +306,20 @@ impl Rails {
 
     /// The displacements of [`Rails::uniform_load`] where the element that carries the probe is known.
     pub(crate) fn uniform_load_on(&self, span: &Span, p: Probe) -> [[f64; 2]; 2] {
-        let Some(clamped) = self.clamped(span.element) else { return [[0.0; 2]; 2] };
+        let Some(clamped) = self.clamped(span.element) else {
+            return [[0.0; 2]; 2];
+        };
         let s = span.local(p.x).on_member(span.length, span.reversed).s;
-        let rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
-        let out = uniform_load(&self.elements[span.element], clamped.load(p.axis.component()), s);
+        let rate = if span.reversed {
+            -span.length * span.scale
+        } else {
+            span.length * span.scale
+        };
+        let out = uniform_load(
+            &self.elements[span.element],
+            clamped.load(p.axis.component()),
+            s,
+        );
         out.map(|[value, slope]| [value, slope * rate])
     }
 
@@ -290,14 +335,22 @@ impl Rails {
             return Ok([0.0; 2]);
         }
         let LocalPlace { end, r } = span.local(p.x);
-        let at = if (end == 0) == span.reversed { 1.0 - r } else { r };
+        let at = if (end == 0) == span.reversed {
+            1.0 - r
+        } else {
+            r
+        };
         let polynomial = motion.of_rail(element, p.axis.component());
         let (mut value, mut slope) = (0.0, 0.0);
         for c in polynomial.into_iter().rev() {
             slope = slope * at + value;
             value = value * at + c;
         }
-        let scale = if span.reversed { -span.scale } else { span.scale };
+        let scale = if span.reversed {
+            -span.scale
+        } else {
+            span.scale
+        };
         Ok([value, scale * slope])
     }
 
@@ -317,10 +370,18 @@ impl Rails {
         [axes, shift]: [f64; 2],
         doubles: bool,
     ) -> RoundingSizes {
-        let Some(given) = self.elements.get(element) else { return RoundingSizes::default() };
-        let place =
-            if first <= last { LocalPlace { end: 0, r: first } } else { LocalPlace { end: 1, r: last } };
-        let place = LocalPlace { r: place.r.max(0.0), ..place };
+        let Some(given) = self.elements.get(element) else {
+            return RoundingSizes::default();
+        };
+        let place = if first <= last {
+            LocalPlace { end: 0, r: first }
+        } else {
+            LocalPlace { end: 1, r: last }
+        };
+        let place = LocalPlace {
+            r: place.r.max(0.0),
+            ..place
+        };
         let errors = [axes, shift / (given.x[1] - given.x[0])];
         RoundingSizes::new(
             given,
@@ -345,7 +406,8 @@ impl Rails {
     #[must_use]
     pub fn clamped_green(&self, element: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
         let mut out = [[0.0; 3]; 3];
-        let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element)) else {
+        let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element))
+        else {
             return out;
         };
         let scale = 1.0 / (given.x[1] - given.x[0]);
@@ -373,7 +435,9 @@ impl Rails {
     #[must_use]
     pub fn clamped_between(&self, p: &ShapeRow, q: &ShapeRow) -> f64 {
         self.clamped_on_one_member(p.element, q.element)
-            .map_or(0.0, |[own, other]| own.value(p.axis, p.place, other, q.axis, q.place))
+            .map_or(0.0, |[own, other]| {
+                own.value(p.axis, p.place, other, q.axis, q.place)
+            })
     }
 
     /// [`Rails::clamped_between`] for all pairs of rows whose elements belong to one member: calls `each` with the indices
@@ -399,7 +463,9 @@ impl Rails {
 
     /// Green's function of a clamped element; `None` for a rigid arm or an element that does not exist.
     pub(crate) fn clamped(&self, element: usize) -> Option<&ClampedElement> {
-        self.prepared.get(element).and_then(|prepared| prepared.clamped.as_ref())
+        self.prepared
+            .get(element)
+            .and_then(|prepared| prepared.clamped.as_ref())
     }
 
     /// Whether some member has more than one element.
@@ -428,7 +494,11 @@ impl Rails {
     fn track(&self, rail: usize) -> Option<&Track> {
         match self.tracks.get(rail) {
             Some(track) if track.rail == rail => Some(track),
-            _ => self.tracks.binary_search_by_key(&rail, |t| t.rail).ok().map(|k| &self.tracks[k]),
+            _ => self
+                .tracks
+                .binary_search_by_key(&rail, |t| t.rail)
+                .ok()
+                .map(|k| &self.tracks[k]),
         }
     }
 
@@ -442,7 +512,11 @@ impl Rails {
     pub(crate) fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
         let span = self.span(p.rail, p.x)?;
         if self.prepared[span.element].without_stiffness[p.axis.component()] {
-            return Err(Error::NoStiffness { rail: p.rail, x: p.x, axis: p.axis });
+            return Err(Error::NoStiffness {
+                rail: p.rail,
+                x: p.x,
+                axis: p.axis,
+            });
         }
         Ok(span)
     }

@@ -42,8 +42,12 @@ impl RoundingSizes {
         let arm: f64 = element.offset.iter().map(|x| x.abs()).sum();
         let load = magnitudes(element, &element.frame, axis, least);
         // What turned axes add to a load, to first order.
-        let turned =
-            AxisLoad { axial: axes, twist: axes * arm, xy: [axes, axes * arm], xz: [axes, axes * arm] };
+        let turned = AxisLoad {
+            axial: axes,
+            twist: axes * arm,
+            xy: [axes, axes * arm],
+            xz: [axes, axes * arm],
+        };
         let exact = |component: f64| size_of(component, 1.0, least);
         let end = place.end;
         let terms = cubic_sizes(element, axis, &load, end, exact);
@@ -53,7 +57,8 @@ impl RoundingSizes {
                 cubic_sizes(element, axis, &turned, end, exact),
                 cubic_sizes(element, axis, &load, end, |_| axes),
             ];
-            errors = std::array::from_fn(|k| std::array::from_fn(|p| parts[0][k][p] + parts[1][k][p]));
+            errors =
+                std::array::from_fn(|k| std::array::from_fn(|p| parts[0][k][p] + parts[1][k][p]));
         }
         let r = place.r;
         // The place may be as far as `shift` beyond r.
@@ -96,7 +101,12 @@ fn magnitudes(element: &RailElement, frame: &[[f64; 3]; 3], axis: usize, least: 
         let sum: f64 = (0..3).map(|j| frame[k][j] * moment[j]).sum();
         terms + size_of(sum, largest, least) - sum.abs()
     };
-    AxisLoad { axial: force(0), twist: about(0), xy: [force(1), about(2)], xz: [force(2), about(1)] }
+    AxisLoad {
+        axial: force(0),
+        twist: about(0),
+        xy: [force(1), about(2)],
+        xz: [force(2), about(1)],
+    }
 }
 
 /// Cubics with positive coefficients that bound the terms of those of [`cubics`], for the sizes `load` of the force and
@@ -110,18 +120,27 @@ fn cubic_sizes(
 ) -> [[f64; 4]; 12] {
     if element.is_rigid_arm() {
         let plain = AxisLoad::default();
-        let mut out = cubics(element, axis, &plain, end, Planes::Both).map(|terms| terms.map(f64::abs));
+        let mut out =
+            cubics(element, axis, &plain, end, Planes::Both).map(|terms| terms.map(f64::abs));
         let offset: f64 = element.offset.iter().map(|x| x.abs()).sum();
         let extent = element.x[1] - element.x[0];
         for own in &mut out[3..6] {
             // Seen from the far end the arm is a difference; turned axes mix the components of the offset.
-            own[0] += turn(0.0) * offset + if end == 1 { 2.0 * offset.min(extent) } else { 0.0 };
+            own[0] += turn(0.0) * offset
+                + if end == 1 {
+                    2.0 * offset.min(extent)
+                } else {
+                    0.0
+                };
         }
         return out;
     }
     let mut local = local_cubics(element, load, end, 1.0);
     if element.flexibility.tension != 0.0 {
-        local.iter_mut().flatten().for_each(|size| *size *= BENT_ROUNDINGS);
+        local
+            .iter_mut()
+            .flatten()
+            .for_each(|size| *size *= BENT_ROUNDINGS);
     }
     let mut out = [[0.0; 4]; 12];
     for (k, components) in element.frame.iter().enumerate() {

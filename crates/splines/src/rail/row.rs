@@ -82,7 +82,12 @@ impl ShapeRow {
 
     /// Evaluates the shape functions of an element at a place. `scale` = 1/(extent in x).
     #[inline]
-    pub(crate) fn evaluate(&mut self, shapes: &ShapeCubics, LocalPlace { end, r }: LocalPlace, scale: f64) {
+    pub(crate) fn evaluate(
+        &mut self,
+        shapes: &ShapeCubics,
+        LocalPlace { end, r }: LocalPlace,
+        scale: f64,
+    ) {
         let scale = if end == 0 { scale } else { -scale };
         self.len = shapes.len();
         self.groups = shapes.groups().len().min(3);
@@ -95,7 +100,9 @@ impl ShapeRow {
             for (k, group) in shapes.groups().iter().take(3).enumerate() {
                 indices[k] = group.index;
                 values[k] = bent.sum(shapes.groups(), k, end, &of);
-                slopes[k] = bent.sum(shapes.groups(), k, end, &by_r).map(|slope| scale * slope);
+                slopes[k] = bent
+                    .sum(shapes.groups(), k, end, &by_r)
+                    .map(|slope| scale * slope);
             }
             return;
         }
@@ -112,7 +119,10 @@ impl ShapeRow {
     /// Values and slopes four at a time, the last group filled with zeros.
     #[inline]
     pub(crate) fn chunks(&self) -> [&[[f64; 4]]; 2] {
-        [&self.value.as_chunks().0[..self.groups], &self.slope.as_chunks().0[..self.groups]]
+        [
+            &self.value.as_chunks().0[..self.groups],
+            &self.slope.as_chunks().0[..self.groups],
+        ]
     }
 
     /// Degrees of freedom four at a time; fillers repeat a valid one.

@@ -54,15 +54,24 @@ impl ShapeCubics {
     pub fn new(element: &RailElement, axis: usize) -> ShapeCubics {
         let load = &AxisLoad::new(element, &element.frame, axis);
         let squares = squares(element);
-        let planes = if squares.is_some() { Planes::FirstWithLinear } else { Planes::Both };
+        let planes = if squares.is_some() {
+            Planes::FirstWithLinear
+        } else {
+            Planes::Both
+        };
         let own = [0, 1].map(|end| cubics(element, axis, load, end, planes));
-        let across = squares.map(|_| [0, 1].map(|end| cubics(element, axis, load, end, Planes::Second)));
+        let across =
+            squares.map(|_| [0, 1].map(|end| cubics(element, axis, load, end, Planes::Second)));
         let all = || own.iter().chain(across.iter().flatten());
-        let used: Vec<usize> = (0..12).filter(|&k| all().any(|of| of[k] != [0.0; 4])).collect();
+        let used: Vec<usize> = (0..12)
+            .filter(|&k| all().any(|of| of[k] != [0.0; 4]))
+            .collect();
         let index = |k: usize| 6 * element.ends[k / 6] + k % 6;
         let four_at_a_time = |cubics: [[[f64; 4]; 12]; 2], four: &[usize]| {
             cubics.map(|of| {
-                std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| of[k][p])))
+                std::array::from_fn(|p| {
+                    std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| of[k][p]))
+                })
             })
         };
         let groups = used.chunks(4).map(|four| CubicGroup {
@@ -70,10 +79,17 @@ impl ShapeCubics {
             cubic: four_at_a_time(own, four),
         });
         let bent = squares.zip(across).map(|(squares, across)| {
-            let across = used.chunks(4).map(|four| four_at_a_time(across, four)).collect();
+            let across = used
+                .chunks(4)
+                .map(|four| four_at_a_time(across, four))
+                .collect();
             Box::new(BentShapes { squares, across })
         });
-        ShapeCubics { len: used.len(), groups: groups.collect(), bent }
+        ShapeCubics {
+            len: used.len(),
+            groups: groups.collect(),
+            bent,
+        }
     }
 
     /// What an axial force changes; `None` without one.
@@ -94,12 +110,18 @@ impl ShapeCubics {
 
     /// Second derivatives of all functions by x at a place, zeros in unused entries. `scale` = 1/(extent in
     /// x).
-    pub fn second_derivatives(&self, LocalPlace { end, r }: LocalPlace, scale: f64) -> [[f64; 4]; 3] {
+    pub fn second_derivatives(
+        &self,
+        LocalPlace { end, r }: LocalPlace,
+        scale: f64,
+    ) -> [[f64; 4]; 3] {
         let mut out = [[0.0; 4]; 3];
         if let Some(bent) = self.bent() {
             let second = bent.squares.map(|square| power_derivatives(square, r)[1]);
             for (k, out) in out.iter_mut().enumerate().take(self.groups.len()) {
-                *out = bent.sum(&self.groups, k, end, &second).map(|value| scale * scale * value);
+                *out = bent
+                    .sum(&self.groups, k, end, &second)
+                    .map(|value| scale * scale * value);
             }
             return out;
         }
@@ -117,7 +139,11 @@ impl BentShapes {
     #[inline]
     pub fn sum(&self, groups: &[CubicGroup], k: usize, end: usize, of: &[[f64; 4]; 2]) -> [f64; 4] {
         let (own, across) = (&groups[k].cubic[end], &self.across[k][end]);
-        std::array::from_fn(|k| (0..4).map(|p| own[p][k] * of[0][p] + across[p][k] * of[1][p]).sum())
+        std::array::from_fn(|k| {
+            (0..4)
+                .map(|p| own[p][k] * of[0][p] + across[p][k] * of[1][p])
+                .sum()
+        })
     }
 }
 
@@ -142,8 +168,12 @@ pub(crate) fn squares<T: RealNumber>(element: &RailElement<T>) -> Option<[T; 2]>
             T::from(0.0)
         }
     };
-    (f.tension != 0.0 && !element.is_rigid_arm())
-        .then(|| [square(f.bending_z, f.shear_y), square(f.bending_y, f.shear_z)])
+    (f.tension != 0.0 && !element.is_rigid_arm()).then(|| {
+        [
+            square(f.bending_z, f.shear_y),
+            square(f.bending_y, f.shear_z),
+        ]
+    })
 }
 
 /// Values of all twelve shape functions of an element at the distance r from `end`.
@@ -157,11 +187,12 @@ pub(crate) fn shape_values<T: RealNumber>(
         return cubics(element, axis, load, end, Planes::Both)
             .map(|[a, b, c, d]| a + r * (b + r * (c + r * d)));
     };
-    let parts = [(first, Planes::FirstWithLinear), (second, Planes::Second)].map(|(square, planes)| {
-        let of = powers(square, r);
-        cubics(element, axis, load, end, planes)
-            .map(|c| c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3])
-    });
+    let parts =
+        [(first, Planes::FirstWithLinear), (second, Planes::Second)].map(|(square, planes)| {
+            let of = powers(square, r);
+            cubics(element, axis, load, end, planes)
+                .map(|c| c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3])
+        });
     std::array::from_fn(|k| parts[0][k] + parts[1][k])
 }
 
@@ -220,7 +251,10 @@ pub(crate) fn local_cubics<T: RealNumber>(
     let mut out = [[zero; 4]; 12];
     let without_stiffness = element.without_stiffness();
     let linear = |scale: T| {
-        let near = [[scale, minus * scale, zero, zero], [zero, scale, zero, zero]];
+        let near = [
+            [scale, minus * scale, zero, zero],
+            [zero, scale, zero, zero],
+        ];
         [near[end], near[1 - end]]
     };
     // Seen from the last end the member runs backwards: rotations and moments change sign.
@@ -230,7 +264,11 @@ pub(crate) fn local_cubics<T: RealNumber>(
             return plane_cubics(c, g, element.length, load, minus);
         }
         let column = BeamColumn::new(c, g, tension, element.length);
-        if minus < zero { column.shapes(load) } else { column.shape_sizes(load) }
+        if minus < zero {
+            column.shapes(load)
+        } else {
+            column.shape_sizes(load)
+        }
     };
     let bending = |c: f64, g: f64, [force, moment]: [T; 2]| {
         if end == 0 {
@@ -259,17 +297,37 @@ pub(crate) fn local_cubics<T: RealNumber>(
 
 /// force v + moment theta of one bending plane, as cubics of (v, theta) at the first end, then at the last;
 /// `minus` is -1, or 1 for the absolute values of all terms.
-fn plane_cubics<T: RealNumber>(c: f64, g: f64, h: T, [force, moment]: [T; 2], minus: T) -> [[T; 4]; 4] {
+fn plane_cubics<T: RealNumber>(
+    c: f64,
+    g: f64,
+    h: T,
+    [force, moment]: [T; 2],
+    minus: T,
+) -> [[T; 4]; 4] {
     let [zero, half, one, two, three, four, six, twelve] =
         [0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 12.0].map(T::from);
     let (bent, sheared) = (T::from(c) * h * h, twelve * T::from(g));
     let total = bent + sheared;
-    let (alpha, beta) = if total > zero { (bent / total, sheared / total) } else { (one, zero) };
+    let (alpha, beta) = if total > zero {
+        (bent / total, sheared / total)
+    } else {
+        (one, zero)
+    };
     let v = [
         [one, minus * beta, minus * three * alpha, two * alpha],
-        [zero, h * (alpha + half * beta), minus * h * (two * alpha + half * beta), h * alpha],
+        [
+            zero,
+            h * (alpha + half * beta),
+            minus * h * (two * alpha + half * beta),
+            h * alpha,
+        ],
         [zero, beta, three * alpha, minus * two * alpha],
-        [zero, minus * half * h * beta, minus * h * (alpha + minus * half * beta), h * alpha],
+        [
+            zero,
+            minus * half * h * beta,
+            minus * h * (alpha + minus * half * beta),
+            h * alpha,
+        ],
     ];
     let theta = [
         [zero, minus * six * alpha / h, six * alpha / h, zero],

@@ -38,7 +38,13 @@ impl Span {
     /// The place of x, taken within the element.
     #[inline]
     pub fn local(&self, x: f64) -> LocalPlace {
-        LocalPlace::by_distances([(x - self.x[0]) - self.rest[0], (self.x[1] - x) + self.rest[1]], self.scale)
+        LocalPlace::by_distances(
+            [
+                (x - self.x[0]) - self.rest[0],
+                (self.x[1] - x) + self.rest[1],
+            ],
+            self.scale,
+        )
     }
 }
 
@@ -102,7 +108,10 @@ impl Track {
         let mut order: Vec<usize> = (0..elements.len()).collect();
         order.sort_by(|&a, &b| {
             let (p, q) = (&elements[a], &elements[b]);
-            p.rail.cmp(&q.rail).then(p.x[0].total_cmp(&q.x[0])).then(a.cmp(&b))
+            p.rail
+                .cmp(&q.rail)
+                .then(p.x[0].total_cmp(&q.x[0]))
+                .then(a.cmp(&b))
         });
         order
             .chunk_by(|&a, &b| elements[a].rail == elements[b].rail)
@@ -113,23 +122,44 @@ impl Track {
     /// One rail, whose elements `same` are sorted by coordinate.
     fn new(elements: &[RailElement], same: &[usize]) -> Result<Track, Error> {
         let rail = elements[same[0]].rail;
-        let largest = same.iter().flat_map(|&k| elements[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
+        let largest = same
+            .iter()
+            .flat_map(|&k| elements[k].x)
+            .fold(0.0_f64, |a, x| a.max(x.abs()));
         let slack = ROUNDING * largest;
         let span = |element: usize, yields| {
             let RailElement { x, length, .. } = elements[element];
             let reversed = elements[element].is_reversed();
-            Span { x, rest: [0.0; 2], scale: 1.0 / (x[1] - x[0]), length, reversed, element, yields }
+            Span {
+                x,
+                rest: [0.0; 2],
+                scale: 1.0 / (x[1] - x[0]),
+                length,
+                reversed,
+                element,
+                yields,
+            }
         };
         let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {
             let (before, element) = (pair[0], pair[1]);
             let (end, start) = (elements[before].x[1], elements[element].x[0]);
             if end > start + slack {
-                return Err(Error::Overlap { rail, first: before, second: element, x: start });
+                return Err(Error::Overlap {
+                    rail,
+                    first: before,
+                    second: element,
+                    x: start,
+                });
             }
             spans.push(span(element, end >= start && before < element));
         }
-        Ok(Track { rail, slack, index: BinIndex::new(&spans), spans })
+        Ok(Track {
+            rail,
+            slack,
+            index: BinIndex::new(&spans),
+            spans,
+        })
     }
 
     /// Sets what rounding took from the coordinates of the ends of each element.
@@ -145,7 +175,12 @@ impl Track {
     /// No element there.
     #[inline(always)]
     pub fn find(&self, x: f64) -> Result<&Span, Error> {
-        let Track { slack, spans, index, .. } = self;
+        let Track {
+            slack,
+            spans,
+            index,
+            ..
+        } = self;
         let after = index.begun(spans, x);
         if let Some(k) = after.checked_sub(1) {
             let span = &spans[k];

@@ -59,17 +59,25 @@ impl ExactSurface {
     /// # Ok::<(), splines::Error>(())
     /// ```
     pub fn displacement_lines(&self, at: &[Probe]) -> Result<DisplacementLines<'_>, Error> {
-        let places = at.iter().map(|probe| self.restrained_row(*probe)).collect::<Result<Vec<_>, _>>()?;
+        let places = at
+            .iter()
+            .map(|probe| self.restrained_row(*probe))
+            .collect::<Result<Vec<_>, _>>()?;
         let count = places.len();
         let mut moved = vec![0.0; count * self.nodal().nrows()];
         for (i, place) in places.iter().enumerate() {
             let entries = place.indices().iter().zip(place.values());
             for (&dof, shape) in entries.filter(|(_, shape)| **shape != 0.0) {
                 let sums = moved.iter_mut().skip(i).step_by(count);
-                sums.zip(&self.nodal().column(dof)).for_each(|(sum, c)| *sum += shape * c);
+                sums.zip(&self.nodal().column(dof))
+                    .for_each(|(sum, c)| *sum += shape * c);
             }
         }
-        Ok(DisplacementLines { surface: self, places, moved })
+        Ok(DisplacementLines {
+            surface: self,
+            places,
+            moved,
+        })
     }
 }
 
@@ -83,13 +91,19 @@ impl DisplacementLines<'_> {
     pub fn fill(&self, load: Probe, out: &mut [f64]) -> Result<(), Error> {
         let count = self.places.len();
         if out.len() != count {
-            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [count, 1] });
+            return Err(Error::EffectShape {
+                rows: out.len(),
+                columns: 1,
+                expected: [count, 1],
+            });
         }
         let row = self.surface.restrained_row(load)?;
         out.fill(0.0);
         for (&dof, shape) in row.indices().iter().zip(row.values()) {
             let moved = &self.moved[dof * count..(dof + 1) * count];
-            out.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += shape * moved);
+            out.iter_mut()
+                .zip(moved)
+                .for_each(|(sum, moved)| *sum += shape * moved);
         }
         for (out, place) in out.iter_mut().zip(&self.places) {
             *out += self.surface.rails().clamped_between(place, &row);

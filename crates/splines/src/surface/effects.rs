@@ -154,17 +154,28 @@ impl InfluenceLines {
         let expected = [sections.len(), 6 * line.state_count()];
         let (found, columns) = rows.shape();
         if [found, columns] != expected {
-            return Err(Error::EffectShape { rows: found, columns, expected });
+            return Err(Error::EffectShape {
+                rows: found,
+                columns,
+                expected,
+            });
         }
         for (effect, section) in sections.iter().enumerate() {
             let valid = |section: &InternalForce| {
-                (0.0..=1.0).contains(&section.place) && section.ends.iter().all(|end| end.is_finite())
+                (0.0..=1.0).contains(&section.place)
+                    && section.ends.iter().all(|end| end.is_finite())
             };
-            if !section.as_ref().is_none_or(valid) || rows.row(effect).iter().any(|entry| entry.is_nan()) {
+            if !section.as_ref().is_none_or(valid)
+                || rows.row(effect).iter().any(|entry| entry.is_nan())
+            {
                 return Err(Error::EffectNumber { effect });
             }
         }
-        Ok(InfluenceLines { rails: line, rows, sections })
+        Ok(InfluenceLines {
+            rails: line,
+            rows,
+            sections,
+        })
     }
 
     /// Number of effects.
@@ -196,7 +207,11 @@ impl InfluenceLines {
     pub fn fill(&self, at: Probe, out: &mut [f64]) -> Result<(), Error> {
         let n = self.len();
         if out.len() != n {
-            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [n, 1] });
+            return Err(Error::EffectShape {
+                rows: out.len(),
+                columns: 1,
+                expected: [n, 1],
+            });
         }
         let mut row = ShapeRow::EMPTY;
         self.rails.row_into(at, &mut row)?;
@@ -205,13 +220,18 @@ impl InfluenceLines {
         // Zero times an infinite effect would not be a number.
         for (&index, &shape) in entries.filter(|(_, shape)| **shape != 0.0) {
             let column = &self.rows.as_slice()[index * n..(index + 1) * n];
-            out.iter_mut().zip(column).for_each(|(sum, entry)| *sum += shape * entry);
+            out.iter_mut()
+                .zip(column)
+                .for_each(|(sum, entry)| *sum += shape * entry);
         }
         let element = &self.rails.elements()[row.element];
         if let Some(carrier) = element.member.filter(|_| !element.is_rigid_arm()) {
             let mut load = None;
             for (sum, section) in out.iter_mut().zip(&self.sections) {
-                if let Some(section) = section.as_ref().filter(|section| section.member == carrier.id) {
+                if let Some(section) = section
+                    .as_ref()
+                    .filter(|section| section.member == carrier.id)
+                {
                     let load = load.get_or_insert_with(|| MemberLoad::new(element, at, &row));
                     *sum += load.with_ends_held(section) + self.under_tension(section, &row);
                 }
@@ -220,7 +240,11 @@ impl InfluenceLines {
         if out.iter().all(|value| value.is_finite()) {
             Ok(())
         } else {
-            Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
+            Err(Error::NoStiffness {
+                rail: at.rail,
+                x: at.x,
+                axis: at.axis,
+            })
         }
     }
 
@@ -231,16 +255,27 @@ impl InfluenceLines {
     pub fn value(&self, effect: usize, at: Probe) -> Result<f64, Error> {
         let n = self.len();
         let Some(section) = self.sections.get(effect) else {
-            return Err(Error::EffectShape { rows: effect + 1, columns: 1, expected: [n, 1] });
+            return Err(Error::EffectShape {
+                rows: effect + 1,
+                columns: 1,
+                expected: [n, 1],
+            });
         };
         let row = self.rails.row(at)?;
         let mut sum = 0.0;
-        for (&index, &shape) in row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0) {
+        for (&index, &shape) in row
+            .indices()
+            .iter()
+            .zip(row.values())
+            .filter(|(_, shape)| **shape != 0.0)
+        {
             sum += shape * self.rows[(effect, index)];
         }
         let element = &self.rails.elements()[row.element];
         let carrier = element.member.filter(|_| !element.is_rigid_arm());
-        let own = carrier.zip(section.as_ref()).filter(|(carrier, section)| section.member == carrier.id);
+        let own = carrier
+            .zip(section.as_ref())
+            .filter(|(carrier, section)| section.member == carrier.id);
         if let Some((_, section)) = own {
             sum += MemberLoad::new(element, at, &row).with_ends_held(section)
                 + self.under_tension(section, &row);
@@ -248,7 +283,11 @@ impl InfluenceLines {
         if sum.is_finite() {
             Ok(sum)
         } else {
-            Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
+            Err(Error::NoStiffness {
+                rail: at.rail,
+                x: at.x,
+                axis: at.axis,
+            })
         }
     }
 }
@@ -262,10 +301,16 @@ impl InfluenceLines {
         if tension == 0.0 {
             return 0.0;
         }
-        let Some((plane, factors)) = section.component.under_tension() else { return 0.0 };
-        let Some(clamped) = self.rails.clamped(row.element) else { return 0.0 };
-        let place =
-            MemberPlace { s: section.place * element.length, q: (1.0 - section.place) * element.length };
+        let Some((plane, factors)) = section.component.under_tension() else {
+            return 0.0;
+        };
+        let Some(clamped) = self.rails.clamped(row.element) else {
+            return 0.0;
+        };
+        let place = MemberPlace {
+            s: section.place * element.length,
+            q: (1.0 - section.place) * element.length,
+        };
         let deflected = clamped.section(plane, place, row.axis, row.place);
         tension * dot(&factors, &deflected)
     }
@@ -288,11 +333,15 @@ impl MemberLoad {
         let axes = element.member_axes();
         let in_member_axes = |v: [f64; 3]| axes.map(|axis| dot(&axis, &v));
         let force = unit(at.axis.component());
-        let [f, m] = [in_member_axes(force), in_member_axes(cross(element.offset, force))];
+        let [f, m] = [
+            in_member_axes(force),
+            in_member_axes(cross(element.offset, force)),
+        ];
         // Force and moment on the first end of the member, then on its last.
         let mut ends = [[0.0; 3]; 4];
         for (&index, &value) in row.indices().iter().zip(row.values()) {
-            let end = usize::from(index / 6 != element.ends[0]) ^ usize::from(element.is_reversed());
+            let end =
+                usize::from(index / 6 != element.ends[0]) ^ usize::from(element.is_reversed());
             ends[2 * end + index % 6 / 3][index % 3] = value;
         }
         let ends = ends.map(in_member_axes);

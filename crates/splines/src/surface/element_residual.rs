@@ -30,22 +30,36 @@ impl ElementResidual {
     #[must_use]
     pub fn new(whole: ExactSurface, squares: Vec<[f64; 2]>) -> ElementResidual {
         let is_less = squares.iter().flatten().any(|&square| square != 0.0);
-        ElementResidual { whole, squares, is_less }
+        ElementResidual {
+            whole,
+            squares,
+            is_less,
+        }
     }
 
     fn deflections(&self, at: &[Probe]) -> Result<Vec<Deflection>, Error> {
-        at.iter().map(|probe| self.whole.rails().uniform_load(*probe)).collect()
+        at.iter()
+            .map(|probe| self.whole.rails().uniform_load(*probe))
+            .collect()
     }
 
     /// Takes the part of the motions from displacements of places under loads.
-    fn take(&self, places: &[Deflection], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn take(
+        &self,
+        places: &[Deflection],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         let rails = self.whole.rails();
         for (probe, force) in loads {
             let (own, other) = rails.uniform_load(*probe)?;
             let squares = self.squares.get(own).copied().unwrap_or_default();
             for ((element, one), out) in places.iter().zip(out.iter_mut()) {
                 if rails.clamped_on_one_member(*element, own).is_some() {
-                    *out -= force * (0..2).map(|k| squares[k] * one[k][0] * other[k][0]).sum::<f64>();
+                    *out -= force
+                        * (0..2)
+                            .map(|k| squares[k] * one[k][0] * other[k][0])
+                            .sum::<f64>();
                 }
             }
         }
@@ -81,9 +95,18 @@ impl Compliance for ElementResidual {
         Ok(())
     }
 
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         self.whole.displacements(at, loads, out)?;
-        if self.is_less { self.take(&self.deflections(at)?, loads, out) } else { Ok(()) }
+        if self.is_less {
+            self.take(&self.deflections(at)?, loads, out)
+        } else {
+            Ok(())
+        }
     }
 
     fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
@@ -91,7 +114,11 @@ impl Compliance for ElementResidual {
         if !self.is_less {
             return Ok(whole);
         }
-        Ok(Box::new(LesserPlaces { of: self, whole, deflections: self.deflections(at)? }))
+        Ok(Box::new(LesserPlaces {
+            of: self,
+            whole,
+            deflections: self.deflections(at)?,
+        }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {

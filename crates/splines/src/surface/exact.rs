@@ -5,7 +5,9 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::groups;
-use super::places::{AppliedLoads, NodalValues, SurfacePlaces, restrained_row, restrained_row_into};
+use super::places::{
+    AppliedLoads, NodalValues, SurfacePlaces, restrained_row, restrained_row_into,
+};
 use super::planar::{self, PlanarProbe};
 use crate::compliance::{
     Compliance, Differentiable, Influence, KeptProducts, Partials, PlaceDisplacements, ProbeGroups,
@@ -86,7 +88,11 @@ impl ExactSurface {
         let expected = 6 * line.state_count();
         let (rows, columns) = nodal.shape();
         if rows != expected || columns != expected {
-            return Err(Error::NodalShape { rows, columns, expected });
+            return Err(Error::NodalShape {
+                rows,
+                columns,
+                expected,
+            });
         }
         let mut nodal = nodal;
         for column in 0..expected {
@@ -99,7 +105,10 @@ impl ExactSurface {
                 nodal[(column, row)] = mean;
             }
         }
-        Ok(ExactSurface { rails: line, nodal: Arc::new(nodal) })
+        Ok(ExactSurface {
+            rails: line,
+            nodal: Arc::new(nodal),
+        })
     }
 
     /// The rails and their elements.
@@ -146,7 +155,13 @@ impl ExactSurface {
                 let row = &rows[i];
                 if last != Some(block(row)) {
                     last = Some(block(row));
-                    moved = product(nodal, size, row.index_chunks(), load.index_chunks(), load.chunks()[0]);
+                    moved = product(
+                        nodal,
+                        size,
+                        row.index_chunks(),
+                        load.index_chunks(),
+                        load.chunks()[0],
+                    );
                 }
                 let [values, slopes] = row.chunks();
                 slope[i + n * j] = dot_chunks(slopes, &moved);
@@ -168,7 +183,12 @@ impl ExactSurface {
     }
 
     /// Adds Green's function between probes in one element and mirrors the values.
-    fn add_elements(&self, at: &[Probe], rows: &[ShapeRow], out: &mut Influence) -> Result<(), Error> {
+    fn add_elements(
+        &self,
+        at: &[Probe],
+        rows: &[ShapeRow],
+        out: &mut Influence,
+    ) -> Result<(), Error> {
         let n = at.len();
         let value = out.value.as_mut_slice();
         let slope = out.slope.as_mut_slice();
@@ -187,7 +207,11 @@ impl ExactSurface {
                 value[j + n * i] = value[i + n * j];
             }
             if !value[j + n * j].is_finite() {
-                return Err(Error::NoStiffness { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
+                return Err(Error::NoStiffness {
+                    rail: at[j].rail,
+                    x: at[j].x,
+                    axis: at[j].axis,
+                });
             }
         }
         Ok(())
@@ -197,8 +221,14 @@ impl ExactSurface {
     #[cold]
     fn add_shared_members(&self, rows: &[ShapeRow], out: &mut Influence) {
         for (j, q) in rows.iter().enumerate() {
-            for (i, p) in rows.iter().enumerate().skip(j + 1).filter(|(_, p)| p.element != q.element) {
-                let Some([own, other]) = self.rails.clamped_on_one_member(p.element, q.element) else {
+            for (i, p) in rows
+                .iter()
+                .enumerate()
+                .skip(j + 1)
+                .filter(|(_, p)| p.element != q.element)
+            {
+                let Some([own, other]) = self.rails.clamped_on_one_member(p.element, q.element)
+                else {
                     continue;
                 };
                 let green = own.pair(p.axis, p.place, other, q.axis, q.place);
@@ -247,8 +277,9 @@ impl Compliance for ExactSurface {
         out.expect(n)?;
         if !self.rails.shares_members() {
             let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
-            let mut fast =
-                |probes: &mut [PlanarProbe]| planar::fill(&self.rails, nodal, size, at, probes, out);
+            let mut fast = |probes: &mut [PlanarProbe]| {
+                planar::fill(&self.rails, nodal, size, at, probes, out)
+            };
             let done = match n {
                 0..=2 => fast(&mut [PlanarProbe::EMPTY; 2][..n]),
                 3..=8 => fast(&mut [PlanarProbe::EMPTY; 8][..n]),
@@ -275,11 +306,20 @@ impl Compliance for ExactSurface {
         out: &mut Influence,
     ) -> Result<(), Error> {
         out.expect(of.count)?;
-        if groups::fill(&self.rails, &self.nodal, of, kept, out)? { Ok(()) } else { of.sum(self, kept, out) }
+        if groups::fill(&self.rails, &self.nodal, of, kept, out)? {
+            Ok(())
+        } else {
+            of.sum(self, kept, out)
+        }
     }
 
     /// The nodal displacements under all loads are computed once, where they are needed.
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         let size = self.nodal.nrows();
         let mut loaded = AppliedLoads::new(size);
         let mut row = ShapeRow::EMPTY;
@@ -297,7 +337,11 @@ impl Compliance for ExactSurface {
                     moved[dof] = dofs.iter().map(|&k| column[k] * loaded.forces[k]).sum();
                 }
             }
-            let nodal = row.indices().iter().zip(row.values()).map(|(&dof, value)| value * moved[dof]);
+            let nodal = row
+                .indices()
+                .iter()
+                .zip(row.values())
+                .map(|(&dof, value)| value * moved[dof]);
             *out = nodal.sum::<f64>() + loaded.on_member(&self.rails, &row);
         }
         Ok(())
@@ -321,7 +365,10 @@ impl Compliance for ExactSurface {
 
     /// Functions of a member under axial force are no polynomials.
     fn is_cubic(&self) -> bool {
-        self.rails.elements().iter().all(|element| element.flexibility.tension == 0.0)
+        self.rails
+            .elements()
+            .iter()
+            .all(|element| element.flexibility.tension == 0.0)
     }
 }
 
@@ -360,8 +407,16 @@ impl Differentiable for ExactSurface {
             out.qq += second.qq * b.rate * b.rate;
         }
         for (row, at) in [(&a, p), (&b, q)] {
-            if row.indices().iter().any(|&k| self.nodal[(k, k)] == f64::INFINITY) {
-                return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
+            if row
+                .indices()
+                .iter()
+                .any(|&k| self.nodal[(k, k)] == f64::INFINITY)
+            {
+                return Err(Error::NoStiffness {
+                    rail: at.rail,
+                    x: at.x,
+                    axis: at.axis,
+                });
             }
         }
         Ok(out)

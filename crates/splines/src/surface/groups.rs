@@ -10,7 +10,9 @@
 use nalgebra::DMatrix;
 
 use super::planar::Output;
-use crate::compliance::{ElementHalf, GroupMember, GroupPart, Influence, KeptProducts, ProbeGroups};
+use crate::compliance::{
+    ElementHalf, GroupMember, GroupPart, Influence, KeptProducts, ProbeGroups,
+};
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::rail::{LocalPlace, Rails, SeparatedLoad};
@@ -42,9 +44,16 @@ pub(super) fn fill(
     if rails.shares_members() {
         return Ok(false);
     }
-    let standings = groups.probes.iter().map(|probe| stand(rails, *probe)).collect::<Result<Vec<_>, _>>()?;
+    let standings = groups
+        .probes
+        .iter()
+        .map(|probe| stand(rails, *probe))
+        .collect::<Result<Vec<_>, _>>()?;
     let stays = standings.len() == kept.halves.len()
-        && standings.iter().zip(&kept.halves).all(|(standing, half)| standing.half == *half);
+        && standings
+            .iter()
+            .zip(&kept.halves)
+            .all(|(standing, half)| standing.half == *half);
     if !stays && !renew(rails, nodal, groups, &standings, kept) {
         return Ok(false);
     }
@@ -52,7 +61,11 @@ pub(super) fn fill(
         (part.value, part.slope) = ([0.0; 4], [0.0; 4]);
     }
     for (GroupMember { probe, weight, .. }, part) in groups.members.iter().zip(&kept.part_of) {
-        let Standing { at: LocalPlace { r, .. }, rate, .. } = standings[*probe];
+        let Standing {
+            at: LocalPlace { r, .. },
+            rate,
+            ..
+        } = standings[*probe];
         let part = &mut kept.parts[*part];
         let (value, slope) = ([1.0, r, r * r, r * r * r], [0.0, 1.0, 2.0 * r, 3.0 * r * r]);
         part.value = std::array::from_fn(|k| part.value[k] + weight * value[k]);
@@ -66,10 +79,17 @@ pub(super) fn fill(
     let is_lost = |group: usize| !to.value[group * (groups.count + 1)].is_finite();
     if let Some(lost) = groups.members.iter().find(|member| is_lost(member.group)) {
         // One probe of the group moves without limit.
-        let own = groups.members.iter().filter(|member| member.group == lost.group);
+        let own = groups
+            .members
+            .iter()
+            .filter(|member| member.group == lost.group);
         let moves = |member: &&GroupMember| {
             let shapes = rails.row(groups.probes[member.probe]);
-            shapes.is_ok_and(|row| row.indices().iter().any(|&k| nodal[(k, k)] == f64::INFINITY))
+            shapes.is_ok_and(|row| {
+                row.indices()
+                    .iter()
+                    .any(|&k| nodal[(k, k)] == f64::INFINITY)
+            })
         };
         let Probe { rail, x, axis } = groups.probes[own.clone().find(moves).unwrap_or(lost).probe];
         return Err(Error::NoStiffness { rail, x, axis });
@@ -81,7 +101,11 @@ fn stand(rails: &Rails, probe: Probe) -> Result<Standing, Error> {
     let span = rails.stiff_span(probe)?;
     let at = span.local(probe.x);
     Ok(Standing {
-        half: ElementHalf { element: span.element, axis: probe.axis.component(), end: at.end },
+        half: ElementHalf {
+            element: span.element,
+            axis: probe.axis.component(),
+            end: at.end,
+        },
         at,
         rate: if at.end == 0 { span.scale } else { -span.scale },
         length: span.length,
@@ -100,13 +124,21 @@ fn renew(
     kept: &mut KeptProducts,
 ) -> bool {
     kept.halves.clear();
-    if standings.iter().any(|own| rails.shape_cubics(own.half.element, own.half.axis).bent().is_some()) {
+    if standings.iter().any(|own| {
+        rails
+            .shape_cubics(own.half.element, own.half.axis)
+            .bent()
+            .is_some()
+    }) {
         return false;
     }
     let mut blocks: Vec<ElementHalf> = standings.iter().map(|standing| standing.half).collect();
     blocks.sort_unstable();
     blocks.dedup();
-    let known: Vec<Option<usize>> = blocks.iter().map(|half| kept.blocks.binary_search(half).ok()).collect();
+    let known: Vec<Option<usize>> = blocks
+        .iter()
+        .map(|half| kept.blocks.binary_search(half).ok())
+        .collect();
     // Pairs of parts are in the order of their blocks, so that rows are not before columns.
     let mut bicubics = vec![[[0.0; 4]; 4]; blocks.len() * blocks.len()];
     for (i, (row, a)) in blocks.iter().zip(&known).enumerate() {
@@ -118,32 +150,45 @@ fn renew(
         }
     }
     let half_of = |member: &GroupMember| standings[member.probe].half;
-    let mut parts: Vec<(ElementHalf, usize)> =
-        groups.members.iter().map(|member| (half_of(member), member.group)).collect();
+    let mut parts: Vec<(ElementHalf, usize)> = groups
+        .members
+        .iter()
+        .map(|member| (half_of(member), member.group))
+        .collect();
     parts.sort_unstable();
     parts.dedup();
     let place = |member: &GroupMember| {
-        parts.binary_search(&(half_of(member), member.group)).expect("every member has a part")
+        parts
+            .binary_search(&(half_of(member), member.group))
+            .expect("every member has a part")
     };
     kept.part_of.clear();
     kept.part_of.extend(groups.members.iter().map(place));
     kept.parts.clear();
-    kept.parts.extend(parts.iter().map(|(half, group)| GroupPart {
-        group: *group,
-        block: blocks.binary_search(half).expect("every half has a block"),
-        value: [0.0; 4],
-        slope: [0.0; 4],
-    }));
+    kept.parts
+        .extend(parts.iter().map(|(half, group)| GroupPart {
+            group: *group,
+            block: blocks.binary_search(half).expect("every half has a block"),
+            value: [0.0; 4],
+            slope: [0.0; 4],
+        }));
     kept.order.clear();
     kept.order.extend(0..groups.members.len());
-    kept.order.sort_by_key(|&k| half_of(&groups.members[k]).element);
+    kept.order
+        .sort_by_key(|&k| half_of(&groups.members[k]).element);
     (kept.blocks, kept.bicubics) = (blocks, bicubics);
-    kept.halves.extend(standings.iter().map(|standing| standing.half));
+    kept.halves
+        .extend(standings.iter().map(|standing| standing.half));
     true
 }
 
 /// The coefficients K C K^T between two halves: for each power of the distance on `column` those of the powers on `row`.
-fn bicubic(rails: &Rails, nodal: &DMatrix<f64>, row: &ElementHalf, column: &ElementHalf) -> [[f64; 4]; 4] {
+fn bicubic(
+    rails: &Rails,
+    nodal: &DMatrix<f64>,
+    row: &ElementHalf,
+    column: &ElementHalf,
+) -> [[f64; 4]; 4] {
     let groups_of = |half: &ElementHalf| rails.shape_cubics(half.element, half.axis).groups();
     let (size, nodal) = (nodal.nrows(), nodal.as_slice());
     let mut out = [[0.0; 4]; 4];
@@ -166,7 +211,12 @@ fn bicubic(rails: &Rails, nodal: &DMatrix<f64>, row: &ElementHalf, column: &Elem
 
 /// Adds N C N^T between all parts of groups.
 fn add_nodal(kept: &KeptProducts, to: &mut Output) {
-    let KeptProducts { parts, blocks, bicubics, .. } = kept;
+    let KeptProducts {
+        parts,
+        blocks,
+        bicubics,
+        ..
+    } = kept;
     for (k, load) in parts.iter().enumerate() {
         // Parts on one block follow each other.
         let (mut block, mut moved) = (None, [[0.0; 4]; 2]);
@@ -194,13 +244,29 @@ fn add_elements(
     let element = |k: usize| standings[groups.members[k].probe].half.element;
     let mut loads: Vec<(usize, SeparatedLoad)> = Vec::with_capacity(kept.order.len());
     for own in kept.order.chunk_by(|&a, &b| element(a) == element(b)) {
-        let Some(clamped) = rails.clamped(element(own[0])) else { continue };
+        let Some(clamped) = rails.clamped(element(own[0])) else {
+            continue;
+        };
         loads.clear();
         loads.extend(own.iter().map(|&k| {
-            let GroupMember { group, probe, weight } = groups.members[k];
-            let Standing { half, at, rate, length, is_reversed } = standings[probe];
+            let GroupMember {
+                group,
+                probe,
+                weight,
+            } = groups.members[k];
+            let Standing {
+                half,
+                at,
+                rate,
+                length,
+                is_reversed,
+            } = standings[probe];
             let place = at.on_member(length, is_reversed);
-            let rate = if (half.end == 1) == is_reversed { rate * length } else { -rate * length };
+            let rate = if (half.end == 1) == is_reversed {
+                rate * length
+            } else {
+                -rate * length
+            };
             (group, clamped.separated(half.axis, place, rate, weight))
         }));
         for (k, (group, load)) in loads.iter().enumerate() {

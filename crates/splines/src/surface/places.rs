@@ -40,7 +40,10 @@ pub(super) struct AppliedLoads {
 impl AppliedLoads {
     /// No loads on a structure with `size` degrees of freedom of its node states.
     pub fn new(size: usize) -> AppliedLoads {
-        AppliedLoads { forces: NodalValues::from_elem(0.0, size), loads: SmallVec::new() }
+        AppliedLoads {
+            forces: NodalValues::from_elem(0.0, size),
+            loads: SmallVec::new(),
+        }
     }
 
     /// Adds a force at the place and in the direction of `row`.
@@ -52,7 +55,10 @@ impl AppliedLoads {
 
     /// The displacement of the place of `at` by the loads on its member, whose ends are held.
     pub fn on_member(&self, rails: &Rails, at: &ShapeRow) -> f64 {
-        self.loads.iter().map(|(load, force)| force * rails.clamped_between(at, load)).sum()
+        self.loads
+            .iter()
+            .map(|(load, force)| force * rails.clamped_between(at, load))
+            .sum()
     }
 }
 
@@ -69,7 +75,11 @@ struct OnMember {
 }
 
 /// The shape row of a probe in whose direction the structure has stiffness.
-pub(super) fn restrained_row(rails: &Rails, nodal: &DMatrix<f64>, at: Probe) -> Result<ShapeRow, Error> {
+pub(super) fn restrained_row(
+    rails: &Rails,
+    nodal: &DMatrix<f64>,
+    at: Probe,
+) -> Result<ShapeRow, Error> {
     let mut row = ShapeRow::EMPTY;
     restrained_row_into(rails, nodal, at, &mut row)?;
     Ok(row)
@@ -83,9 +93,14 @@ pub(super) fn restrained_row_into(
     row: &mut ShapeRow,
 ) -> Result<(), Error> {
     rails.row_into(at, row)?;
-    let is_free = |(&dof, value): (&usize, &f64)| *value != 0.0 && nodal[(dof, dof)] == f64::INFINITY;
+    let is_free =
+        |(&dof, value): (&usize, &f64)| *value != 0.0 && nodal[(dof, dof)] == f64::INFINITY;
     if row.indices().iter().zip(row.values()).any(is_free) {
-        return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
+        return Err(Error::NoStiffness {
+            rail: at.rail,
+            x: at.x,
+            axis: at.axis,
+        });
     }
     Ok(())
 }
@@ -95,17 +110,36 @@ impl<'s> SurfacePlaces<'s> {
     ///
     /// # Errors
     /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has no stiffness.
-    pub fn new(rails: &'s Rails, nodal: &'s DMatrix<f64>, at: &[Probe]) -> Result<SurfacePlaces<'s>, Error> {
+    pub fn new(
+        rails: &'s Rails,
+        nodal: &'s DMatrix<f64>,
+        at: &[Probe],
+    ) -> Result<SurfacePlaces<'s>, Error> {
         let row = |probe: &Probe| restrained_row(rails, nodal, *probe);
         let places = at.iter().map(row).collect::<Result<Vec<_>, _>>()?;
         let (mut entries, mut ends) = (Vec::new(), Vec::with_capacity(places.len()));
         for row in &places {
-            let own = row.indices().iter().copied().zip(row.values().iter().copied());
+            let own = row
+                .indices()
+                .iter()
+                .copied()
+                .zip(row.values().iter().copied());
             entries.extend(own.filter(|(_, shape)| *shape != 0.0));
             ends.push(entries.len());
         }
-        let members = rails.elements().iter().map(|_| Default::default()).collect();
-        Ok(SurfacePlaces { rails, nodal, places, entries, ends, members })
+        let members = rails
+            .elements()
+            .iter()
+            .map(|_| Default::default())
+            .collect();
+        Ok(SurfacePlaces {
+            rails,
+            nodal,
+            places,
+            entries,
+            ends,
+            members,
+        })
     }
 
     /// Green's function between the places and loads like `load`.
@@ -113,7 +147,10 @@ impl<'s> SurfacePlaces<'s> {
         let length = self.rails.elements()[load.element].length;
         let mut out = Vec::new();
         for (index, place) in self.places.iter().enumerate() {
-            let Some([own, other]) = self.rails.clamped_on_one_member(place.element, load.element) else {
+            let Some([own, other]) = self
+                .rails
+                .clamped_on_one_member(place.element, load.element)
+            else {
                 continue;
             };
             let value = |s: f64, q: f64| {
@@ -122,13 +159,24 @@ impl<'s> SurfacePlaces<'s> {
             };
             let MemberPlace { s, q } = place.place;
             if self.rails.elements()[load.element].flexibility.tension != 0.0 {
-                out.push(OnMember { index, place: s, cubics: None });
+                out.push(OnMember {
+                    index,
+                    place: s,
+                    cubics: None,
+                });
                 continue;
             }
-            let cubics = [cubic(s, |t| value(t, length - t)), cubic(q, |t| value(length - t, t))];
+            let cubics = [
+                cubic(s, |t| value(t, length - t)),
+                cubic(q, |t| value(length - t, t)),
+            ];
             let cubics = Some(cubics).filter(|cubics| *cubics != [[0.0; 3]; 2]);
             if cubics.is_some() {
-                out.push(OnMember { index, place: s, cubics });
+                out.push(OnMember {
+                    index,
+                    place: s,
+                    cubics,
+                });
             }
         }
         out
@@ -139,7 +187,11 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
     fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
         let rows = self.places.len() + also.len();
         if out.len() != rows {
-            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [rows, 1] });
+            return Err(Error::EffectShape {
+                rows: out.len(),
+                columns: 1,
+                expected: [rows, 1],
+            });
         }
         let mut loaded = AppliedLoads::new(self.nodal.nrows());
         let mut moved = NodalValues::from_elem(0.0, self.nodal.nrows());
@@ -150,29 +202,53 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
             restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
             loaded.add(&row, *force);
             let own = self.members[row.element][row.axis].get_or_init(|| self.on_member(&row));
-            for OnMember { index, place, cubics } in own {
+            for OnMember {
+                index,
+                place,
+                cubics,
+            } in own
+            {
                 let Some([before, behind]) = cubics else {
                     out[*index] += force * self.rails.clamped_between(&self.places[*index], &row);
                     continue;
                 };
                 let MemberPlace { s, q } = row.place;
-                let (t, [a, b, c]) = if s <= *place { (s, before) } else { (q, behind) };
+                let (t, [a, b, c]) = if s <= *place {
+                    (s, before)
+                } else {
+                    (q, behind)
+                };
                 out[*index] += force * t * (a + t * (b + t * c));
             }
         }
-        for (dof, force) in loaded.forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+        for (dof, force) in loaded
+            .forces
+            .iter()
+            .enumerate()
+            .filter(|(_, force)| **force != 0.0)
+        {
             let column = &self.nodal.as_slice()[dof * moved.len()..(dof + 1) * moved.len()];
-            moved.iter_mut().zip(column).for_each(|(sum, c)| *sum += c * force);
+            moved
+                .iter_mut()
+                .zip(column)
+                .for_each(|(sum, c)| *sum += c * force);
         }
         let mut first = 0;
         for (out, end) in out.iter_mut().zip(&self.ends) {
             let own = &self.entries[first..*end];
-            *out += own.iter().map(|(dof, shape)| shape * moved[*dof]).sum::<f64>();
+            *out += own
+                .iter()
+                .map(|(dof, shape)| shape * moved[*dof])
+                .sum::<f64>();
             first = *end;
         }
         for (probe, out) in also.iter().zip(others) {
             restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
-            let entries = row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0);
+            let entries = row
+                .indices()
+                .iter()
+                .zip(row.values())
+                .filter(|(_, shape)| **shape != 0.0);
             *out = entries.map(|(&dof, shape)| shape * moved[dof]).sum::<f64>();
             *out += loaded.on_member(self.rails, &row);
         }

@@ -27,8 +27,14 @@ pub(super) struct PlanarProbe {
 }
 
 impl PlanarProbe {
-    pub const EMPTY: PlanarProbe =
-        PlanarProbe { who: 0, block: 0, x: 0.0, index: [0; 4], value: [0.0; 8], slope: [0.0; 8] };
+    pub const EMPTY: PlanarProbe = PlanarProbe {
+        who: 0,
+        block: 0,
+        x: 0.0,
+        index: [0; 4],
+        value: [0.0; 8],
+        slope: [0.0; 8],
+    };
 
     #[inline]
     fn set(&mut self, cubics: &PlanarCubics, block: usize, x: f64, at: LocalPlace) {
@@ -58,13 +64,22 @@ pub(super) fn fill(
     out: &mut Influence,
 ) -> Result<bool, Error> {
     for (k, (probe, p)) in probes.iter_mut().zip(at).enumerate() {
-        let Some(PlanarPlace { cubics, block, at, .. }) = rails.planar(*p)? else { return Ok(false) };
+        let Some(PlanarPlace {
+            cubics, block, at, ..
+        }) = rails.planar(*p)?
+        else {
+            return Ok(false);
+        };
         probe.set(cubics, block, p.x, at);
         probe.who = k;
     }
     if !probes.is_sorted_by(|a, b| (a.block, a.x) <= (b.block, b.x)) {
-        probes
-            .sort_unstable_by(|a, b| a.block.cmp(&b.block).then(a.x.total_cmp(&b.x)).then(a.who.cmp(&b.who)));
+        probes.sort_unstable_by(|a, b| {
+            a.block
+                .cmp(&b.block)
+                .then(a.x.total_cmp(&b.x))
+                .then(a.who.cmp(&b.who))
+        });
     }
     let n = at.len();
     let mut to = Output::of(out, n);
@@ -89,8 +104,17 @@ pub(super) fn fill(
             for q in own {
                 let moved = [times(&c, &q.value), times(&c, &q.slope)];
                 for p in block {
-                    let (value, slope) = (PlanarProbe::shapes(&p.value), PlanarProbe::shapes(&p.slope));
-                    to.put(p, q, [dot4(value, &moved[0]), dot4(slope, &moved[0]), dot4(value, &moved[1])]);
+                    let (value, slope) =
+                        (PlanarProbe::shapes(&p.value), PlanarProbe::shapes(&p.slope));
+                    to.put(
+                        p,
+                        q,
+                        [
+                            dot4(value, &moved[0]),
+                            dot4(slope, &moved[0]),
+                            dot4(value, &moved[1]),
+                        ],
+                    );
                 }
             }
             others = beyond;
@@ -114,13 +138,27 @@ pub(super) fn derivatives(
     // Each probe with its second derivatives.
     let mut both = [(PlanarProbe::EMPTY, [0.0; 8]); 2];
     for ((probe, second), at) in both.iter_mut().zip([p, q]) {
-        let Some(PlanarPlace { cubics, block, at: local, scale }) = rails.planar(at)? else {
+        let Some(PlanarPlace {
+            cubics,
+            block,
+            at: local,
+            scale,
+        }) = rails.planar(at)?
+        else {
             return Ok(None);
         };
         probe.set(cubics, block, at.x, local);
         *second = cubics.second_derivatives(local, scale);
-        if probe.index.iter().any(|&k| nodal[k * (size + 1)] == f64::INFINITY) {
-            return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
+        if probe
+            .index
+            .iter()
+            .any(|&k| nodal[k * (size + 1)] == f64::INFINITY)
+        {
+            return Err(Error::NoStiffness {
+                rail: at.rail,
+                x: at.x,
+                axis: at.axis,
+            });
         }
     }
     let [p, q] = &both;
@@ -131,7 +169,11 @@ pub(super) fn derivatives(
         let loads = [&q.0.value, &q.0.slope, &q.1];
         let moved = loads.map(|load| times(&c, load));
         let with = |row: &[f64; 8], k: usize| {
-            let own = if same { row[4] * loads[k][6] + row[5] * loads[k][7] } else { 0.0 };
+            let own = if same {
+                row[4] * loads[k][6] + row[5] * loads[k][7]
+            } else {
+                0.0
+            };
             dot4(PlanarProbe::shapes(row), &moved[k]) + own
         };
         Partials {
@@ -155,7 +197,10 @@ pub(super) fn derivatives(
 /// Number of probes in front that share their element and direction.
 #[inline]
 fn same_block(probes: &[PlanarProbe]) -> usize {
-    probes.iter().position(|probe| probe.block != probes[0].block).unwrap_or(probes.len())
+    probes
+        .iter()
+        .position(|probe| probe.block != probes[0].block)
+        .unwrap_or(probes.len())
 }
 
 /// The matrices of an [`Influence`], by columns.
@@ -168,7 +213,11 @@ pub(super) struct Output<'a> {
 impl Output<'_> {
     /// Those of `out`, which are n x n.
     pub fn of(out: &mut Influence, n: usize) -> Output<'_> {
-        Output { n, value: out.value.as_mut_slice(), slope: out.slope.as_mut_slice() }
+        Output {
+            n,
+            value: out.value.as_mut_slice(),
+            slope: out.slope.as_mut_slice(),
+        }
     }
 
     /// Adds the value of a pair of the groups i and j and its slopes by both; once for the pair of a part with itself.
@@ -200,14 +249,19 @@ impl Output<'_> {
 fn pair_in_element(p: &PlanarProbe, q: &PlanarProbe, moved: &[[f64; 4]; 2]) -> [f64; 3] {
     // N(p) C N(q) + far(p) . near(q) as six terms in two sums.
     let six = |p: &[f64; 8], y: &[f64; 4], q: &[f64; 8]| {
-        let two: [f64; 2] = std::array::from_fn(|k| p[k] * y[k] + p[2 + k] * y[2 + k] + p[4 + k] * q[6 + k]);
+        let two: [f64; 2] =
+            std::array::from_fn(|k| p[k] * y[k] + p[2 + k] * y[2 + k] + p[4 + k] * q[6 + k]);
         two[0] + two[1]
     };
     let value = six(&p.value, &moved[0], &q.value);
     let by_p = six(&p.slope, &moved[0], &q.value);
     let by_q = six(&p.value, &moved[1], &q.slope);
     let mean = 0.5 * (by_p + by_q);
-    if p.x == q.x { [value, mean, mean] } else { [value, by_p, by_q] }
+    if p.x == q.x {
+        [value, mean, mean]
+    } else {
+        [value, by_p, by_q]
+    }
 }
 
 /// The nodal compliance between the degrees of freedom of two elements: row k belongs to that number k of the

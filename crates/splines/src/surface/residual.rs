@@ -71,7 +71,9 @@ impl Compliance for ResidualFlexibility {
         }
         let mut all = vec![0.0; 2 * count * n];
         let (values, slopes) = all.split_at_mut(count * n);
-        let rows = values.chunks_exact_mut(count).zip(slopes.chunks_exact_mut(count));
+        let rows = values
+            .chunks_exact_mut(count)
+            .zip(slopes.chunks_exact_mut(count));
         for (probe, (value, slope)) in at.iter().zip(rows) {
             self.taken.row(*probe, value, slope)?;
         }
@@ -88,7 +90,12 @@ impl Compliance for ResidualFlexibility {
         Ok(())
     }
 
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         self.whole.displacements(at, loads, out)?;
         let taken = self.taken.under(loads)?;
         let (mut value, mut slope) = (vec![0.0; taken.len()], vec![0.0; taken.len()]);
@@ -106,7 +113,11 @@ impl Compliance for ResidualFlexibility {
         for (probe, value) in at.iter().zip(shapes.chunks_mut(count.max(1))) {
             self.taken.row(*probe, value, &mut slope)?;
         }
-        Ok(Box::new(ResidualPlaces { whole: self.whole.at_places(at)?, taken: &self.taken, shapes }))
+        Ok(Box::new(ResidualPlaces {
+            whole: self.whole.at_places(at)?,
+            taken: &self.taken,
+            shapes,
+        }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {

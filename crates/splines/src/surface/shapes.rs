@@ -80,7 +80,11 @@ impl RailShapes {
         let expected = 6 * line.state_count();
         let (rows, columns) = states.shape();
         if rows != expected {
-            return Err(Error::NodalShape { rows, columns, expected });
+            return Err(Error::NodalShape {
+                rows,
+                columns,
+                expected,
+            });
         }
         Ok(RailShapes {
             elements: line.elements().iter().map(|_| Default::default()).collect(),
@@ -110,7 +114,11 @@ impl RailShapes {
         }
         let (rows, columns) = amplitudes.shape();
         if between.len() != self.elements.len() || rows != count || columns != self.count() {
-            return Err(Error::NodalShape { rows, columns, expected: count });
+            return Err(Error::NodalShape {
+                rows,
+                columns,
+                expected: count,
+            });
         }
         self.elements = between.iter().map(|_| Default::default()).collect();
         (self.between, self.amplitudes, self.first) = (between, amplitudes.transpose(), first);
@@ -141,12 +149,23 @@ impl RailShapes {
         let of = self.elements[span.element][axis].get_or_init(|| self.along(span.element, axis));
         let reversed = self.rails.elements()[span.element].is_reversed();
         let (place, scale) = (span.local(at.x), span.scale);
-        of.fill(count, hermite(place, scale), || quotient_weights(place, reversed, scale), value, slope);
+        of.fill(
+            count,
+            hermite(place, scale),
+            || quotient_weights(place, reversed, scale),
+            value,
+            slope,
+        );
         Ok(())
     }
 
     /// [`RailShapes::row`] on an element with an axial force, along which the shapes are no polynomials.
-    fn row_under_tension(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
+    fn row_under_tension(
+        &self,
+        at: Probe,
+        value: &mut [f64],
+        slope: &mut [f64],
+    ) -> Result<(), Error> {
         let row = self.rails.row(at)?;
         value.fill(0.0);
         slope.fill(0.0);
@@ -159,9 +178,18 @@ impl RailShapes {
         for ((&k, &shape), &by_x) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
             add([shape, by_x], &mut self.motions.column(k).iter());
         }
-        for (k, motion) in self.between.get(row.element).into_iter().flatten().enumerate() {
+        for (k, motion) in self
+            .between
+            .get(row.element)
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
             let weights = self.rails.member_motion(at, motion)?;
-            add(weights, &mut self.amplitudes.column(self.first[row.element] + k).iter());
+            add(
+                weights,
+                &mut self.amplitudes.column(self.first[row.element] + k).iter(),
+            );
         }
         Ok(())
     }
@@ -172,7 +200,9 @@ impl RailShapes {
         let (mut value, mut slope) = (out.clone(), out.clone());
         for (probe, force) in loads {
             self.row(*probe, &mut value, &mut slope)?;
-            out.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
+            out.iter_mut()
+                .zip(&value)
+                .for_each(|(sum, shape)| *sum += shape * force);
         }
         Ok(out)
     }
@@ -181,18 +211,30 @@ impl RailShapes {
     fn along(&self, element: usize, axis: usize) -> ElementShapes {
         let count = self.count();
         let rows = self.rails.end_rows(element, axis);
-        let parts = rows.iter().flat_map(|row| [(row, row.values()), (row, row.slopes())]);
+        let parts = rows
+            .iter()
+            .flat_map(|row| [(row, row.values()), (row, row.slopes())]);
         let sum = |indices: &[usize], weights: &[f64], shape: usize| -> f64 {
-            indices.iter().zip(weights).map(|(&k, weight)| weight * self.motions[(shape, k)]).sum()
+            indices
+                .iter()
+                .zip(weights)
+                .map(|(&k, weight)| weight * self.motions[(shape, k)])
+                .sum()
         };
         let mut ends: Vec<f64> = parts
-            .flat_map(|(row, weights)| (0..count).map(move |shape| sum(row.indices(), weights, shape)))
+            .flat_map(|(row, weights)| {
+                (0..count).map(move |shape| sum(row.indices(), weights, shape))
+            })
             .collect();
         let own = &self.rails.elements()[element];
         let motions = self.between.get(element).map_or(&[][..], |motions| motions);
         let mut quotients = vec![0.0; if motions.is_empty() { 0 } else { 5 * count }];
         for (k, motion) in motions.iter().enumerate() {
-            let EndForm { mut values, mut slopes, quotient } = EndForm::of(&motion.of_rail(own, axis));
+            let EndForm {
+                mut values,
+                mut slopes,
+                quotient,
+            } = EndForm::of(&motion.of_rail(own, axis));
             if own.is_reversed() {
                 // Seen along the rail, the member begins with its last end.
                 (values, slopes) = ([values[1], values[0]], [-slopes[1], -slopes[0]]);
@@ -224,7 +266,14 @@ impl ElementShapes {
         slope: &mut [f64],
     ) {
         if count >= WIDE {
-            Arch::new().dispatch(Fill { shapes: self, count, weights, of_quotients, value, slope });
+            Arch::new().dispatch(Fill {
+                shapes: self,
+                count,
+                weights,
+                of_quotients,
+                value,
+                slope,
+            });
         } else {
             self.sum(count, weights, of_quotients, value, slope);
         }
@@ -257,10 +306,13 @@ impl ElementShapes {
         let (h, i) = rest.split_at(count);
         let [t, u, v, w, x] = weights();
         let quotients = e.iter().zip(f).zip(g.iter().zip(h)).zip(i);
-        for (((value, slope), ((a, b), (c, d))), (((e, f), (g, h)), i)) in out.zip(data).zip(quotients) {
-            *value = (p * a + q * b + r * c + s * d) + (t[0] * e + u[0] * f + v[0] * g + w[0] * h + x[0] * i);
-            *slope =
-                (dp * a + dq * b + dr * c + ds * d) + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
+        for (((value, slope), ((a, b), (c, d))), (((e, f), (g, h)), i)) in
+            out.zip(data).zip(quotients)
+        {
+            *value = (p * a + q * b + r * c + s * d)
+                + (t[0] * e + u[0] * f + v[0] * g + w[0] * h + x[0] * i);
+            *slope = (dp * a + dq * b + dr * c + ds * d)
+                + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
         }
     }
 }
@@ -280,13 +332,23 @@ impl<W: FnOnce() -> [[f64; 2]; 5]> WithSimd for Fill<'_, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.shapes.sum(self.count, self.weights, self.of_quotients, self.value, self.slope);
+        self.shapes.sum(
+            self.count,
+            self.weights,
+            self.of_quotients,
+            self.value,
+            self.slope,
+        );
     }
 }
 
 /// Weights of the coefficients of a quotient in the value at a place, and the derivatives of these weights by x:
 /// s^p s^2 (1 - s)^2 with s along the member.
-fn quotient_weights(LocalPlace { end, r }: LocalPlace, reversed: bool, scale: f64) -> [[f64; 2]; 5] {
+fn quotient_weights(
+    LocalPlace { end, r }: LocalPlace,
+    reversed: bool,
+    scale: f64,
+) -> [[f64; 2]; 5] {
     let s = if (end == 0) == reversed { 1.0 - r } else { r };
     let scale = if reversed { -scale } else { scale };
     let product = r * (1.0 - r);
@@ -294,7 +356,10 @@ fn quotient_weights(LocalPlace { end, r }: LocalPlace, reversed: bool, scale: f6
     let mut out = [[0.0; 2]; 5];
     let (mut power, mut derivative) = (1.0, 0.0);
     for weights in &mut out {
-        *weights = [double * power, scale * (steep * power + double * derivative)];
+        *weights = [
+            double * power,
+            scale * (steep * power + double * derivative),
+        ];
         derivative = s * derivative + power;
         power *= s;
     }
@@ -306,14 +371,27 @@ fn quotient_weights(LocalPlace { end, r }: LocalPlace, reversed: bool, scale: f6
 /// so that those which vanish there do so exactly.
 fn hermite(LocalPlace { end, r }: LocalPlace, scale: f64) -> ([f64; 4], [f64; 4]) {
     let far = r * r * (3.0 - 2.0 * r);
-    let [value, slope, value_far, slope_far] =
-        [1.0 - far, r * (1.0 - r) * (1.0 - r), far, -r * r * (1.0 - r)];
+    let [value, slope, value_far, slope_far] = [
+        1.0 - far,
+        r * (1.0 - r) * (1.0 - r),
+        far,
+        -r * r * (1.0 - r),
+    ];
     let steep = 6.0 * r * (1.0 - r);
-    let by = [-steep, (1.0 - r) * (1.0 - 3.0 * r), steep, r * (3.0 * r - 2.0)].map(|weight| weight * scale);
+    let by = [
+        -steep,
+        (1.0 - r) * (1.0 - 3.0 * r),
+        steep,
+        r * (3.0 * r - 2.0),
+    ]
+    .map(|weight| weight * scale);
     if end == 0 {
         ([value, slope, value_far, slope_far], by)
     } else {
         // Seen from the last end, x runs backwards.
-        ([value_far, -slope_far, value, -slope], [-by[2], by[3], -by[0], by[1]])
+        (
+            [value_far, -slope_far, value, -slope],
+            [-by[2], by[3], -by[0], by[1]],
+        )
     }
 }

@@ -74,7 +74,10 @@ impl<C: Compliance> Uncoupled<C> {
     fn groups(&self, at: &[Probe]) -> Vec<Vec<usize>> {
         let mut out: Vec<Vec<usize>> = Vec::new();
         for (i, probe) in at.iter().enumerate() {
-            match out.iter_mut().find(|group| self.couplings.keep(&at[group[0]], probe)) {
+            match out
+                .iter_mut()
+                .find(|group| self.couplings.keep(&at[group[0]], probe))
+            {
                 Some(group) => group.push(i),
                 None => out.push(vec![i]),
             }
@@ -84,7 +87,11 @@ impl<C: Compliance> Uncoupled<C> {
 
     /// The loads whose couplings with a probe are kept.
     fn loads_of(&self, probe: &Probe, loads: &[(Probe, f64)]) -> Vec<(Probe, f64)> {
-        loads.iter().filter(|load| self.couplings.keep(probe, &load.0)).copied().collect()
+        loads
+            .iter()
+            .filter(|load| self.couplings.keep(probe, &load.0))
+            .copied()
+            .collect()
     }
 }
 
@@ -106,9 +113,15 @@ impl<C: Compliance> PlaceDisplacements for UncoupledPlaces<'_, C> {
     fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
         let count = out.len() - also.len();
         let mut is_done = vec![false; also.len()];
-        for PlaceGroup { first, places, indices } in &self.groups {
-            let own: Vec<usize> =
-                (0..also.len()).filter(|i| self.of.couplings.keep(first, &also[*i])).collect();
+        for PlaceGroup {
+            first,
+            places,
+            indices,
+        } in &self.groups
+        {
+            let own: Vec<usize> = (0..also.len())
+                .filter(|i| self.of.couplings.keep(first, &also[*i]))
+                .collect();
             let others: Vec<Probe> = own.iter().map(|i| also[*i]).collect();
             let mut values = vec![0.0; indices.len() + own.len()];
             places.under(&self.of.loads_of(first, loads), &others, &mut values)?;
@@ -119,7 +132,9 @@ impl<C: Compliance> PlaceDisplacements for UncoupledPlaces<'_, C> {
         // probes that no place is coupled with
         for i in (0..also.len()).filter(|i| !is_done[*i]) {
             let on = self.of.loads_of(&also[i], loads);
-            self.of.whole.displacements(&also[i..=i], &on, &mut out[count + i..=count + i])?;
+            self.of
+                .whole
+                .displacements(&also[i..=i], &on, &mut out[count + i..=count + i])?;
         }
         Ok(())
     }
@@ -139,13 +154,21 @@ impl<C: Compliance> Compliance for Uncoupled<C> {
     }
 
     /// Each group of probes between which couplings are kept, with the loads in it, is evaluated on its own.
-    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn displacements(
+        &self,
+        at: &[Probe],
+        loads: &[(Probe, f64)],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         for group in self.groups(at) {
             let places: Vec<Probe> = group.iter().map(|i| at[*i]).collect();
             let on = self.loads_of(&places[0], loads);
             let mut own = vec![0.0; places.len()];
             self.whole.displacements(&places, &on, &mut own)?;
-            group.into_iter().zip(own).for_each(|(i, value)| out[i] = value);
+            group
+                .into_iter()
+                .zip(own)
+                .for_each(|(i, value)| out[i] = value);
         }
         Ok(())
     }
@@ -153,9 +176,17 @@ impl<C: Compliance> Compliance for Uncoupled<C> {
     fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
         let prepared = |indices: Vec<usize>| {
             let places: Vec<Probe> = indices.iter().map(|i| at[*i]).collect();
-            Ok(PlaceGroup { first: places[0], places: self.whole.at_places(&places)?, indices })
+            Ok(PlaceGroup {
+                first: places[0],
+                places: self.whole.at_places(&places)?,
+                indices,
+            })
         };
-        let groups = self.groups(at).into_iter().map(prepared).collect::<Result<_, Error>>()?;
+        let groups = self
+            .groups(at)
+            .into_iter()
+            .map(prepared)
+            .collect::<Result<_, Error>>()?;
         Ok(Box::new(UncoupledPlaces { of: self, groups }))
     }
 

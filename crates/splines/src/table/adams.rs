@@ -50,7 +50,11 @@ impl Weighted {
     #[inline]
     fn new(points: &[f64], x: f64) -> Weighted {
         let interval = Interval::find(points, x);
-        Weighted { interval, weights: interval.weights(), slope_weights: interval.slope_weights() }
+        Weighted {
+            interval,
+            weights: interval.weights(),
+            slope_weights: interval.slope_weights(),
+        }
     }
 }
 
@@ -69,10 +73,16 @@ impl Families {
         for i in 0..stations.len() {
             for j in 0..stations.len() {
                 // The opposite of a coupling that was met before already has its family.
-                let Some(index) = pairs[i][j].filter(|_| i == j || pairs[j][i].is_none()) else { continue };
+                let Some(index) = pairs[i][j].filter(|_| i == j || pairs[j][i].is_none()) else {
+                    continue;
+                };
                 let table = &blocks[index].table;
                 pairs[i][j] = Some(families.len());
-                families.push(Family::new(table, [&stations[i], &stations[j]], interpolant)?);
+                families.push(Family::new(
+                    table,
+                    [&stations[i], &stations[j]],
+                    interpolant,
+                )?);
                 if i != j {
                     pairs[j][i] = Some(families.len());
                     families.push(Family::new(
@@ -83,7 +93,12 @@ impl Families {
                 }
             }
         }
-        Ok(Families { pairs, families, stations, symmetrised })
+        Ok(Families {
+            pairs,
+            families,
+            stations,
+            symmetrised,
+        })
     }
 
     pub fn is_symmetric(&self) -> bool {
@@ -120,15 +135,25 @@ impl Families {
                     }
                     continue;
                 };
-                let along = family.x.as_ref().map_or(places[j], |points| Weighted::new(points, q.x));
-                let across =
-                    family.z.as_ref().map_or(places[i].interval, |points| Interval::find(points, p.x));
-                let (own, rise) =
-                    family.value_and_slope(&self.stations[p.rail], &along.interval, &along.weights, &across);
+                let along = family
+                    .x
+                    .as_ref()
+                    .map_or(places[j], |points| Weighted::new(points, q.x));
+                let across = family
+                    .z
+                    .as_ref()
+                    .map_or(places[i].interval, |points| Interval::find(points, p.x));
+                let (own, rise) = family.value_and_slope(
+                    &self.stations[p.rail],
+                    &along.interval,
+                    &along.weights,
+                    &across,
+                );
                 value[i + n * j] = own;
                 if self.symmetrised {
                     slope[i + n * j] += 0.5 * rise;
-                    slope[j + n * i] += 0.5 * family.value(&along.interval, &along.slope_weights, &across);
+                    slope[j + n * i] +=
+                        0.5 * family.value(&along.interval, &along.slope_weights, &across);
                 } else {
                     slope[i + n * j] = rise;
                 }
@@ -147,7 +172,11 @@ impl Families {
     /// As [`crate::Differentiable::partials`].
     pub fn jet(&self, p: Probe, q: Probe) -> Partials {
         let there = self.as_tabulated(p, q);
-        if self.symmetrised { there.mean(self.as_tabulated(q, p).swapped()) } else { there }
+        if self.symmetrised {
+            there.mean(self.as_tabulated(q, p).swapped())
+        } else {
+            there
+        }
     }
 
     /// Derivatives of the table itself, without taking the mean.
@@ -156,22 +185,37 @@ impl Families {
             return Partials::default();
         };
         let (x, z) = (family.x.as_ref(), family.z.as_ref());
-        let (x, z) = (x.unwrap_or(&self.stations[q.rail]), z.unwrap_or(&self.stations[p.rail]));
+        let (x, z) = (
+            x.unwrap_or(&self.stations[q.rail]),
+            z.unwrap_or(&self.stations[p.rail]),
+        );
         let (along, across) = (Interval::find(x, q.x), Interval::find(z, p.x));
         let (value, by_p) = family.value_and_slope(z, &along, &along.weights(), &across);
         let (by_q, by_both) = family.value_and_slope(z, &along, &along.slope_weights(), &across);
         let mut curvature = family.value(&along, &along.curvature_weights(), &across);
         // Akima's curvature jumps at a station: the mean of both sides.
         if let Some(before) = along.before(x) {
-            curvature = 0.5 * (curvature + family.value(&before, &before.curvature_weights(), &across));
+            curvature =
+                0.5 * (curvature + family.value(&before, &before.curvature_weights(), &across));
         }
-        Partials { value, p: by_p, q: by_q, pp: 0.0, pq: by_both, qq: curvature }
+        Partials {
+            value,
+            p: by_p,
+            q: by_q,
+            pp: 0.0,
+            pq: by_both,
+            qq: curvature,
+        }
     }
 }
 
 impl Family {
     /// `own`: stations of the own tables of the deflection and of the load.
-    fn new(table: &SplineTable, own: [&Vec<f64>; 2], interpolant: Interpolant) -> Result<Family, Error> {
+    fn new(
+        table: &SplineTable,
+        own: [&Vec<f64>; 2],
+        interpolant: Interpolant,
+    ) -> Result<Family, Error> {
         let mut nodes = Vec::with_capacity(2 * table.values().len());
         for row in table.values().row_iter() {
             let y: Vec<f64> = row.iter().copied().collect();
@@ -180,28 +224,44 @@ impl Family {
         }
         let other = |points: &[f64], own: &[f64]| (points != own).then(|| points.to_vec());
         let (x, z) = (other(table.x(), own[1]), other(table.z(), own[0]));
-        Ok(Family { x, z, nodes, stride: 2 * table.x().len() })
+        Ok(Family {
+            x,
+            z,
+            nodes,
+            stride: 2 * table.x().len(),
+        })
     }
 
     /// Curve number `row` in the interval `along`, with the Hermite weights `w` of value, slope or curvature.
     #[inline]
     fn curve(&self, row: usize, along: &Interval, w: &[f64; 4]) -> f64 {
         let first = row * self.stride + 2 * along.k;
-        let nodes = self.nodes[first..first + 4].first_chunk().expect("four nodes");
+        let nodes = self.nodes[first..first + 4]
+            .first_chunk()
+            .expect("four nodes");
         dot4(w, nodes)
     }
 
     /// Linear interpolation along z between two curves.
     #[inline]
     fn value(&self, along: &Interval, w: &[f64; 4], across: &Interval) -> f64 {
-        let (low, high) = (self.curve(across.k, along, w), self.curve(across.k + 1, along, w));
+        let (low, high) = (
+            self.curve(across.k, along, w),
+            self.curve(across.k + 1, along, w),
+        );
         (1.0 - across.s) * low + across.s * high
     }
 
     /// The same, and its derivative along z, which at a station is the mean of both sides. `own`: stations of
     /// the deflection's own table.
     #[inline]
-    fn value_and_slope(&self, own: &[f64], along: &Interval, w: &[f64; 4], across: &Interval) -> (f64, f64) {
+    fn value_and_slope(
+        &self,
+        own: &[f64],
+        along: &Interval,
+        w: &[f64; 4],
+        across: &Interval,
+    ) -> (f64, f64) {
         let Interval { k, s, h } = *across;
         let (low, high) = (self.curve(k, along, w), self.curve(k + 1, along, w));
         let mut slope = (high - low) / h;

@@ -96,16 +96,28 @@ pub fn fit_beam(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
         if (clamped[0] && !ends[0]) || (clamped[1] && !ends[1]) {
             continue;
         }
-        let Some(fit) = Fit::new(x, &values, &moving, clamped) else { continue };
-        if best.as_ref().is_none_or(|best| fit.misfit < CLAMPED * best.misfit && best.misfit > ROUNDING) {
+        let Some(fit) = Fit::new(x, &values, &moving, clamped) else {
+            continue;
+        };
+        if best
+            .as_ref()
+            .is_none_or(|best| fit.misfit < CLAMPED * best.misfit && best.misfit > ROUNDING)
+        {
             best = Some(fit);
         }
     }
-    let Fit { clamped, bending, misfit } = best.ok_or(Error::NoBeamFit)?;
+    let Fit {
+        clamped,
+        bending,
+        misfit,
+    } = best.ok_or(Error::NoBeamFit)?;
     let b = values_and_slopes(x, clamped);
     let turns = |i: &usize| !(*i == 0 && clamped[0] || *i == n - 1 && clamped[1]);
     let rotations: Vec<usize> = (0..n).filter(turns).map(|i| 2 * i + 1).collect();
-    let pinned = stiffness(x).select_rows(&rotations).select_columns(&rotations).cholesky();
+    let pinned = stiffness(x)
+        .select_rows(&rotations)
+        .select_columns(&rotations)
+        .cholesky();
     let pinned = bending * pinned.ok_or(Error::NoBeamFit)?.inverse();
     let mut compliance = &b * &values * b.transpose();
     for (i, &row) in rotations.iter().enumerate() {
@@ -115,12 +127,24 @@ pub fn fit_beam(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
     }
     let mut nodal = DMatrix::zeros(6 * n, 6 * n);
     scatter(&mut nodal, [0, 0], &compliance);
-    let flexibility = Flexibility { bending_z: bending, ..Flexibility::default() };
+    let flexibility = Flexibility {
+        bending_z: bending,
+        ..Flexibility::default()
+    };
     let rails = Rails::new(chain(rail, 0, x, flexibility))?;
     let surface = ExactSurface::new(Arc::new(rails), nodal)?;
     let columns = &b * &values;
-    let local = moving.iter().map(|&j| (x[j], jump(x, columns.column(j).as_slice(), j))).collect();
-    Ok(BeamFit { surface, bending, local, clamped, error: misfit })
+    let local = moving
+        .iter()
+        .map(|&j| (x[j], jump(x, columns.column(j).as_slice(), j)))
+        .collect();
+    Ok(BeamFit {
+        surface,
+        bending,
+        local,
+        clamped,
+        error: misfit,
+    })
 }
 
 /// A beam with given ends, and how well it fits.
@@ -138,12 +162,18 @@ impl Fit {
             return None;
         }
         let b = values_and_slopes(x, clamped);
-        let reduced = (b.transpose() * stiffness(x) * &b).select_rows(moving).select_columns(moving);
+        let reduced = (b.transpose() * stiffness(x) * &b)
+            .select_rows(moving)
+            .select_columns(moving);
         let given = values.select_rows(moving).select_columns(moving);
         let unit = reduced.cholesky()?.inverse();
         let bending = given.dot(&unit) / unit.dot(&unit);
         let misfit = (&given - bending * &unit).amax() / given.amax();
-        (bending > 0.0 && bending.is_finite()).then_some(Fit { clamped, bending, misfit })
+        (bending > 0.0 && bending.is_finite()).then_some(Fit {
+            clamped,
+            bending,
+            misfit,
+        })
     }
 }
 

@@ -52,19 +52,29 @@ impl Directions {
         if blocks.is_empty() {
             return Err(Error::NoBlocks);
         }
-        let mut names: Vec<(usize, Axis)> =
-            blocks.iter().filter(|s| s.deflection == s.load).map(|s| s.load).collect();
+        let mut names: Vec<(usize, Axis)> = blocks
+            .iter()
+            .filter(|s| s.deflection == s.load)
+            .map(|s| s.load)
+            .collect();
         names.sort_unstable();
         names.dedup();
         let mut pairs = vec![vec![None; names.len()]; names.len()];
         for (index, sheet) in blocks.iter().enumerate() {
-            let number = |name| names.binary_search(&name).map_err(|_| Error::BlockAlone { sheet: index });
+            let number = |name| {
+                names
+                    .binary_search(&name)
+                    .map_err(|_| Error::BlockAlone { sheet: index })
+            };
             let (i, j) = (number(sheet.deflection)?, number(sheet.load)?);
             if pairs[i][j].is_some() || pairs[j][i].is_some() {
                 return Err(Error::BlockTwice { sheet: index });
             }
             if sheet.table.z().len() < 2 {
-                return Err(Error::TooFewPoints { found: sheet.table.z().len(), least: 2 });
+                return Err(Error::TooFewPoints {
+                    found: sheet.table.z().len(),
+                    least: 2,
+                });
             }
             pairs[i][j] = Some(index);
         }
@@ -81,7 +91,14 @@ impl Directions {
                 }
             }
         }
-        Ok((Directions { names, ranges, stations }, pairs))
+        Ok((
+            Directions {
+                names,
+                ranges,
+                stations,
+            },
+            pairs,
+        ))
     }
 
     /// Number of the direction of a probe.
@@ -92,18 +109,33 @@ impl Directions {
         let Ok(direction) = self.names.binary_search(&(p.rail, p.axis)) else {
             let known = self.names.iter().any(|name| name.0 == p.rail);
             return Err(if known {
-                Error::NoStiffness { rail: p.rail, x: p.x, axis: p.axis }
+                Error::NoStiffness {
+                    rail: p.rail,
+                    x: p.x,
+                    axis: p.axis,
+                }
             } else {
                 Error::NoRail { rail: p.rail }
             });
         };
         let [first, last] = self.ranges[direction];
-        if p.x >= first && p.x <= last { Ok(direction) } else { Err(Error::OffRail { rail: p.rail, x: p.x }) }
+        if p.x >= first && p.x <= last {
+            Ok(direction)
+        } else {
+            Err(Error::OffRail {
+                rail: p.rail,
+                x: p.x,
+            })
+        }
     }
 
     /// All stations of a rail, increasing, each once.
     pub fn breaks(&self, rail: usize) -> Vec<f64> {
-        let mut out: Vec<f64> = self.of_rail(rail, &self.stations).flatten().copied().collect();
+        let mut out: Vec<f64> = self
+            .of_rail(rail, &self.stations)
+            .flatten()
+            .copied()
+            .collect();
         out.sort_by(f64::total_cmp);
         out.dedup();
         out
@@ -111,11 +143,17 @@ impl Directions {
 
     /// First and last coordinate at which every direction of a rail is tabulated.
     pub fn range(&self, rail: usize) -> Option<[f64; 2]> {
-        self.of_rail(rail, &self.ranges).copied().reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
+        self.of_rail(rail, &self.ranges)
+            .copied()
+            .reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
     }
 
     fn of_rail<'a, T>(&'a self, rail: usize, all: &'a [T]) -> impl Iterator<Item = &'a T> {
-        self.names.iter().zip(all).filter(move |(name, _)| name.0 == rail).map(|(_, item)| item)
+        self.names
+            .iter()
+            .zip(all)
+            .filter(move |(name, _)| name.0 == rail)
+            .map(|(_, item)| item)
     }
 }
 

@@ -73,7 +73,9 @@ impl TableFactor {
     /// eigenvalues dropped.
     #[must_use]
     pub fn error_bound(&self) -> f64 {
-        self.dropped.iter().fold(0.0, |largest, value| value.abs().max(largest))
+        self.dropped
+            .iter()
+            .fold(0.0, |largest, value| value.abs().max(largest))
     }
 }
 
@@ -160,7 +162,10 @@ impl FactoredTable {
         if all.is_empty() {
             return Err(Error::NoBlocks);
         }
-        if let Some(k) = all.windows(2).position(|pair| pair[0].1.direction == pair[1].1.direction) {
+        if let Some(k) = all
+            .windows(2)
+            .position(|pair| pair[0].1.direction == pair[1].1.direction)
+        {
             return Err(Error::BlockTwice { sheet: k + 1 });
         }
         let mut splines = Vec::new();
@@ -170,11 +175,22 @@ impl FactoredTable {
         let ends = |x: &[f64]| [x[0], x[x.len() - 1]];
         let directions = Directions {
             names: all.iter().map(|(_, curves)| curves.direction).collect(),
-            ranges: all.iter().map(|(_, curves)| ends(&curves.stations)).collect(),
-            stations: all.iter().map(|(_, curves)| curves.stations.clone()).collect(),
+            ranges: all
+                .iter()
+                .map(|(_, curves)| ends(&curves.stations))
+                .collect(),
+            stations: all
+                .iter()
+                .map(|(_, curves)| curves.stations.clone())
+                .collect(),
         };
         let owner = all.iter().map(|(index, _)| *index).collect();
-        Ok(FactoredTable { directions, factors, owner, splines })
+        Ok(FactoredTable {
+            directions,
+            factors,
+            owner,
+            splines,
+        })
     }
 
     /// One factor for each set of coupled directions.
@@ -230,12 +246,19 @@ impl FactorSplines {
     fn new(curves: &FactorCurves, rank: usize) -> Result<FactorSplines, Error> {
         let x = &curves.stations;
         if x.len() < SplineTable::FEWEST_X {
-            return Err(Error::TooFewPoints { found: x.len(), least: SplineTable::FEWEST_X });
+            return Err(Error::TooFewPoints {
+                found: x.len(),
+                least: SplineTable::FEWEST_X,
+            });
         }
         check_increasing(x)?;
         let (rows, columns) = curves.values.shape();
         if [rows, columns] != [x.len(), rank] {
-            return Err(Error::TableShape { rows, columns, expected: [x.len(), rank] });
+            return Err(Error::TableShape {
+                rows,
+                columns,
+                expected: [x.len(), rank],
+            });
         }
         let mut nodes = vec![0.0; 2 * rows * rank];
         for (k, column) in curves.values.column_iter().enumerate() {
@@ -246,13 +269,20 @@ impl FactorSplines {
                 nodes[(2 * i + 1) * rank + k] = *t;
             }
         }
-        Ok(FactorSplines { stations: x.clone(), nodes, rank })
+        Ok(FactorSplines {
+            stations: x.clone(),
+            nodes,
+            rank,
+        })
     }
 
     /// Curve k with the Hermite weights `w` of value, slope or curvature.
     #[inline]
     fn one(&self, at: &Interval, w: &[f64; 4], k: usize) -> f64 {
-        dot4(w, &std::array::from_fn(|i| self.nodes[(2 * at.k + i) * self.rank + k]))
+        dot4(
+            w,
+            &std::array::from_fn(|i| self.nodes[(2 * at.k + i) * self.rank + k]),
+        )
     }
 
     /// The same for all curves, into `out`.
@@ -275,11 +305,21 @@ fn coupled_sets(pairs: &Pairs) -> Vec<Vec<usize>> {
     for (i, row) in pairs.iter().enumerate() {
         for j in (0..row.len()).filter(|&j| row[j].is_some()) {
             let (keep, drop) = (label[i].min(label[j]), label[i].max(label[j]));
-            label.iter_mut().filter(|of| **of == drop).for_each(|of| *of = keep);
+            label
+                .iter_mut()
+                .filter(|of| **of == drop)
+                .for_each(|of| *of = keep);
         }
     }
-    let of = |set: usize| (0..label.len()).filter(|&i| label[i] == set).collect::<Vec<_>>();
-    (0..label.len()).map(of).filter(|set| !set.is_empty()).collect()
+    let of = |set: usize| {
+        (0..label.len())
+            .filter(|&i| label[i] == set)
+            .collect::<Vec<_>>()
+    };
+    (0..label.len())
+        .map(of)
+        .filter(|set| !set.is_empty())
+        .collect()
 }
 
 /// The table of all stations of a set of coupled directions, and the index of each direction's first station
@@ -299,9 +339,13 @@ fn coupled_table(
     let mut table = DMatrix::zeros(size, size);
     for (a, &i) in set.iter().enumerate() {
         for (b, &j) in set.iter().enumerate() {
-            let Some(values) = pairs[i][j].map(|index| blocks[index].table.values()) else { continue };
+            let Some(values) = pairs[i][j].map(|index| blocks[index].table.values()) else {
+                continue;
+            };
             let mut put = |first: [usize; 2], block: &DMatrix<f64>| {
-                table.view_mut((first[0], first[1]), block.shape()).copy_from(block);
+                table
+                    .view_mut((first[0], first[1]), block.shape())
+                    .copy_from(block);
             };
             if a == b {
                 put([first[a], first[a]], &(0.5 * (values + values.transpose())));
@@ -335,26 +379,41 @@ fn decompose(
     let count = match rank {
         Rank::Full => positive,
         Rank::Count(count) => positive.min(count),
-        Rank::Tolerance(tolerance) => {
-            values[..positive].iter().take_while(|&&value| value > tolerance * largest).count()
-        }
+        Rank::Tolerance(tolerance) => values[..positive]
+            .iter()
+            .take_while(|&&value| value > tolerance * largest)
+            .count(),
     };
     let curve = |k: usize| {
         let column = eigen.eigenvectors.column(order[k]);
         // The sign of an eigenvector is arbitrary: the first entry of about the largest size is made
         // positive.
-        let peak = column.iter().find(|entry| entry.abs() > 0.999 * column.amax());
-        let sign = if peak.is_some_and(|entry| *entry < 0.0) { -1.0 } else { 1.0 };
+        let peak = column
+            .iter()
+            .find(|entry| entry.abs() > 0.999 * column.amax());
+        let sign = if peak.is_some_and(|entry| *entry < 0.0) {
+            -1.0
+        } else {
+            1.0
+        };
         column * (sign * values[k].sqrt())
     };
     let columns: Vec<_> = (0..count).map(curve).collect();
     let one = |(&direction, &first): (&usize, &usize)| {
         let stations = stations[direction].to_vec();
         let values = DMatrix::from_fn(stations.len(), count, |i, k| columns[k][first + i]);
-        FactorCurves { direction: directions.names[direction], stations, values }
+        FactorCurves {
+            direction: directions.names[direction],
+            stations,
+            values,
+        }
     };
     let curves = set.iter().zip(&first).map(one).collect();
-    TableFactor { curves, kept: values[..count].to_vec(), dropped: values[count..].to_vec() }
+    TableFactor {
+        curves,
+        kept: values[..count].to_vec(),
+        dropped: values[count..].to_vec(),
+    }
 }
 
 impl Compliance for FactoredTable {
@@ -362,11 +421,20 @@ impl Compliance for FactoredTable {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
-        let width = self.factors.iter().map(TableFactor::rank).max().unwrap_or(0);
+        let width = self
+            .factors
+            .iter()
+            .map(TableFactor::rank)
+            .max()
+            .unwrap_or(0);
         let size = 2 * n * width;
         match size {
-            0..=32 if n <= 4 => self.assemble(at, width, &mut [0.0; 32][..size], &mut [0; 4][..n], out),
-            0..=256 if n <= 16 => self.assemble(at, width, &mut [0.0; 256][..size], &mut [0; 16][..n], out),
+            0..=32 if n <= 4 => {
+                self.assemble(at, width, &mut [0.0; 32][..size], &mut [0; 4][..n], out)
+            }
+            0..=256 if n <= 16 => {
+                self.assemble(at, width, &mut [0.0; 256][..size], &mut [0; 16][..n], out)
+            }
             _ => self.assemble(at, width, &mut vec![0.0; size], &mut vec![0; n], out),
         }
     }
@@ -393,7 +461,10 @@ impl Differentiable for FactoredTable {
         }
         let three = |direction: usize, x| {
             let at = Interval::find(&self.splines[direction].stations, x);
-            (at, [at.weights(), at.slope_weights(), at.curvature_weights()])
+            (
+                at,
+                [at.weights(), at.slope_weights(), at.curvature_weights()],
+            )
         };
         let ((at, own), (to, load)) = (three(a, p.x), three(b, q.x));
         let mut out = Partials::default();

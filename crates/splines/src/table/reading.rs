@@ -81,11 +81,21 @@ impl TableReading {
         let (directions, pairs) = Directions::new(blocks)?;
         let tables = match kind {
             ReadingMethod::Natural => Prepared::Tensor(tensor(&pairs, blocks)?),
-            ReadingMethod::Akispl => Prepared::Families(Families::new(pairs, blocks, akima, false)?),
-            ReadingMethod::Symmetrised => Prepared::Families(Families::new(pairs, blocks, akima, true)?),
-            ReadingMethod::Cubspl => Prepared::Families(Families::new(pairs, blocks, natural_spline, false)?),
+            ReadingMethod::Akispl => {
+                Prepared::Families(Families::new(pairs, blocks, akima, false)?)
+            }
+            ReadingMethod::Symmetrised => {
+                Prepared::Families(Families::new(pairs, blocks, akima, true)?)
+            }
+            ReadingMethod::Cubspl => {
+                Prepared::Families(Families::new(pairs, blocks, natural_spline, false)?)
+            }
         };
-        Ok(TableReading { kind, directions, tables })
+        Ok(TableReading {
+            kind,
+            directions,
+            tables,
+        })
     }
 
     /// The method of reading.
@@ -97,7 +107,11 @@ impl TableReading {
     /// The probe with the number of its direction in place of the rail.
     #[inline]
     fn numbered(&self, p: Probe) -> Result<Probe, Error> {
-        Ok(Probe { rail: self.directions.find(p)?, x: p.x, axis: Axis::Vertical })
+        Ok(Probe {
+            rail: self.directions.find(p)?,
+            x: p.x,
+            axis: Axis::Vertical,
+        })
     }
 }
 
@@ -106,7 +120,11 @@ impl Compliance for TableReading {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         out.expect(at.len())?;
         // Few probes are kept on the stack.
-        let mut few = [Probe { rail: 0, x: 0.0, axis: Axis::Vertical }; 16];
+        let mut few = [Probe {
+            rail: 0,
+            x: 0.0,
+            axis: Axis::Vertical,
+        }; 16];
         let mut many = Vec::new();
         let numbered = if at.len() <= few.len() {
             &mut few[..at.len()]

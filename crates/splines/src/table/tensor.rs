@@ -32,7 +32,11 @@ pub(super) fn tensor(pairs: &Pairs, blocks: &[InfluenceBlock]) -> Result<ExactSu
             let Some(index) = *index else { continue };
             let [left, right] = [i, j].map(|k| values_and_slopes(own[k], [false; 2]));
             let block = left * blocks[index].table.values() * right.transpose();
-            let block = if i == j { 0.5 * (&block + block.transpose()) } else { block };
+            let block = if i == j {
+                0.5 * (&block + block.transpose())
+            } else {
+                block
+            };
             scatter(&mut nodal, [first[i], first[j]], &block);
             if i != j {
                 scatter(&mut nodal, [first[j], first[i]], &block.transpose());
@@ -43,7 +47,12 @@ pub(super) fn tensor(pairs: &Pairs, blocks: &[InfluenceBlock]) -> Result<ExactSu
 }
 
 /// Elements from station to station, their node states numbered from `first`.
-pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibility) -> Vec<RailElement> {
+pub(super) fn chain(
+    rail: usize,
+    first: usize,
+    x: &[f64],
+    flexibility: Flexibility,
+) -> Vec<RailElement> {
     let cell = |(k, pair): (usize, &[f64])| RailElement {
         rail,
         x: [pair[0], pair[1]],
@@ -60,7 +69,8 @@ pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibili
 /// Copies a block whose rows and columns are (v, theta_z) of successive node states, the first of which are
 /// `first`, to the degrees of freedom of these states.
 pub(super) fn scatter(nodal: &mut DMatrix<f64>, first: [usize; 2], block: &DMatrix<f64>) {
-    let dof = |first: usize, k: usize| 6 * (first + k / 2) + if k.is_multiple_of(2) { 1 } else { 5 };
+    let dof =
+        |first: usize, k: usize| 6 * (first + k / 2) + if k.is_multiple_of(2) { 1 } else { 5 };
     for i in 0..block.nrows() {
         for j in 0..block.ncols() {
             nodal[(dof(first[0], i), dof(first[1], j))] = block[(i, j)];

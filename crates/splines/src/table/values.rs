@@ -54,13 +54,20 @@ impl SplineTable {
 
     fn checked(x: Vec<f64>, z: Vec<f64>, values: DMatrix<f64>) -> Result<SplineTable, Error> {
         if x.len() < SplineTable::FEWEST_X {
-            return Err(Error::TooFewPoints { found: x.len(), least: SplineTable::FEWEST_X });
+            return Err(Error::TooFewPoints {
+                found: x.len(),
+                least: SplineTable::FEWEST_X,
+            });
         }
         check_increasing(&x)?;
         let expected = [z.len().max(1), x.len()];
         let (rows, columns) = values.shape();
         if [rows, columns] != expected {
-            return Err(Error::TableShape { rows, columns, expected });
+            return Err(Error::TableShape {
+                rows,
+                columns,
+                expected,
+            });
         }
         for row in 0..rows {
             for column in 0..columns {

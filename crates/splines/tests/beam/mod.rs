@@ -13,8 +13,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use splines::{
-    Axis, ExactSurface, Flexibility, InfluenceBlock, Probe, RailElement, Rails, ReadingMethod, SplineTable,
-    TableReading,
+    Axis, ExactSurface, Flexibility, InfluenceBlock, Probe, RailElement, Rails, ReadingMethod,
+    SplineTable, TableReading,
 };
 
 /// EI of the paper's girder, lb ft^2.
@@ -36,14 +36,20 @@ pub enum Effect {
 
 impl Beam {
     pub fn paper() -> Beam {
-        Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 60.0] }
+        Beam {
+            c: 1.0 / EI,
+            g: 0.0,
+            supports: vec![0.0, 60.0],
+        }
     }
 
     /// Field of the infinite beam at x under a unit load at z, up to a rigid motion.
     fn free(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let r = x - z;
         match (at, load) {
-            (Effect::Force, Effect::Force) => self.c * r.abs().powi(3) / 12.0 - 0.5 * self.g * r.abs(),
+            (Effect::Force, Effect::Force) => {
+                self.c * r.abs().powi(3) / 12.0 - 0.5 * self.g * r.abs()
+            }
             (Effect::Moment, Effect::Force) => self.c * r * r.abs() / 4.0,
             (Effect::Force, Effect::Moment) => -self.c * r * r.abs() / 4.0,
             (Effect::Moment, Effect::Moment) => -self.c * r.abs() / 2.0,
@@ -67,9 +73,17 @@ impl Beam {
             matrix[(n + 1, i)] = s;
             right[i] = -self.free(Effect::Force, s, load, z) * EI;
         }
-        (right[n], right[n + 1]) = if load == Effect::Force { (-1.0, -z) } else { (0.0, -1.0) };
+        (right[n], right[n + 1]) = if load == Effect::Force {
+            (-1.0, -z)
+        } else {
+            (0.0, -1.0)
+        };
         let solved = matrix.lu().solve(&right).expect("two supports hold a beam");
-        let rigid = if at == Effect::Force { solved[n] + solved[n + 1] * x } else { solved[n + 1] };
+        let rigid = if at == Effect::Force {
+            solved[n] + solved[n + 1] * x
+        } else {
+            solved[n + 1]
+        };
         let mut sum = self.free(at, x, load, z) + rigid / EI;
         for (i, &s) in self.supports.iter().enumerate() {
             sum += solved[i] * self.free(at, x, Effect::Force, s);
@@ -95,7 +109,11 @@ impl Beam {
                 }
             }
         }
-        let flexibility = Flexibility { bending_z: self.c, shear_y: self.g, ..Flexibility::default() };
+        let flexibility = Flexibility {
+            bending_z: self.c,
+            shear_y: self.g,
+            ..Flexibility::default()
+        };
         let cells = chain(stations, [0.0; 3], flexibility);
         ExactSurface::new(Arc::new(Rails::new(cells).expect("valid cells")), nodal).expect("fits")
     }
@@ -151,7 +169,15 @@ pub fn tabulate(beam: &Beam, stations: &[f64]) -> SplineTable {
 /// A reading of one vertical table on rail 0.
 pub fn read(kind: ReadingMethod, table: SplineTable) -> TableReading {
     let way = (0, Axis::Vertical);
-    TableReading::new(kind, &[InfluenceBlock { deflection: way, load: way, table }]).expect("one table")
+    TableReading::new(
+        kind,
+        &[InfluenceBlock {
+            deflection: way,
+            load: way,
+            table,
+        }],
+    )
+    .expect("one table")
 }
 
 /// A rolled and inclined girder with its rail outside both planes, on node states of equal compliance in all

@@ -17,7 +17,10 @@ pub fn seconds() -> f64 {
 #[must_use]
 pub fn seconds() -> f64 {
     static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
-    START.get_or_init(std::time::Instant::now).elapsed().as_secs_f64()
+    START
+        .get_or_init(std::time::Instant::now)
+        .elapsed()
+        .as_secs_f64()
 }
 
 /// Runs `job` with a callback that stops it once this thread has worked for `limit` seconds.
@@ -33,6 +36,10 @@ pub fn limited<T>(limit: f64, job: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlo
         }
         let left = limit - (seconds() - start);
         due = passed + left;
-        if left < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if left < 0.0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })
 }

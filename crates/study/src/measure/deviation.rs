@@ -21,18 +21,30 @@ impl ComparedColumns {
     /// Removes moments that are rounding: those below [`NEGLIGIBLE`] times the largest wheel force and the `length`
     /// of the longest rail.
     pub(crate) fn prune(&mut self, length: f64) {
-        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let forces = self.columns.iter().filter(|(_, group, _)| *group == ErrorGroup::WheelForce);
-        let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
+        let largest = |values: &[f64]| {
+            values
+                .iter()
+                .fold(0.0_f64, |most, value| most.max(value.abs()))
+        };
+        let forces = self
+            .columns
+            .iter()
+            .filter(|(_, group, _)| *group == ErrorGroup::WheelForce);
+        let force = forces
+            .map(|(.., values)| largest(values))
+            .fold(0.0, f64::max);
         let least = NEGLIGIBLE * force * length;
-        self.columns.retain(|(_, group, values)| *group != ErrorGroup::Moment || largest(values) > least);
+        self.columns
+            .retain(|(_, group, values)| *group != ErrorGroup::Moment || largest(values) > least);
     }
 
     /// Removes all output times after `time`, s.
     pub(crate) fn cut(&mut self, time: f64) {
         let count = self.time.iter().take_while(|own| **own <= time).count();
         self.time.truncate(count);
-        self.columns.iter_mut().for_each(|(.., values)| values.truncate(count));
+        self.columns
+            .iter_mut()
+            .for_each(|(.., values)| values.truncate(count));
     }
 }
 
@@ -59,8 +71,15 @@ impl Deviation {
 /// The measure of a study of `scene`: values at equal times where a structure asks for them, and otherwise extremes.
 #[must_use]
 pub fn study_measure(scene: &Scene) -> Measure {
-    let is_history = scene.structures.iter().any(|structure| structure.measure == Measure::History);
-    if is_history { Measure::History } else { Measure::Extremes }
+    let is_history = scene
+        .structures
+        .iter()
+        .any(|structure| structure.measure == Measure::History);
+    if is_history {
+        Measure::History
+    } else {
+        Measure::Extremes
+    }
 }
 
 /// Errors of `run` against `reference` in each group, in the order of [`ErrorGroup::ALL`]; `None` where the reference
@@ -80,7 +99,9 @@ pub fn deviations(
 /// Number of output times that both runs have in common, from the first on.
 fn common(run: &ComparedColumns, reference: &ComparedColumns) -> usize {
     let pairs = run.time.iter().zip(&reference.time);
-    pairs.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9)).count()
+    pairs
+        .take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9))
+        .count()
 }
 
 /// The last output time until which the largest error of `run` in each of `groups` is at most `wanted`, as
@@ -102,7 +123,12 @@ pub fn horizon(
     }
     let mut worst = vec![[0.0_f64; 2]; groups.len()];
     let mut last = None;
-    for (k, time) in reference.time.iter().enumerate().take(common(run, reference)) {
+    for (k, time) in reference
+        .time
+        .iter()
+        .enumerate()
+        .take(common(run, reference))
+    {
         for (at, found, values) in &pairs {
             let [error, scale] = &mut worst[*at];
             *error = error.max((found[k] - values[k]).abs());
@@ -124,20 +150,33 @@ fn of(
 ) -> Option<Deviation> {
     let mut scale = 0.0_f64;
     let mut worst = Deviation::default();
-    for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == of_group) {
+    for (name, _, wanted) in reference
+        .columns
+        .iter()
+        .filter(|(_, group, _)| *group == of_group)
+    {
         let (_, _, found) = run.columns.iter().find(|(own, ..)| own == name)?;
-        scale = wanted.iter().fold(scale, |most, value| most.max(value.abs()));
+        scale = wanted
+            .iter()
+            .fold(scale, |most, value| most.max(value.abs()));
         for (a, b) in found.iter().zip(wanted).take(common) {
             worst.largest = worst.largest.max((a - b).abs());
         }
         for sign in [1.0, -1.0] {
-            let most = |values: &[f64]| values.iter().fold(f64::MIN, |most, value| most.max(sign * value));
+            let most = |values: &[f64]| {
+                values
+                    .iter()
+                    .fold(f64::MIN, |most, value| most.max(sign * value))
+            };
             worst.peak = worst.peak.max((most(found) - most(wanted)).abs());
         }
     }
     let relative = |value: f64| value / scale;
     let is_known = common > 0 && scale > 0.0 && worst.largest.is_finite() && worst.peak.is_finite();
-    is_known.then(|| Deviation { largest: relative(worst.largest), peak: relative(worst.peak) })
+    is_known.then(|| Deviation {
+        largest: relative(worst.largest),
+        peak: relative(worst.peak),
+    })
 }
 
 #[cfg(test)]
@@ -148,8 +187,16 @@ mod tests {
         ComparedColumns {
             time: (0..deflection.len()).map(|i| 0.1 * i as f64).collect(),
             columns: vec![
-                ("body.deflection".into(), ErrorGroup::Deflection, deflection.to_vec()),
-                ("wheel.vertical".into(), ErrorGroup::WheelForce, force.to_vec()),
+                (
+                    "body.deflection".into(),
+                    ErrorGroup::Deflection,
+                    deflection.to_vec(),
+                ),
+                (
+                    "wheel.vertical".into(),
+                    ErrorGroup::WheelForce,
+                    force.to_vec(),
+                ),
             ],
         }
     }
@@ -160,8 +207,16 @@ mod tests {
         let run = trace(&[0.1, 2.0, -4.2], &[10.0, 9.0, 10.0]);
         let [deflection, force, lateral, reaction, _] = deviations(&run, &reference);
         let deflection = deflection.expect("a scale of 4");
-        assert!((deflection.largest - 0.05).abs() < 1e-15 && (deflection.peak - 0.05).abs() < 1e-15);
-        assert_eq!(force, Some(Deviation { largest: 0.1, peak: 0.1 }));
+        assert!(
+            (deflection.largest - 0.05).abs() < 1e-15 && (deflection.peak - 0.05).abs() < 1e-15
+        );
+        assert_eq!(
+            force,
+            Some(Deviation {
+                largest: 0.1,
+                peak: 0.1
+            })
+        );
         assert_eq!([lateral, reaction], [None, None]);
     }
 
@@ -171,10 +226,21 @@ mod tests {
         let run = trace(&[0.0, 2.0, -4.1, 3.0], &[10.0, 10.0, 10.0, 9.0]);
         let asked = [ErrorGroup::Deflection, ErrorGroup::WheelForce];
         let until = |wanted: f64| horizon(&run, &reference, &asked, wanted);
-        assert_eq!(until(0.2), Some(reference.time[3]), "0.1 of the forces are within");
-        assert_eq!(until(0.05), Some(reference.time[2]), "a fortieth of the deflection is");
+        assert_eq!(
+            until(0.2),
+            Some(reference.time[3]),
+            "0.1 of the forces are within"
+        );
+        assert_eq!(
+            until(0.05),
+            Some(reference.time[2]),
+            "a fortieth of the deflection is"
+        );
         assert_eq!(until(0.01), Some(reference.time[1]));
-        assert_eq!(horizon(&run, &reference, &asked[..1], 0.05), Some(reference.time[3]));
+        assert_eq!(
+            horizon(&run, &reference, &asked[..1], 0.05),
+            Some(reference.time[3])
+        );
         let mut cut = reference.clone();
         cut.cut(reference.time[2]);
         assert_eq!((cut.time.len(), cut.columns[1].2.len()), (3, 3));
@@ -189,6 +255,10 @@ mod tests {
         assert_eq!(deflection.map(|own| own.largest), Some(0.0));
         assert_eq!(force, None, "zeros have no scale");
         run.columns.remove(0);
-        assert_eq!(deviations(&run, &reference)[0], None, "a column that is missing is no agreement");
+        assert_eq!(
+            deviations(&run, &reference)[0],
+            None,
+            "a column that is missing is no agreement"
+        );
     }
 }

@@ -16,13 +16,20 @@
 #[must_use]
 pub fn on_front(points: &[[f64; 2]]) -> Vec<bool> {
     let dominates = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
-    points.iter().map(|point| !points.iter().any(|other| dominates(other, point))).collect()
+    points
+        .iter()
+        .map(|point| !points.iter().any(|other| dominates(other, point)))
+        .collect()
 }
 
 /// The Pareto front of `points` (cost, error), by ascending cost; equal points appear once.
 #[must_use]
 pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let kept = points.iter().zip(on_front(points)).filter(|(_, on)| *on).map(|(point, _)| *point);
+    let kept = points
+        .iter()
+        .zip(on_front(points))
+        .filter(|(_, on)| *on)
+        .map(|(point, _)| *point);
     let mut front: Vec<[f64; 2]> = kept.collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     front.dedup();
@@ -35,7 +42,11 @@ pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 pub fn cost_ratio(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
     let no_worse = points.iter().filter(|other| other[1] <= point[1]);
     let cheapest = no_worse.map(|other| other[0]).fold(point[0], f64::min);
-    if cheapest > 0.0 { point[0] / cheapest } else { 1.0 }
+    if cheapest > 0.0 {
+        point[0] / cheapest
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -44,23 +55,51 @@ mod tests {
 
     #[test]
     fn front_is_what_no_point_dominates() {
-        let points =
-            [[1.0, 1e-1], [2.0, 1e-2], [2.5, 5e-2], [3.0, 1e-2], [4.0, 1e-4], [9.0, 1e-3], [4.0, 1e-4]];
-        assert_eq!(on_front(&points), [true, true, false, false, true, false, true]);
+        let points = [
+            [1.0, 1e-1],
+            [2.0, 1e-2],
+            [2.5, 5e-2],
+            [3.0, 1e-2],
+            [4.0, 1e-4],
+            [9.0, 1e-3],
+            [4.0, 1e-4],
+        ];
+        assert_eq!(
+            on_front(&points),
+            [true, true, false, false, true, false, true]
+        );
         assert_eq!(front(&points), [[1.0, 1e-1], [2.0, 1e-2], [4.0, 1e-4]]);
     }
 
     #[test]
     fn errors_of_a_front_fall_as_its_costs_rise() {
         // a scattered cloud: multiples of two irrational numbers, modulo 1
-        let point = |i: i32| [f64::from(i) * 0.618_034 % 1.0, f64::from(i) * 0.414_214 % 1.0];
+        let point = |i: i32| {
+            [
+                f64::from(i) * 0.618_034 % 1.0,
+                f64::from(i) * 0.414_214 % 1.0,
+            ]
+        };
         let cloud: Vec<[f64; 2]> = (1..500).map(point).collect();
         let front = front(&cloud);
         assert!(front.len() > 2);
-        assert!(front.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]));
+        assert!(
+            front
+                .windows(2)
+                .all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1])
+        );
         for point in &cloud {
-            assert!(front.iter().any(|best| best[0] <= point[0] && best[1] <= point[1]), "{point:?}");
-            assert_eq!(cost_ratio(*point, &cloud) == 1.0, front.contains(point), "{point:?}");
+            assert!(
+                front
+                    .iter()
+                    .any(|best| best[0] <= point[0] && best[1] <= point[1]),
+                "{point:?}"
+            );
+            assert_eq!(
+                cost_ratio(*point, &cloud) == 1.0,
+                front.contains(point),
+                "{point:?}"
+            );
         }
     }
 

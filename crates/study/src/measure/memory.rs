@@ -44,7 +44,11 @@ pub fn count_allocations<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
 /// Runs `job` without counting.
 #[cfg(not(feature = "memory"))]
 pub fn count_allocations<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
-    AllocationCount { out: job(), retained: None, peak: None }
+    AllocationCount {
+        out: job(),
+        retained: None,
+        peak: None,
+    }
 }
 
 #[cfg(all(test, feature = "memory"))]
@@ -57,6 +61,9 @@ mod tests {
             drop(vec![0_u8; 5000]);
             vec![0_u8; 1000]
         });
-        assert_eq!((counted.out.len(), counted.retained, counted.peak), (1000, Some(1000), Some(5000)));
+        assert_eq!(
+            (counted.out.len(), counted.retained, counted.peak),
+            (1000, Some(1000), Some(5000))
+        );
     }
 }

@@ -58,7 +58,12 @@ impl ErrorGroup {
     /// The group of a column of a run of `scene`; `own`: whether the scene records the column itself, else it is a
     /// response of a structure. Shear forces inside structures belong to no group: they jump where a wheel passes.
     #[must_use]
-    pub fn of(column: &HistoryColumn, scene: &Scene, own: bool, is_reaction: bool) -> Option<ErrorGroup> {
+    pub fn of(
+        column: &HistoryColumn,
+        scene: &Scene,
+        own: bool,
+        is_reaction: bool,
+    ) -> Option<ErrorGroup> {
         let name = column.name.as_str();
         let ends = |part: &str| name.ends_with(part);
         if !own {
@@ -71,7 +76,10 @@ impl ErrorGroup {
         let is_gauge = || {
             let mut structures = scene.structures.iter();
             structures.any(|structure| {
-                structure.gauges.iter().any(|gauge| name == format!("{}.{}", structure.name, gauge.name))
+                structure
+                    .gauges
+                    .iter()
+                    .any(|gauge| name == format!("{}.{}", structure.name, gauge.name))
             })
         };
         match column.dimension {

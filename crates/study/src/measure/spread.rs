@@ -21,9 +21,17 @@ impl TimeSpread {
         sorted.sort_by(f64::total_cmp);
         let (least, most) = (*sorted.first()?, *sorted.last()?);
         let middle = sorted.len() / 2;
-        let median =
-            if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) };
-        Some(TimeSpread { median, min: least, max: most, count: sorted.len() })
+        let median = if sorted.len() % 2 == 1 {
+            sorted[middle]
+        } else {
+            0.5 * (sorted[middle - 1] + sorted[middle])
+        };
+        Some(TimeSpread {
+            median,
+            min: least,
+            max: most,
+            count: sorted.len(),
+        })
     }
 }
 
@@ -36,8 +44,16 @@ mod tests {
         assert_eq!(TimeSpread::of(&[]), None);
         assert_eq!(
             TimeSpread::of(&[3.0, 1.0, 10.0]),
-            Some(TimeSpread { median: 3.0, min: 1.0, max: 10.0, count: 3 })
+            Some(TimeSpread {
+                median: 3.0,
+                min: 1.0,
+                max: 10.0,
+                count: 3
+            })
         );
-        assert_eq!(TimeSpread::of(&[4.0, 1.0, 2.0, 9.0]).map(|spread| spread.median), Some(3.0));
+        assert_eq!(
+            TimeSpread::of(&[4.0, 1.0, 2.0, 9.0]).map(|spread| spread.median),
+            Some(3.0)
+        );
     }
 }

@@ -35,18 +35,35 @@ pub fn choose_foundations(
         Err(why) => return (Err(why), None),
     };
     if choices.is_empty() {
-        return (Err("the scene has no foundation that can vary".to_owned()), None);
+        return (
+            Err("the scene has no foundation that can vary".to_owned()),
+            None,
+        );
     }
     let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
-    let reasons =
-        choices.iter().map(|choice| (name(choice), foundations::selection_reason(choice))).collect();
+    let reasons = choices
+        .iter()
+        .map(|choice| (name(choice), foundations::selection_reason(choice)))
+        .collect();
     for choice in choices.iter().filter(|choice| choice.estimate.is_some()) {
         let structure = &chosen.structures[choice.structure];
-        let tolerance = sim::Tolerance { value: structure.tolerance, measure: structure.measure };
+        let tolerance = sim::Tolerance {
+            value: structure.tolerance,
+            measure: structure.measure,
+        };
         chosen.accuracy = chosen.accuracy.min(tolerance.run_accuracy());
     }
-    chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
-    (Ok(Auto { reasons, trials: None }), Some(chosen))
+    chosen
+        .structures
+        .iter_mut()
+        .for_each(|structure| structure.auto = false);
+    (
+        Ok(Auto {
+            reasons,
+            trials: None,
+        }),
+        Some(chosen),
+    )
 }
 
 /// The scene with every foundation that may vary left to "auto".
@@ -54,7 +71,11 @@ pub fn choose_foundations(
 pub fn left_to_auto(scene: &Scene) -> Scene {
     let mut out = list::massless(scene);
     out.stepping = Stepping::default();
-    for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
+    for structure in out
+        .structures
+        .iter_mut()
+        .filter(|structure| varies(structure))
+    {
         structure.auto = true;
     }
     out
@@ -64,7 +85,11 @@ pub fn left_to_auto(scene: &Scene) -> Scene {
 ///
 /// # Errors
 /// A scene that cannot be simulated, or a choice that took longer, in words.
-pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
+pub fn choose(
+    scene: &mut Scene,
+    known: &[SolvedStructure],
+    limit: f64,
+) -> Result<Vec<sim::Choice>, String> {
     let input = simulation_input(scene).map_err(|failure| failure.to_string())?;
     let recorded = records_dofs(scene, known);
     let judged = scene.clone();

@@ -77,7 +77,9 @@ pub fn study(
         Some((_, Some(chosen))) => chosen.clone(),
         _ => scene.clone(),
     };
-    own.structures.iter_mut().for_each(|structure| structure.auto = false);
+    own.structures
+        .iter_mut()
+        .for_each(|structure| structure.auto = false);
 
     observer.message("running references");
     let (mut references, failed) = references(&own, kinds, &mut cache, budget, observer)?;
@@ -90,26 +92,57 @@ pub fn study(
         observer.message(&format!(
             "no reference resolves errors after t = {time} s: the study ends at this time"
         ));
-        references.iter_mut().for_each(|reference| reference.cut(time));
+        references
+            .iter_mut()
+            .for_each(|reference| reference.cut(time));
     }
     let end = until.unwrap_or(scene.end);
-    let scene = &Scene { end, ..scene.clone() };
+    let scene = &Scene {
+        end,
+        ..scene.clone()
+    };
     own.end = end;
     let (mut auto, chosen) = first.unwrap_or_else(|| choose(scene));
     let chosen = chosen.map(|chosen| Scene { end, ..chosen });
-    references.iter().for_each(|reference| report_resolution(reference, observer));
+    references
+        .iter()
+        .for_each(|reference| report_resolution(reference, observer));
     let settings = settings(&own, chosen, known, kinds, budget);
-    let (mut points, cases) =
-        measure_all(settings, kinds, &references, &failed, &mut cache, budget, observer);
-    time(&mut points, &mut auto, &cases, scene, known, budget, observer);
-    Ok(Study { until, references, failed_references: failed, points, auto })
+    let (mut points, cases) = measure_all(
+        settings,
+        kinds,
+        &references,
+        &failed,
+        &mut cache,
+        budget,
+        observer,
+    );
+    time(
+        &mut points,
+        &mut auto,
+        &cases,
+        scene,
+        known,
+        budget,
+        observer,
+    );
+    Ok(Study {
+        until,
+        references,
+        failed_references: failed,
+        points,
+        auto,
+    })
 }
 
 /// Reports the smallest error that a reference resolves in each group.
 fn report_resolution(reference: &ConvergedReference, observer: &dyn Observer) {
-    let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolution(**own).is_finite());
-    let resolved: Vec<String> =
-        resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolution(*own))).collect();
+    let resolved = ErrorGroup::ALL
+        .iter()
+        .filter(|own| reference.resolution(**own).is_finite());
+    let resolved: Vec<String> = resolved
+        .map(|own| format!("{} from {:.1e}", own.name(), reference.resolution(*own)))
+        .collect();
     observer.message(&format!(
         "reference \"{}\" resolves errors of {}: {}",
         reference.kind.word(),
@@ -128,19 +161,38 @@ fn settings(
 ) -> Vec<Setting> {
     let mut settings = list::settings(own, known, kinds, budget);
     let (family, parameter) = (SettingFamily::Written, "accuracy");
-    settings.push(Setting { family, parameter, value: own.accuracy, scene: own.clone(), stations: None });
+    settings.push(Setting {
+        family,
+        parameter,
+        value: own.accuracy,
+        scene: own.clone(),
+        stations: None,
+    });
     if kinds.varies && own.analysis == Analysis::Dynamic {
         let family = SettingFamily::Stepping;
-        settings.push(Setting { family, parameter, value: own.accuracy, scene: own.clone(), stations: None });
+        settings.push(Setting {
+            family,
+            parameter,
+            value: own.accuracy,
+            scene: own.clone(),
+            stations: None,
+        });
     }
     if let Some(chosen) = chosen {
         let (family, value) = (SettingFamily::Auto, chosen.accuracy);
-        settings.push(Setting { family, parameter, value, scene: chosen, stations: None });
+        settings.push(Setting {
+            family,
+            parameter,
+            value,
+            scene: chosen,
+            stations: None,
+        });
     }
     if !kinds.varies {
         // there is no other foundation to compare with: only the scene's own can be run
         settings.retain(|setting| {
-            setting.family.reference_kind() == ReferenceKind::Own || setting.family == SettingFamily::Written
+            setting.family.reference_kind() == ReferenceKind::Own
+                || setting.family == SettingFamily::Written
         });
     }
     settings
@@ -160,12 +212,19 @@ fn measure_all(
     let mut cases = Vec::new();
     let mut points = Vec::new();
     for (index, setting) in settings.into_iter().enumerate() {
-        let kind = if kinds.varies { setting.family.reference_kind() } else { ReferenceKind::Own };
+        let kind = if kinds.varies {
+            setting.family.reference_kind()
+        } else {
+            ReferenceKind::Own
+        };
         let reference = references.iter().find(|own| own.kind == kind);
         let (case, outcome) = match reference {
             Some(reference) => measure(cache, &setting, reference, budget),
             None => {
-                let why = failed.iter().find(|(own, _)| *own == kind).map_or("", |(_, why)| why.as_str());
+                let why = failed
+                    .iter()
+                    .find(|(own, _)| *own == kind)
+                    .map_or("", |(_, why)| why.as_str());
                 (None, PointOutcome::Refused(why.to_owned()))
             }
         };
@@ -191,7 +250,11 @@ fn references(
     let massless = |_| list::massless(own);
     let written = |_| own.clone();
     let all: [(ReferenceKind, &Make<'_>, bool); 3] = [
-        (ReferenceKind::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
+        (
+            ReferenceKind::Whole,
+            &whole,
+            kinds.has_mass && own.analysis == Analysis::Dynamic,
+        ),
         (ReferenceKind::Massless, &massless, false),
         (ReferenceKind::Own, &written, false),
     ];
@@ -202,10 +265,17 @@ fn references(
         if kind != ReferenceKind::Own && !kinds.varies {
             continue;
         }
-        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(MeshDetail::Modes(2)) };
+        let plain = Scene {
+            accuracy: 0.0,
+            stepping: Stepping::default(),
+            ..make(MeshDetail::Modes(2))
+        };
         let same = seen.iter().position(|own| *own == plain);
         let reference = match same {
-            Some(at) => Ok(ConvergedReference { kind, ..ConvergedReference::clone(&references[at]) }),
+            Some(at) => Ok(ConvergedReference {
+                kind,
+                ..ConvergedReference::clone(&references[at])
+            }),
             None => reference(cache, kind, make, meshes, budget),
         };
         match reference {
@@ -227,9 +297,13 @@ fn references(
 /// errors of deflections and wheel forces down to `resolution`. `None` where all resolve them to the end, or where
 /// that time is less than the fraction [`SHORTEST`] of `end`.
 fn until(references: &[ConvergedReference], end: f64, resolution: f64) -> Option<f64> {
-    let short = references.iter().filter(|reference| reference.worst_resolution() > resolution);
+    let short = references
+        .iter()
+        .filter(|reference| reference.worst_resolution() > resolution);
     let times = short.map(|reference| reference.horizon(resolution).unwrap_or(0.0));
-    times.reduce(f64::min).filter(|time| *time >= SHORTEST * end)
+    times
+        .reduce(f64::min)
+        .filter(|time| *time >= SHORTEST * end)
 }
 
 /// Runs a setting once and compares it with the reference; a setting that reached its end is returned for timing.
@@ -254,7 +328,9 @@ fn measure(
     match &run.status {
         sim::Status::Stopped => return (None, PointOutcome::Stopped),
         status if !status.is_complete() => {
-            return refused(run_error::reason_incomplete(status, &setting.scene).unwrap_or_default());
+            return refused(
+                run_error::reason_incomplete(status, &setting.scene).unwrap_or_default(),
+            );
         }
         _ => {}
     }
@@ -271,9 +347,14 @@ fn measure(
         dof_count: case.dof_count(),
         time: None,
         setup: case.setup,
-        memory: foundations.zip(ran.peak).map(|(foundations, run)| Memory { foundations, run }),
+        memory: foundations
+            .zip(ran.peak)
+            .map(|(foundations, run)| Memory { foundations, run }),
     };
-    (Some((case, seconds)), PointOutcome::Done(Box::new(measured)))
+    (
+        Some((case, seconds)),
+        PointOutcome::Done(Box::new(measured)),
+    )
 }
 
 #[cfg(test)]
@@ -286,12 +367,29 @@ mod tests {
         let trace = |shift: f64| {
             let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
             let columns = vec![
-                ("body.deflection".to_owned(), ErrorGroup::Deflection, vec![1.0; 11]),
-                ("wheel.vertical".to_owned(), ErrorGroup::WheelForce, (0..11).map(force).collect()),
+                (
+                    "body.deflection".to_owned(),
+                    ErrorGroup::Deflection,
+                    vec![1.0; 11],
+                ),
+                (
+                    "wheel.vertical".to_owned(),
+                    ErrorGroup::WheelForce,
+                    (0..11).map(force).collect(),
+                ),
             ];
-            ComparedColumns { time: (0..11).map(|k| k as f64).collect(), columns }
+            ComparedColumns {
+                time: (0..11).map(|k| k as f64).collect(),
+                columns,
+            }
         };
-        ConvergedReference::new(kind, trace(0.0), trace(0.1), Default::default(), sim::Measure::History)
+        ConvergedReference::new(
+            kind,
+            trace(0.0),
+            trace(0.1),
+            Default::default(),
+            sim::Measure::History,
+        )
     }
 
     #[test]
@@ -304,7 +402,11 @@ mod tests {
         assert_eq!(until(&all, 10.0, 1e-2), Some(5.0));
         assert_eq!(until(&all[1..], 10.0, 1e-2), Some(7.0));
         assert_eq!(until(&all[2..], 10.0, 1e-2), None, "they agree to the end");
-        assert_eq!(until(&all, 10.0, 1.1), None, "the resolution asked for is reached");
+        assert_eq!(
+            until(&all, 10.0, 1.1),
+            None,
+            "the resolution asked for is reached"
+        );
         assert_eq!(
             until(&[diverging(ReferenceKind::Own, 3)], 10.0, 1e-2),
             None,
@@ -315,7 +417,10 @@ mod tests {
     #[test]
     fn a_reference_that_is_cut_resolves_the_rest() {
         let mut own = diverging(ReferenceKind::Own, 6);
-        assert!((own.worst_resolution() - 1.0).abs() < 1e-12, "ten times a tenth");
+        assert!(
+            (own.worst_resolution() - 1.0).abs() < 1e-12,
+            "ten times a tenth"
+        );
         own.cut(5.0);
         assert_eq!((own.worst_resolution(), own.columns.time.len()), (0.0, 6));
     }

@@ -61,7 +61,15 @@ impl ConvergedReference {
         measure: Measure,
     ) -> ConvergedReference {
         let difference = differences(&second, &columns, measure);
-        ConvergedReference { kind, columns, second, descriptions, measure, difference, approach: Vec::new() }
+        ConvergedReference {
+            kind,
+            columns,
+            second,
+            descriptions,
+            measure,
+            difference,
+            approach: Vec::new(),
+        }
     }
 
     /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs;
@@ -70,7 +78,9 @@ impl ConvergedReference {
     pub fn resolution(&self, group: ErrorGroup) -> f64 {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group);
         let difference = at.and_then(|at| self.difference[at]);
-        difference.map_or(f64::INFINITY, |difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))
+        difference.map_or(f64::INFINITY, |difference| {
+            RESOLUTION_FACTOR * difference.max(f64::EPSILON)
+        })
     }
 
     /// The same; `None` where it is coarser than 0.1, which is of no use.
@@ -134,17 +144,33 @@ pub fn reference(
     meshes: bool,
     budget: &StudyBudget,
 ) -> Result<ConvergedReference, Error> {
-    let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
-    let modes = budget.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
+    let mut search = Search {
+        best: None,
+        approach: Vec::new(),
+        why: String::new(),
+    };
+    let modes = budget
+        .references
+        .iter()
+        .map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
     search.refine(cache, kind, make, modes, budget)?;
-    let is_near = search.best.as_ref().is_some_and(|best| best.worst_resolution() <= budget.resolution);
+    let is_near = search
+        .best
+        .as_ref()
+        .is_some_and(|best| best.worst_resolution() <= budget.resolution);
     if meshes && !is_near {
-        let all = budget.meshes.iter().map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
+        let all = budget
+            .meshes
+            .iter()
+            .map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
         search.refine(cache, kind, make, all, budget)?;
     }
     let no_reference = || Error::NoReference(search.why.clone());
     let best = search.best.ok_or_else(no_reference)?;
-    Ok(ConvergedReference { approach: search.approach, ..best })
+    Ok(ConvergedReference {
+        approach: search.approach,
+        ..best
+    })
 }
 
 /// The closest pair so far, and the differences of all pairs.
@@ -165,7 +191,8 @@ impl Search {
         levels: impl Iterator<Item = (f64, MeshDetail)>,
         budget: &StudyBudget,
     ) -> Result<(), Error> {
-        let wanted = (budget.resolution / RESOLUTION_FACTOR * budget.margin).max(SMALLEST_DIFFERENCE);
+        let wanted =
+            (budget.resolution / RESOLUTION_FACTOR * budget.margin).max(SMALLEST_DIFFERENCE);
         for (accuracy, detail) in levels {
             let scenes = [make(detail), make(detail.half())];
             let [(columns, words), (second, second_words)] =
@@ -189,9 +216,18 @@ impl Search {
                 [words, second_words],
                 study_measure(&scenes[0]),
             );
-            let largest = reference.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
-            self.approach.push((accuracy, reference.worst_resolution() / RESOLUTION_FACTOR));
-            if self.best.as_ref().is_none_or(|best| reference.worst_resolution() < best.worst_resolution()) {
+            let largest = reference
+                .difference
+                .iter()
+                .flatten()
+                .fold(0.0_f64, |most, own| most.max(*own));
+            self.approach
+                .push((accuracy, reference.worst_resolution() / RESOLUTION_FACTOR));
+            if self
+                .best
+                .as_ref()
+                .is_none_or(|best| reference.worst_resolution() < best.worst_resolution())
+            {
                 self.best = Some(reference);
             }
             if largest < wanted {
@@ -240,7 +276,11 @@ fn one(
     limit: f64,
 ) -> Result<Attempt, Error> {
     let stepping = Stepping { method, step: None };
-    let scene = Scene { accuracy, stepping, ..scene.clone() };
+    let scene = Scene {
+        accuracy,
+        stepping,
+        ..scene.clone()
+    };
     let setting = Setting {
         family: SettingFamily::Written,
         parameter: "accuracy",
@@ -252,13 +292,26 @@ fn one(
     let run = match limited(limit, |watch| case.run(watch)) {
         Ok(run) => run,
         Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
-        Err(error) => return Err(Error::Run(run_error::in_scene_names(&error, &setting.scene))),
+        Err(error) => {
+            return Err(Error::Run(run_error::in_scene_names(
+                &error,
+                &setting.scene,
+            )));
+        }
     };
     if !run.status.is_complete() {
-        return Ok(Err(run_error::reason_incomplete(&run.status, &setting.scene).unwrap_or_default()));
+        return Ok(Err(run_error::reason_incomplete(
+            &run.status,
+            &setting.scene,
+        )
+        .unwrap_or_default()));
     }
     let mut columns = cache.columns_of(&case, &run)?;
-    let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
+    let lengths = setting
+        .scene
+        .rails
+        .iter()
+        .map(|rail| rail.range[1] - rail.range[0]);
     columns.prune(lengths.fold(0.0, f64::max));
     let mut words: Vec<String> = Vec::new();
     for structure in &setting.scene.structures {
@@ -267,7 +320,10 @@ fn one(
     match setting.scene.analysis {
         Analysis::Dynamic => {
             let method = run.method.map_or("", stepper_word);
-            words.push(format!("{method} at accuracy {accuracy:.0e}, {} steps", run.counts.steps));
+            words.push(format!(
+                "{method} at accuracy {accuracy:.0e}, {} steps",
+                run.counts.steps
+            ));
         }
         Analysis::QuasiStatic => words.push("equilibrium at every output time".to_owned()),
     }

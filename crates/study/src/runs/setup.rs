@@ -49,8 +49,16 @@ impl<'k> SetupCache<'k> {
     /// An empty cache for settings of `scene`.
     #[must_use]
     pub fn new(scene: &Scene, known: &'k [SolvedStructure]) -> SetupCache<'k> {
-        let modes = scene.structures.iter().map(|_| ModeCache::default()).collect();
-        SetupCache { known, modes, tables: Vec::new() }
+        let modes = scene
+            .structures
+            .iter()
+            .map(|_| ModeCache::default())
+            .collect();
+        SetupCache {
+            known,
+            modes,
+            tables: Vec::new(),
+        }
     }
 
     /// Builds the foundations of a setting and makes it ready to run.
@@ -63,16 +71,26 @@ impl<'k> SetupCache<'k> {
         let input = simulation_input(&scene)?;
         let mut built = self.build(&scene, setting.stations)?;
         if setting.family.omits_residual() {
-            for own in built.iter_mut().filter(|own| own.foundation.structure.is_some()) {
+            for own in built
+                .iter_mut()
+                .filter(|own| own.foundation.structure.is_some())
+            {
                 own.foundation.compliance = None;
             }
         }
         let recorded = records_dofs(&scene, self.known);
-        let mut foundations: Vec<Foundation> = built.into_iter().map(|own| own.foundation).collect();
+        let mut foundations: Vec<Foundation> =
+            built.into_iter().map(|own| own.foundation).collect();
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
         }
-        Ok(CaseSetup { scene, input, foundations, stations: setting.stations, setup: cpu::seconds() - start })
+        Ok(CaseSetup {
+            scene,
+            input,
+            foundations,
+            stations: setting.stations,
+            setup: cpu::seconds() - start,
+        })
     }
 
     /// The columns of a `run` of `case` that errors are measured in.
@@ -83,16 +101,30 @@ impl<'k> SetupCache<'k> {
         let scene = &case.scene;
         let built = self.build(scene, case.stations)?;
         let known = self.known;
-        let solved: Vec<Option<&SolvedModel>> =
-            scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
+        let solved: Vec<Option<&SolvedModel>> = scene
+            .structures
+            .iter()
+            .map(|structure| solution_of(known, &structure.origin))
+            .collect();
         let lines = response::influence_lines(scene, &built, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
-        let response = Response::new(scene, &case.input, &run.history, &built, &solved, &lines, &mut record)?;
+        let response = Response::new(
+            scene,
+            &case.input,
+            &run.history,
+            &built,
+            &solved,
+            &lines,
+            &mut record,
+        )?;
         let own = quantities(scene).len();
-        let mut columns = ComparedColumns { time: record.values("time").to_vec(), columns: Vec::new() };
+        let mut columns = ComparedColumns {
+            time: record.values("time").to_vec(),
+            columns: Vec::new(),
+        };
         for (index, column) in record.columns.into_iter().enumerate() {
-            let is_reaction =
-                index >= own && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
+            let is_reaction = index >= own
+                && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
             if let Some(quantity) = ErrorGroup::of(&column, scene, index < own, is_reaction) {
                 columns.columns.push((column.name, quantity, column.values));
             }
@@ -101,13 +133,19 @@ impl<'k> SetupCache<'k> {
     }
 
     /// The foundations of `scene`, their tables at `stations` equal distances a rail where that is given.
-    fn build(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
+    fn build(
+        &mut self,
+        scene: &Scene,
+        stations: Option<usize>,
+    ) -> Result<Vec<BuiltFoundation>, Error> {
         let lateral = scene.has_flanges();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
         let each = scene.structures.iter().zip(&mut self.modes);
         let built = each
-            .map(|(own, modes)| foundations::build(modes, own, solution_of(known, &own.origin), lateral))
+            .map(|(own, modes)| {
+                foundations::build(modes, own, solution_of(known, &own.origin), lateral)
+            })
             .collect::<Result<_, _>>()?;
         Ok(built)
     }
@@ -123,7 +161,11 @@ impl<'k> SetupCache<'k> {
                 solution: Arc::new(table(&known.solution, count)?),
             })
         };
-        let all = self.known.iter().map(of).collect::<Result<Vec<SolvedStructure>, Error>>()?;
+        let all = self
+            .known
+            .iter()
+            .map(of)
+            .collect::<Result<Vec<SolvedStructure>, Error>>()?;
         self.tables.push((count, all));
         Ok(self.tables.len() - 1)
     }
@@ -138,9 +180,13 @@ fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
     let mut named = Vec::new();
     for (rail, (given, known)) in rails.iter_mut().zip(&solved.grid.rails).enumerate() {
         let [low, high] = surface.range(rail).unwrap_or_default();
-        given.stations =
-            (0..count).map(|i| low + (high - low) * i as f64 / (count - 1).max(1) as f64).collect();
-        named.push(GridRail { name: known.name.clone(), stations: given.stations.clone() });
+        given.stations = (0..count)
+            .map(|i| low + (high - low) * i as f64 / (count - 1).max(1) as f64)
+            .collect();
+        named.push(GridRail {
+            name: known.name.clone(),
+            stations: given.stations.clone(),
+        });
     }
     let grid = stations::at(&solved.grid, surface, named)?;
     Ok(SolvedModel {
@@ -160,7 +206,12 @@ impl CaseSetup {
     /// # Errors
     /// A scene that cannot start; a method that cannot integrate it.
     pub fn run(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Run, sim::Error> {
-        sim::run_by(self.scene.stepping, &self.input.scene, &self.foundations, watch)
+        sim::run_by(
+            self.scene.stepping,
+            &self.input.scene,
+            &self.foundations,
+            watch,
+        )
     }
 
     /// Degrees of freedom of all foundations; those of bodies do not count.

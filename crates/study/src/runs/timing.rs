@@ -38,7 +38,9 @@ pub fn time(
     for repetition in 0..budget.repetitions {
         for k in 0..cases.len() {
             let index = (k + repetition * cases.len() / budget.repetitions) % cases.len();
-            let Some((case, first)) = &cases[index] else { continue };
+            let Some((case, first)) = &cases[index] else {
+                continue;
+            };
             if (repetition + 1) as f64 * first > budget.repetition_limit {
                 if repetition == 0 {
                     times[index].push(*first);

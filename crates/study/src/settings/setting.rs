@@ -117,8 +117,17 @@ impl Setting {
     /// The setting in words, such as `modal, modes 4`.
     #[must_use]
     pub fn label(&self) -> String {
-        let Setting { family, parameter, value, .. } = self;
-        let value = if *value < 1.0 { format!("{value:e}") } else { value.to_string() };
+        let Setting {
+            family,
+            parameter,
+            value,
+            ..
+        } = self;
+        let value = if *value < 1.0 {
+            format!("{value:e}")
+        } else {
+            value.to_string()
+        };
         format!("{}, {parameter} {value}", family.name())
     }
 }

@@ -18,7 +18,10 @@ use results::columns::bytes;
 pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
     let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
-    let failed = study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why)));
+    let failed = study
+        .failed_references
+        .iter()
+        .map(|(own, why)| (own.word().to_owned(), json!(why)));
     json!({
         "format": "girderway-study/1",
         "name": scene.name,
@@ -47,7 +50,8 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
 fn reference(own: &ConvergedReference) -> Value {
     let each = |value: &dyn Fn(usize) -> Option<f64>| {
         let all = ErrorGroup::ALL.iter().enumerate();
-        all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?)))).collect::<Map<String, Value>>()
+        all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?))))
+            .collect::<Map<String, Value>>()
     };
     json!({
         "against": own.kind.word(),
@@ -64,7 +68,11 @@ fn reference(own: &ConvergedReference) -> Value {
 /// A setting with its outcome and the groups on whose front it is.
 fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
     let StudyPoint { setting, outcome } = point;
-    let structures = setting.scene.structures.iter().map(|own| (own.name.clone(), json!(foundation(own))));
+    let structures = setting
+        .scene
+        .structures
+        .iter()
+        .map(|own| (own.name.clone(), json!(foundation(own))));
     let mut out = json!({
         "family": setting.family.name(),
         setting.parameter: setting.value,
@@ -78,7 +86,10 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
             let errors = ErrorGroup::ALL.iter().zip(&measured.errors);
             let errors = errors.filter_map(|(quantity, own)| {
                 let own = (*own)?;
-                Some((quantity.word().to_owned(), json!({ "largest": own.largest, "peak": own.peak })))
+                Some((
+                    quantity.word().to_owned(),
+                    json!({ "largest": own.largest, "peak": own.peak }),
+                ))
             });
             out["errors"] = Value::Object(errors.collect());
             out["steps"] = json!(measured.counts.steps);
@@ -108,13 +119,19 @@ pub fn cost_ratios(
     family: SettingFamily,
     cost: &dyn Fn(&StudyPoint) -> Option<f64>,
 ) -> Vec<(ErrorGroup, f64)> {
-    let Some(reference) = study.reference(family.reference_kind()) else { return Vec::new() };
+    let Some(reference) = study.reference(family.reference_kind()) else {
+        return Vec::new();
+    };
     let of = |quantity: ErrorGroup| {
         let least = reference.usable_resolution(quantity)?;
         let place = |point: &StudyPoint| Some([cost(point)?, point.error(quantity)?.max(least)]);
-        let all = study.points.iter().filter(|point| point.setting.family.reference_kind() == reference.kind);
-        let all: Vec<(SettingFamily, [f64; 2])> =
-            all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
+        let all = study
+            .points
+            .iter()
+            .filter(|point| point.setting.family.reference_kind() == reference.kind);
+        let all: Vec<(SettingFamily, [f64; 2])> = all
+            .filter_map(|point| Some((point.setting.family, place(point)?)))
+            .collect();
         let own = all.iter().find(|(known, _)| *known == family)?.1;
         let others: Vec<[f64; 2]> = all.into_iter().map(|(_, place)| place).collect();
         Some((quantity, cost_ratio(own, &others)))
@@ -127,7 +144,10 @@ pub fn cost_ratios(
 fn cost_ratios_json(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     let of = |family: SettingFamily| {
         let all = cost_ratios(study, family, cost).into_iter();
-        Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
+        Value::Object(
+            all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own)))
+                .collect(),
+        )
     };
     json!({
         "as written": of(SettingFamily::Written),
@@ -153,9 +173,16 @@ fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<u
                 .iter()
                 .enumerate()
                 .filter(|(_, point)| point.setting.family.reference_kind() == reference.kind)
-                .filter_map(|(k, point)| Some((k, [cost(point)?, point.error(quantity)?.max(least)])))
+                .filter_map(|(k, point)| {
+                    Some((k, [cost(point)?, point.error(quantity)?.max(least)]))
+                })
                 .unzip();
-            kept.extend(at.into_iter().zip(on_front(&pairs)).filter(|(_, on)| *on).map(|(k, _)| k));
+            kept.extend(
+                at.into_iter()
+                    .zip(on_front(&pairs))
+                    .filter(|(_, on)| *on)
+                    .map(|(k, _)| k),
+            );
         }
         kept
     };
@@ -165,7 +192,9 @@ fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<u
 /// Words of the groups on whose front a point is.
 fn on(fronts: &[Vec<usize>], point: usize) -> Vec<&'static str> {
     let all = ErrorGroup::ALL.iter().zip(fronts);
-    all.filter(|(_, own)| own.contains(&point)).map(|(quantity, _)| quantity.word()).collect()
+    all.filter(|(_, own)| own.contains(&point))
+        .map(|(quantity, _)| quantity.word())
+        .collect()
 }
 
 /// `timing.json`: thread times of runs, s.
@@ -201,7 +230,9 @@ pub fn timing_json(study: &Study) -> Value {
 /// # Errors
 /// None in practice: memory takes every byte.
 pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
-    let mut head: Vec<String> = ["family", "knob", "value", "against", "status"].map(str::to_owned).to_vec();
+    let mut head: Vec<String> = ["family", "knob", "value", "against", "status"]
+        .map(str::to_owned)
+        .to_vec();
     for quantity in ErrorGroup::ALL {
         head.extend(["largest", "peak"].map(|kind| format!("{}.{kind}", quantity.word())));
     }
@@ -212,7 +243,11 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     for point in &study.points {
         let StudyPoint { setting, outcome } = point;
         let (family, kind) = (setting.family, setting.family.reference_kind());
-        let mut row = vec![family.name(), setting.parameter.to_owned(), format!("{:?}", setting.value)];
+        let mut row = vec![
+            family.name(),
+            setting.parameter.to_owned(),
+            format!("{:?}", setting.value),
+        ];
         row.push(kind.word().to_owned());
         row.push(
             match outcome {
@@ -226,12 +261,23 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
             Some(measured) => {
                 for own in &measured.errors {
                     let text = |value: f64| format!("{value:e}");
-                    let pair = own.map_or_else(Default::default, |own| [text(own.largest), text(own.peak)]);
+                    let pair = own
+                        .map_or_else(Default::default, |own| [text(own.largest), text(own.peak)]);
                     row.extend(pair);
                 }
-                let sim::Counts { steps, rejected, stages, events } = measured.counts;
-                row.extend([steps, rejected, stages, events, measured.dof_count].map(|own| own.to_string()));
-                let bytes = measured.memory.map(|own| [own.foundations, own.run].map(|own| own.to_string()));
+                let sim::Counts {
+                    steps,
+                    rejected,
+                    stages,
+                    events,
+                } = measured.counts;
+                row.extend(
+                    [steps, rejected, stages, events, measured.dof_count]
+                        .map(|own| own.to_string()),
+                );
+                let bytes = measured
+                    .memory
+                    .map(|own| [own.foundations, own.run].map(|own| own.to_string()));
                 row.extend(bytes.unwrap_or_default());
             }
             None => row.resize(head.len(), String::new()),

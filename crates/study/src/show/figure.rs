@@ -57,20 +57,55 @@ fn is_table(family: SettingFamily) -> bool {
 pub fn figures(study: &Study, name: &str) -> Result<Vec<StudyFigure>, Error> {
     let all: [(&str, &str, Filter, Cost); 10] = [
         ("foundations-time", "foundations", is_foundation, Cost::Time),
-        ("foundations-stages", "foundations", is_foundation, Cost::Stages),
-        ("foundations-memory", "foundations", is_foundation, Cost::Memory),
-        ("methods-time", "methods of integration", is_method, Cost::Time),
-        ("methods-stages", "methods of integration", is_method, Cost::Stages),
+        (
+            "foundations-stages",
+            "foundations",
+            is_foundation,
+            Cost::Stages,
+        ),
+        (
+            "foundations-memory",
+            "foundations",
+            is_foundation,
+            Cost::Memory,
+        ),
+        (
+            "methods-time",
+            "methods of integration",
+            is_method,
+            Cost::Time,
+        ),
+        (
+            "methods-stages",
+            "methods of integration",
+            is_method,
+            Cost::Stages,
+        ),
         ("tables-time", "readings of tables", is_table, Cost::Time),
         ("stations", "readings of tables", is_table, Cost::Parameter),
         (
             "modes",
             "modes",
-            |own| matches!(own, SettingFamily::Modal | SettingFamily::ModalWithoutResidual),
+            |own| {
+                matches!(
+                    own,
+                    SettingFamily::Modal | SettingFamily::ModalWithoutResidual
+                )
+            },
             Cost::Parameter,
         ),
-        ("parts", "rigid parts", |own| own == SettingFamily::Parts, Cost::Parameter),
-        ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Parameter),
+        (
+            "parts",
+            "rigid parts",
+            |own| own == SettingFamily::Parts,
+            Cost::Parameter,
+        ),
+        (
+            "elements",
+            "elements",
+            |own| own == SettingFamily::Mesh,
+            Cost::Parameter,
+        ),
     ];
     let mut out = Vec::new();
     for (file, what, is_shown, cost) in all {
@@ -82,7 +117,11 @@ pub fn figures(study: &Study, name: &str) -> Result<Vec<StudyFigure>, Error> {
         }
         if !charts.is_empty() {
             let svg = stack(&charts).file();
-            out.push(StudyFigure { name: file.to_owned(), svg, varies: cost == Cost::Time });
+            out.push(StudyFigure {
+                name: file.to_owned(),
+                svg,
+                varies: cost == Cost::Time,
+            });
         }
     }
     Ok(out)
@@ -109,17 +148,25 @@ fn chart(
     cost: Cost,
     quantity: ErrorGroup,
 ) -> Option<Chart> {
-    let shown: Vec<&StudyPoint> =
-        study.points.iter().filter(|point| is_shown(point.setting.family)).collect();
+    let shown: Vec<&StudyPoint> = study
+        .points
+        .iter()
+        .filter(|point| is_shown(point.setting.family))
+        .collect();
     let first = &shown.first()?.setting;
     let kind = first.family.reference_kind();
     let reference = study.reference(kind)?;
     let least = reference.usable_resolution(quantity)?;
     // errors below the resolution of the reference are drawn at this resolution
-    let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
+    let place =
+        |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let title = title(study, name, what, cost, first.parameter, quantity);
     let x = cost_axis(cost, first.parameter);
-    let mut chart = Chart::new(title, x.log(), ChartAxis::new("largest error / largest value", "").log());
+    let mut chart = Chart::new(
+        title,
+        x.log(),
+        ChartAxis::new("largest error / largest value", "").log(),
+    );
     let mut all = add_curves(&mut chart, &shown, cost, &place);
     if all.iter().all(|own| own[1] <= least) {
         return None;
@@ -127,7 +174,9 @@ fn chart(
     if cost != Cost::Parameter {
         marks(study, &mut chart, &mut all, cost, kind, &place);
         // first: below the points, and in the darkest colour
-        chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
+        chart
+            .series
+            .insert(0, Series::new("Pareto front", Style::Step, front(&all)));
     }
     let low = all.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
     let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);
@@ -136,12 +185,16 @@ fn chart(
         Style::Limit,
         vec![[low, least], [high, least]],
     ));
-    let unfinished = shown.iter().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
+    let unfinished = shown
+        .iter()
+        .filter(|point| !matches!(point.outcome, PointOutcome::Done(_)))
+        .count();
     chart.note = format!(
         "{} relative to the largest value of the reference. Errors of points on \
          the dashed line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
         match reference.measure {
-            sim::Measure::Extremes => "Largest difference of the extremes of a quantity over the run,",
+            sim::Measure::Extremes =>
+                "Largest difference of the extremes of a quantity over the run,",
             sim::Measure::History => "Largest difference at an output time,",
         },
         reference.descriptions[0],
@@ -167,7 +220,14 @@ fn cost_axis(cost: Cost, parameter: &str) -> ChartAxis {
 }
 
 /// The title of a chart.
-fn title(study: &Study, name: &str, what: &str, cost: Cost, parameter: &str, quantity: ErrorGroup) -> String {
+fn title(
+    study: &Study,
+    name: &str,
+    what: &str,
+    cost: Cost,
+    parameter: &str,
+    quantity: ErrorGroup,
+) -> String {
     let mut title = format!("{name}: error of the {} against ", quantity.name());
     title += match cost {
         Cost::Time => "time",
@@ -199,8 +259,11 @@ fn add_curves(
     }
     let mut all: Vec<[f64; 2]> = Vec::new();
     for family in families {
-        let own: Vec<&StudyPoint> =
-            shown.iter().copied().filter(|point| point.setting.family == family).collect();
+        let own: Vec<&StudyPoint> = shown
+            .iter()
+            .copied()
+            .filter(|point| point.setting.family == family)
+            .collect();
         let points: Vec<[f64; 2]> = own.iter().filter_map(|point| place(point)).collect();
         if points.is_empty() {
             continue;
@@ -208,7 +271,9 @@ fn add_curves(
         let mut series = Series::new(family.name(), Style::Marked, points.clone());
         if cost == Cost::Time {
             let ends = own.iter().filter(|point| place(point).is_some());
-            let spread = ends.filter_map(|point| point.measured()?.time).map(|t| [1e3 * t.min, 1e3 * t.max]);
+            let spread = ends
+                .filter_map(|point| point.measured()?.time)
+                .map(|t| [1e3 * t.min, 1e3 * t.max]);
             series = series.spread(spread.collect());
         }
         all.extend(points);
@@ -229,16 +294,27 @@ fn marks(
     if kind != ReferenceKind::Whole {
         return;
     }
-    for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "choice of auto")] {
-        let own = study.points.iter().find(|point| point.setting.family == family).and_then(place);
+    for (family, label) in [
+        (SettingFamily::Written, "as written"),
+        (SettingFamily::Auto, "choice of auto"),
+    ] {
+        let own = study
+            .points
+            .iter()
+            .find(|point| point.setting.family == family)
+            .and_then(place);
         let Some(own) = own else { continue };
-        chart.series.push(Series::new(label, Style::Points, vec![own]));
+        chart
+            .series
+            .push(Series::new(label, Style::Points, vec![own]));
         all.push(own);
         let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
         if let (SettingFamily::Auto, Cost::Time, Some(trials)) = (family, cost, trials) {
             let at = vec![[1e3 * trials.median, own[1]]];
             let spread = vec![[1e3 * trials.min, 1e3 * trials.max]];
-            chart.series.push(Series::new("auto with its trial runs", Style::Points, at).spread(spread));
+            chart
+                .series
+                .push(Series::new("auto with its trial runs", Style::Points, at).spread(spread));
         }
     }
 }

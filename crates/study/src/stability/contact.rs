@@ -16,7 +16,12 @@ use formats::units::Dimension;
 use report::chart::{Series, Style};
 
 /// Methods, in the order of layers.
-const METHODS: [&str; 4] = ["fixed point", "staggered", "lag of one step", "girderway, direct"];
+const METHODS: [&str; 4] = [
+    "fixed point",
+    "staggered",
+    "lag of one step",
+    "girderway, direct",
+];
 /// Passes after which an iteration stops with the forces that it has.
 const PASSES: usize = 50;
 /// Largest relative error that counts as right.
@@ -69,7 +74,9 @@ fn residual_of_simulator(
     let d = (compliance * &even)[0] + subject.load / k;
     // the body neither pitches nor rolls: all wheels have the same displacement d, and their loads are not even
     let law = subject.linear(k, 0.0);
-    let scene = subject.crossing(subject.mass(), offsets, law, [x, 0.0, 1.0]).map_err(|e| e.to_string())?;
+    let scene = subject
+        .crossing(subject.mass(), offsets, law, [x, 0.0, 1.0])
+        .map_err(|e| e.to_string())?;
     let mut displacement = [0.0; 6];
     (displacement[0], displacement[1]) = (x, -d);
     let instant = Instant {
@@ -79,9 +86,15 @@ fn residual_of_simulator(
         spin: vec![0.0; offsets.len()],
         penetration: vec![None; offsets.len()],
     };
-    let solved =
-        sim::contact_forces(&scene, &[subject.foundation()], &[instant]).map_err(|e| e.to_string())?;
-    let forces = DVector::from_vec(solved.into_iter().next().map(|own| own.vertical).unwrap_or_default());
+    let solved = sim::contact_forces(&scene, &[subject.foundation()], &[instant])
+        .map_err(|e| e.to_string())?;
+    let forces = DVector::from_vec(
+        solved
+            .into_iter()
+            .next()
+            .map(|own| own.vertical)
+            .unwrap_or_default(),
+    );
     if forces.len() != offsets.len() {
         return Err("no forces".to_owned());
     }
@@ -110,7 +123,13 @@ fn errors(
     [
         Ok(iterated(compliance, k, &exact, true)),
         Ok(iterated(compliance, k, &exact, false)),
-        Ok(lagged(compliance.mean(), k * count, subject.mass() * count, subject.load * count, 1e-4)),
+        Ok(lagged(
+            compliance.mean(),
+            k * count,
+            subject.mass() * count,
+            subject.load * count,
+            1e-4,
+        )),
         residual_of_simulator(subject, offsets, k, x, compliance),
     ]
 }
@@ -129,7 +148,9 @@ fn layers(
         .collect();
     let mut line = Vec::new();
     for &x in places {
-        let Some((compliance, largest)) = compliance_at(subject, offsets, x) else { continue };
+        let Some((compliance, largest)) = compliance_at(subject, offsets, x) else {
+            continue;
+        };
         line.push([x, 1.0 / largest]);
         for &k in stiffnesses {
             let all = errors(subject, offsets, k, x, &compliance);
@@ -140,12 +161,18 @@ fn layers(
                     Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
                     Err(why) => (0.0, MapVerdict::Refused(why)),
                 };
-                layer.points.push(MapPoint { at: [x, k], value: finite(value), verdict });
+                layer.points.push(MapPoint {
+                    at: [x, k],
+                    value: finite(value),
+                    verdict,
+                });
             }
         }
     }
     let line = Series::new("k G = 1", Style::Line, within(line, stiffnesses));
-    layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
+    layers
+        .iter_mut()
+        .for_each(|layer| layer.lines.push(line.clone()));
     layers
 }
 
@@ -153,8 +180,16 @@ fn layers(
 #[must_use]
 pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
-        MapScale::new("position along the rail", &subject.unit(Dimension::LENGTH), false),
-        MapScale::new("stiffness of a wheel", &subject.unit(Dimension::STIFFNESS), true),
+        MapScale::new(
+            "position along the rail",
+            &subject.unit(Dimension::LENGTH),
+            false,
+        ),
+        MapScale::new(
+            "stiffness of a wheel",
+            &subject.unit(Dimension::STIFFNESS),
+            true,
+        ),
     ];
     let mut map = StabilityMap::new(
         "contact",
@@ -163,28 +198,42 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         "Forces at rest after 50 passes or steps, compared with the solution of (G + I/k) F = d. On the line, k \
          times the largest eigenvalue of G is 1.",
     );
-    let both: [(&str, Vec<f64>); 2] = [("one wheel", vec![0.0]), ("truck", subject.offsets.clone())];
+    let both: [(&str, Vec<f64>); 2] =
+        [("one wheel", vec![0.0]), ("truck", subject.offsets.clone())];
     let stiffnesses = spread(1e-3 * subject.stiffness, 1e3 * subject.stiffness, points);
-    let places: Vec<f64> =
-        (0..points).map(|i| subject.span[0] + subject.length() * (i as f64 + 0.5) / points as f64).collect();
-    for (who, offsets) in both.iter().take(if subject.offsets.len() > 1 { 2 } else { 1 }) {
+    let places: Vec<f64> = (0..points)
+        .map(|i| subject.span[0] + subject.length() * (i as f64 + 0.5) / points as f64)
+        .collect();
+    for (who, offsets) in both
+        .iter()
+        .take(if subject.offsets.len() > 1 { 2 } else { 1 })
+    {
         let gain = |x: f64| Some(subject.stiffness * compliance_at(subject, offsets, x)?.1);
         let mid = 0.5 * (subject.span[0] + subject.span[1]);
         if let Some(gain) = gain(mid) {
-            map.note(format!("{who}: k times the largest eigenvalue of G at midspan"), gain);
+            map.note(
+                format!("{who}: k times the largest eigenvalue of G at midspan"),
+                gain,
+            );
         }
         if let Some(x) = first_crossing_of_one(subject, &|x| gain(x).unwrap_or(f64::NAN)) {
             map.note(format!("{who}: distance from the support where it is 1"), x);
         }
-        map.layers.extend(layers(subject, who, offsets, &places, &stiffnesses));
+        map.layers
+            .extend(layers(subject, who, offsets, &places, &stiffnesses));
     }
     map
 }
 
 /// The points of a line whose ordinates lie between the first and the last of the ascending `values`.
 fn within(line: Vec<[f64; 2]>, values: &[f64]) -> Vec<[f64; 2]> {
-    let (low, high) = (values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(f64::MAX));
-    line.into_iter().filter(|own| (low..=high).contains(&own[1])).collect()
+    let (low, high) = (
+        values.first().copied().unwrap_or(0.0),
+        values.last().copied().unwrap_or(f64::MAX),
+    );
+    line.into_iter()
+        .filter(|own| (low..=high).contains(&own[1]))
+        .collect()
 }
 
 /// Distance from the first support at which `value`, which grows towards midspan, reaches 1, by bisection; `None`
@@ -196,7 +245,11 @@ fn first_crossing_of_one(subject: &MapSubject<'_>, value: &dyn Fn(f64) -> f64) -
     let is_bracketed = at(low) < 1.0 && at(high) > 1.0;
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if at(middle) < 1.0 { low = middle } else { high = middle }
+        if at(middle) < 1.0 {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     is_bracketed.then_some(low)
 }

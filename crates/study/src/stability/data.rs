@@ -9,7 +9,10 @@ use results::columns::bytes;
 #[must_use]
 pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
     let points = |ours: bool| {
-        let layers = maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours == ours);
+        let layers = maps
+            .iter()
+            .flat_map(|map| &map.layers)
+            .filter(|layer| layer.is_ours == ours);
         layers.map(|layer| layer.points.len()).sum::<usize>()
     };
     json!({
@@ -23,7 +26,10 @@ pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
 
 fn map(own: &StabilityMap) -> Value {
     let axis = |k: usize| json!({ "label": own.axes[k].label, "unit": own.axes[k].unit });
-    let findings = own.findings.iter().map(|finding| json!({ "what": finding.what, "value": finding.value }));
+    let findings = own
+        .findings
+        .iter()
+        .map(|finding| json!({ "what": finding.what, "value": finding.value }));
     json!({
         "name": own.name,
         "title": own.title,
@@ -39,14 +45,18 @@ fn layer(own: &MapLayer) -> Value {
     let counts = MapVerdict::WORDS.iter().zip(own.counts());
     let mut messages: Vec<(&str, usize)> = Vec::new();
     for point in &own.points {
-        let MapVerdict::Refused(why) = &point.verdict else { continue };
+        let MapVerdict::Refused(why) = &point.verdict else {
+            continue;
+        };
         match messages.iter_mut().find(|(known, _)| known == why) {
             Some((_, count)) => *count += 1,
             None => messages.push((why, 1)),
         }
     }
     let counts = counts.map(|(word, count)| ((*word).to_owned(), json!(count)));
-    let messages = messages.iter().map(|(why, count)| json!({ "message": why, "points": count }));
+    let messages = messages
+        .iter()
+        .map(|(why, count)| json!({ "message": why, "points": count }));
     json!({
         "method": own.method,
         "is_girderway": own.is_ours,
@@ -67,7 +77,14 @@ pub fn csv(maps: &[StabilityMap]) -> Result<Vec<u8>, csv::Error> {
             for point in &layer.points {
                 let [x, y] = point.at.map(|own| format!("{own:e}"));
                 let value = format!("{:e}", point.value);
-                writer.write_record([map.name, &layer.method, &x, &y, point.verdict.word(), &value])?;
+                writer.write_record([
+                    map.name,
+                    &layer.method,
+                    &x,
+                    &y,
+                    point.verdict.word(),
+                    &value,
+                ])?;
             }
         }
     }

@@ -23,9 +23,19 @@ const LEAST: f64 = 1e-17;
 /// and the slope of its first and its second end.
 pub(super) fn bending(h: f64) -> [[f64; 4]; 4] {
     [
-        [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
+        [
+            12.0 / (h * h * h),
+            6.0 / (h * h),
+            -12.0 / (h * h * h),
+            6.0 / (h * h),
+        ],
         [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
-        [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
+        [
+            -12.0 / (h * h * h),
+            -6.0 / (h * h),
+            12.0 / (h * h * h),
+            -6.0 / (h * h),
+        ],
         [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
     ]
 }
@@ -64,7 +74,9 @@ fn factored(mut band: Band) -> Option<Band> {
     for i in 0..band.len() {
         for j in i.saturating_sub(3)..=i {
             let from = i.saturating_sub(3).max(j.saturating_sub(3));
-            let sum: f64 = (from..j).map(|m| band[i][3 + m - i] * band[j][3 + m - j]).sum();
+            let sum: f64 = (from..j)
+                .map(|m| band[i][3 + m - i] * band[j][3 + m - j])
+                .sum();
             let value = band[i][3 + j - i] - sum;
             if i == j {
                 if value <= 0.0 {
@@ -87,11 +99,15 @@ fn banded(lengths: &[f64], node: usize) -> Option<f64> {
     let mut w = vec![0.0; n];
     w[2 * node] = 1.0;
     for i in 0..n {
-        let sum: f64 = (i.saturating_sub(3)..i).map(|m| band[i][3 + m - i] * w[m]).sum();
+        let sum: f64 = (i.saturating_sub(3)..i)
+            .map(|m| band[i][3 + m - i] * w[m])
+            .sum();
         w[i] = (w[i] - sum) / band[i][3];
     }
     for i in (0..n).rev() {
-        let sum: f64 = (i + 1..(i + 4).min(n)).map(|m| band[m][3 + i - m] * w[m]).sum();
+        let sum: f64 = (i + 1..(i + 4).min(n))
+            .map(|m| band[m][3 + i - m] * w[m])
+            .sum();
         w[i] = (w[i] - sum) / band[i][3];
     }
     Some(w[2 * node])
@@ -99,8 +115,15 @@ fn banded(lengths: &[f64], node: usize) -> Option<f64> {
 
 /// The same by the library, with the relative error bound that it certifies.
 fn certified(lengths: &[f64], node: usize) -> Result<(f64, f64), String> {
-    let section = fea::CrossSection { e: 1.0, iz: 1.0, ..fea::CrossSection::default() };
-    let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
+    let section = fea::CrossSection {
+        e: 1.0,
+        iz: 1.0,
+        ..fea::CrossSection::default()
+    };
+    let mut model = Model {
+        up: [0.0, 1.0, 0.0],
+        ..Model::default()
+    };
     model.sections.push(section);
     let mut x = 0.0;
     model.points.push([x, 0.0, 0.0]);
@@ -109,15 +132,33 @@ fn certified(lengths: &[f64], node: usize) -> Result<(f64, f64), String> {
         x += h;
         model.points.push([x, 0.0, 0.0]);
         model.members.push(Member::beam([e, e + 1], 0, model.up));
-        segments.push(RailSegment { member: e, offset: [0.0; 3] });
+        segments.push(RailSegment {
+            member: e,
+            offset: [0.0; 3],
+        });
     }
     let last = lengths.len();
-    model.supports.push(Support { point: 0, fixed: [true, true, true, true, false, false] });
-    model.supports.push(Support { point: last, fixed: [false, true, true, true, false, false] });
+    model.supports.push(Support {
+        point: 0,
+        fixed: [true, true, true, true, false, false],
+    });
+    model.supports.push(Support {
+        point: last,
+        fixed: [false, true, true, true, false, false],
+    });
     let place = model.points[node][0];
-    let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: vec![place] };
+    let rail = Rail {
+        origin: [0.0; 3],
+        axis: [1.0, 0.0, 0.0],
+        segments,
+        stations: vec![place],
+    };
     let frame = FactoredFrame::new(&model, &[rail]).map_err(|error| error.to_string())?;
-    let probe = Probe { rail: 0, x: place, axis: Axis::Vertical };
+    let probe = Probe {
+        rail: 0,
+        x: place,
+        axis: Axis::Vertical,
+    };
     let grid = frame.grid(&[probe]).map_err(|error| error.to_string())?;
     Ok((grid.value[(0, 0)], grid.certificate.error_bound))
 }
@@ -130,9 +171,16 @@ fn exact(x: f64) -> f64 {
 /// Both maps: 2 to 2^`most` equal elements, and one short element between two long ones.
 #[must_use]
 pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
-    let title = format!("{}: error in double precision over the number of elements", subject.name);
-    let axes =
-        |label: &str| [MapScale::new(label, "", true), MapScale::new("relative error at midspan", "", true)];
+    let title = format!(
+        "{}: error in double precision over the number of elements",
+        subject.name
+    );
+    let axes = |label: &str| {
+        [
+            MapScale::new(label, "", true),
+            MapScale::new("relative error at midspan", "", true),
+        ]
+    };
     let mut equal = StabilityMap::new(
         "elements",
         &title,
@@ -140,8 +188,14 @@ pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
         "Euler-Bernoulli elements, exact except for rounding; wrong if the error exceeds 1e-6. The line is the bound \
          that girderway certifies.",
     );
-    let many: Vec<Vec<f64>> = (1..=most).map(|i| vec![1.0 / f64::from(1 << i); 1 << i]).collect();
-    fill(&mut equal, many.iter().map(|own| (own.len() as f64, own.clone(), own.len() / 2)));
+    let many: Vec<Vec<f64>> = (1..=most)
+        .map(|i| vec![1.0 / f64::from(1 << i); 1 << i])
+        .collect();
+    fill(
+        &mut equal,
+        many.iter()
+            .map(|own| (own.len() as f64, own.clone(), own.len() / 2)),
+    );
     let mut short = StabilityMap::new(
         "short-element",
         "One short element between two long ones: error in double precision",
@@ -150,7 +204,9 @@ pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
          bound that girderway certifies.",
     );
     let ratios = super::steps::spread(1e-9, 1e-1, 65);
-    let few = ratios.into_iter().map(|ratio| (ratio, vec![0.5 - 0.5 * ratio, ratio, 0.5 - 0.5 * ratio], 1));
+    let few = ratios
+        .into_iter()
+        .map(|ratio| (ratio, vec![0.5 - 0.5 * ratio, ratio, 0.5 - 0.5 * ratio], 1));
     fill(&mut short, few);
     vec![equal, short]
 }
@@ -165,11 +221,21 @@ fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usi
         let expected = exact(place);
         let relative = |value: f64| (value / expected - 1.0).abs().max(LEAST);
         let (value, verdict) = match banded(&lengths, node) {
-            Some(value) => (relative(value), MapVerdict::of(relative(value), ALLOWED, OBVIOUS)),
-            None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
+            Some(value) => (
+                relative(value),
+                MapVerdict::of(relative(value), ALLOWED, OBVIOUS),
+            ),
+            None => (
+                1.0,
+                MapVerdict::Refused("the matrix is not positive definite".to_owned()),
+            ),
         };
         map.note(format!("doubles: relative error at {x}"), value);
-        layers[0].points.push(MapPoint { at: [x, value], value, verdict });
+        layers[0].points.push(MapPoint {
+            at: [x, value],
+            value,
+            verdict,
+        });
         let (value, verdict) = match certified(&lengths, node) {
             Ok((value, bound)) => {
                 bounds.push([x, bound.max(LEAST)]);
@@ -187,9 +253,17 @@ fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usi
             }
             Err(why) => (1.0, MapVerdict::Refused(why)),
         };
-        layers[1].points.push(MapPoint { at: [x, value], value, verdict });
+        layers[1].points.push(MapPoint {
+            at: [x, value],
+            value,
+            verdict,
+        });
     }
-    layers[1].lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
+    layers[1].lines.push(Series::new(
+        "girderway's certified bound",
+        Style::Line,
+        bounds,
+    ));
     map.layers.extend(layers);
 }
 
@@ -203,7 +277,10 @@ mod tests {
             let node = 2.min(lengths.len() - 1);
             let place: f64 = lengths.iter().take(node).sum();
             let value = banded(&lengths, node).expect("a stable beam");
-            assert!((value / exact(place) - 1.0).abs() < 1e-12, "{lengths:?}: {value}");
+            assert!(
+                (value / exact(place) - 1.0).abs() < 1e-12,
+                "{lengths:?}: {value}"
+            );
         }
     }
 }

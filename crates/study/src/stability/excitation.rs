@@ -81,7 +81,13 @@ impl Bogie {
                 system[(i + 2, j + 2)] = damper[(i, j)];
             }
         }
-        Some(system.complex_eigenvalues().iter().map(|own| own.re).fold(f64::MIN, f64::max))
+        Some(
+            system
+                .complex_eigenvalues()
+                .iter()
+                .map(|own| own.re)
+                .fold(f64::MIN, f64::max),
+        )
     }
 }
 
@@ -113,7 +119,9 @@ struct BogieFamily<'s, 'a> {
 impl BogieFamily<'_, '_> {
     /// Growth rate of `bogie` on a rail of this `compliance`.
     fn growth(&self, compliance: &dyn Compliance, bogie: Bogie) -> Option<f64> {
-        let matrix = self.subject.compliance(compliance, &[bogie.x - self.half, bogie.x + self.half])?;
+        let matrix = self
+            .subject
+            .compliance(compliance, &[bogie.x - self.half, bogie.x + self.half])?;
         bogie.growth(&matrix)
     }
 
@@ -152,7 +160,10 @@ impl BogieFamily<'_, '_> {
         };
         let middle = |i: i32, count: i32| (f64::from(i) + 0.5) / f64::from(count);
         for (i, j, k) in triples(0..80, 0..8, 0..10) {
-            consider([middle(i, 80), 2.0 * middle(j, 8) - 1.0, middle(k, 10)], &mut best);
+            consider(
+                [middle(i, 80), 2.0 * middle(j, 8) - 1.0, middle(k, 10)],
+                &mut best,
+            );
         }
         let mut width = [1.0 / 80.0, 1.0 / 4.0, 1.0 / 10.0];
         for _ in 0..10 {
@@ -177,8 +188,18 @@ impl BogieFamily<'_, '_> {
         let (mut low, mut high) = (0.0, 100.0 * self.subject.stiffness / self.omega);
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            let growth = self.growth(compliance, Bogie { law: [self.subject.stiffness, middle], ..bogie });
-            if growth.is_some_and(|growth| growth > NONE * self.omega) { low = middle } else { high = middle }
+            let growth = self.growth(
+                compliance,
+                Bogie {
+                    law: [self.subject.stiffness, middle],
+                    ..bogie
+                },
+            );
+            if growth.is_some_and(|growth| growth > NONE * self.omega) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         high
     }
@@ -194,10 +215,24 @@ impl BogieFamily<'_, '_> {
         let mut map_points = Vec::new();
         for x in (0..points).map(|i| self.place(i, points)) {
             for &c in dampers {
-                let own = Bogie { x, law: [self.subject.stiffness, c], ..bogie };
-                let Some(value) = self.growth(compliance, own) else { continue };
-                let verdict = if value <= NONE * self.omega { MapVerdict::Right } else { MapVerdict::Wrong };
-                map_points.push(MapPoint { at: [x, c], value, verdict });
+                let own = Bogie {
+                    x,
+                    law: [self.subject.stiffness, c],
+                    ..bogie
+                };
+                let Some(value) = self.growth(compliance, own) else {
+                    continue;
+                };
+                let verdict = if value <= NONE * self.omega {
+                    MapVerdict::Right
+                } else {
+                    MapVerdict::Wrong
+                };
+                map_points.push(MapPoint {
+                    at: [x, c],
+                    value,
+                    verdict,
+                });
             }
         }
         map_points
@@ -213,16 +248,28 @@ impl BogieFamily<'_, '_> {
         dampers: &[f64],
     ) -> Vec<MapPoint> {
         let point = |&c: &f64| {
-            let own = Bogie { law: [self.subject.stiffness, c], ..bogie };
+            let own = Bogie {
+                law: [self.subject.stiffness, c],
+                ..bogie
+            };
             let growth = self.growth(akispl, own).unwrap_or_default();
             let (value, verdict) = match run_on_akispl(self.subject, tables, own, growth) {
                 Ok((_, residual)) if residual > RESIDUAL => (residual, MapVerdict::Warned),
-                Ok((has_grown, residual)) => {
-                    (residual, if has_grown { MapVerdict::Wrong } else { MapVerdict::Right })
-                }
+                Ok((has_grown, residual)) => (
+                    residual,
+                    if has_grown {
+                        MapVerdict::Wrong
+                    } else {
+                        MapVerdict::Right
+                    },
+                ),
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            MapPoint { at: [bogie.x, c], value, verdict }
+            MapPoint {
+                at: [bogie.x, c],
+                value,
+                verdict,
+            }
         };
         dampers.iter().map(point).collect()
     }
@@ -236,7 +283,9 @@ fn triples(
 ) -> impl Iterator<Item = (i32, i32, i32)> {
     first.flat_map(move |i| {
         let third = third.clone();
-        second.clone().flat_map(move |j| third.clone().map(move |k| (i, j, k)))
+        second
+            .clone()
+            .flat_map(move |j| third.clone().map(move |k| (i, j, k)))
     })
 }
 
@@ -253,11 +302,15 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
         return Err("a truck of one wheel cannot pitch".to_owned());
     }
     let mut map = empty_map(subject);
-    let tables =
-        influence_blocks(subject.structure, Some(subject.solved)).map_err(|failure| failure.to_string())?;
-    let read = |kind: ReadingMethod| TableReading::new(kind, &tables).map_err(|error| error.to_string());
-    let (akispl, cubspl, natural) =
-        (read(ReadingMethod::Akispl)?, read(ReadingMethod::Cubspl)?, read(ReadingMethod::Natural)?);
+    let tables = influence_blocks(subject.structure, Some(subject.solved))
+        .map_err(|failure| failure.to_string())?;
+    let read =
+        |kind: ReadingMethod| TableReading::new(kind, &tables).map_err(|error| error.to_string());
+    let (akispl, cubspl, natural) = (
+        read(ReadingMethod::Akispl)?,
+        read(ReadingMethod::Cubspl)?,
+        read(ReadingMethod::Natural)?,
+    );
     let readings: [(&str, &dyn Compliance, bool); 4] = [
         ("akispl", &akispl, false),
         ("cubspl", &cubspl, false),
@@ -273,10 +326,16 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
     let (growth, worst) = family.fastest_growing(&akispl);
     map.note("akispl: largest growth without dampers, 1/s", growth);
     map.note("akispl: position", worst.x);
-    map.note("akispl: distance of the centre of mass from the middle", worst.offset);
+    map.note(
+        "akispl: distance of the centre of mass from the middle",
+        worst.offset,
+    );
     map.note("akispl: radius of gyration", worst.gyration);
     let needed = family.stopping_damper(&akispl, worst);
-    map.note("akispl: damper of each wheel to the ground that stops it", needed);
+    map.note(
+        "akispl: damper of each wheel to the ground that stops it",
+        needed,
+    );
     for (name, compliance, _) in &readings {
         note_loop_work(&mut map, subject, name, *compliance, 2.0 * half)?;
     }
@@ -288,18 +347,28 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
             name.to_owned()
         };
         let map_points = family.growth_over_span(compliance, worst, &dampers, points);
-        map.layers.push(MapLayer::new(method, is_ours).with(map_points));
+        map.layers
+            .push(MapLayer::new(method, is_ours).with(map_points));
     }
     let map_points = family.simulated(&akispl, &tables, worst, &dampers);
-    map.layers.push(MapLayer::new("girderway, akispl, worst position", true).with(map_points));
+    map.layers
+        .push(MapLayer::new("girderway, akispl, worst position", true).with(map_points));
     Ok(map)
 }
 
 /// The map without numbers and layers.
 fn empty_map(subject: &MapSubject<'_>) -> StabilityMap {
     let axes = [
-        MapScale::new("position of the bogie", &subject.unit(Dimension::LENGTH), false),
-        MapScale::new("damper of a wheel to the ground", &subject.unit(Dimension::DAMPING), true),
+        MapScale::new(
+            "position of the bogie",
+            &subject.unit(Dimension::LENGTH),
+            false,
+        ),
+        MapScale::new(
+            "damper of a wheel to the ground",
+            &subject.unit(Dimension::DAMPING),
+            true,
+        ),
     ];
     StabilityMap::new(
         "excitation",
@@ -320,15 +389,19 @@ fn note_loop_work(
     spacing: f64,
 ) -> Result<(), String> {
     let block = CouplingBlock::direct(compliance, (0, Axis::Vertical));
-    let places: Vec<f64> =
-        (0..=600).map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0).collect();
+    let places: Vec<f64> = (0..=600)
+        .map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0)
+        .collect();
     let largest = loop_work(&block, spacing, &places).map_err(|error| error.to_string())?;
     map.note(
         format!("{name}: work of a closed loop of two wheels' forces"),
         largest.work * subject.load * subject.load,
     );
     if largest.stored > 0.0 {
-        map.note(format!("{name}: the same relative to the stored energy"), largest.work / largest.stored);
+        map.note(
+            format!("{name}: the same relative to the stored energy"),
+            largest.work / largest.stored,
+        );
     }
     Ok(())
 }
@@ -345,12 +418,18 @@ fn run_on_akispl(
     own: Bogie,
     growth: f64,
 ) -> Result<(bool, f64), String> {
-    let reading = TableReading::new(ReadingMethod::Akispl, tables).map_err(|error| error.to_string())?;
+    let reading =
+        TableReading::new(ReadingMethod::Akispl, tables).map_err(|error| error.to_string())?;
     let [k, c] = own.law;
     let omega = (2.0 * k / own.mass).sqrt();
     let end = EFOLDINGS / growth.max(0.01 * omega);
     let at = [-own.half - own.offset, own.half - own.offset];
-    let scene = subject.crossing(own.mass, &at, subject.linear(k, c), [own.x + own.offset, 0.0, end]);
+    let scene = subject.crossing(
+        own.mass,
+        &at,
+        subject.linear(k, c),
+        [own.x + own.offset, 0.0, end],
+    );
     let mut scene = scene.map_err(|error| error.to_string())?;
     let body = &mut scene.bodies[0];
     body.motion = None;
@@ -363,7 +442,9 @@ fn run_on_akispl(
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()));
     let run = run.map_err(|error| error.to_string())?;
     if !run.status.is_complete() {
-        return Err(results::run_error::status(&run.status).1.unwrap_or_default());
+        return Err(results::run_error::status(&run.status)
+            .1
+            .unwrap_or_default());
     }
     let speed = run.history.column(Channel::Speed(0, BodyDof::Y));
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
@@ -378,18 +459,36 @@ mod tests {
 
     #[test]
     fn growth_without_dampers_is_the_limit_of_small_ones() {
-        let compliance =
-            |skew: f64| DMatrix::from_row_slice(2, 2, &[2e-8, 1.5e-8 + skew, 1.5e-8 - skew, 1.8e-8]);
+        let compliance = |skew: f64| {
+            DMatrix::from_row_slice(2, 2, &[2e-8, 1.5e-8 + skew, 1.5e-8 - skew, 1.8e-8])
+        };
         let mut growing = 0;
         for skew in [0.0, 1e-10, 4e-9, 1.4e-8, 2e-8, 3e-8] {
-            let own = Bogie { x: 0.0, offset: 0.7, gyration: 1.4, half: 1.3, law: [1e8, 0.0], mass: 1.5e5 };
+            let own = Bogie {
+                x: 0.0,
+                offset: 0.7,
+                gyration: 1.4,
+                half: 1.3,
+                law: [1e8, 0.0],
+                mass: 1.5e5,
+            };
             let [without, nearly] = [0.0, 1e-7].map(|c| {
-                let growth = Bogie { law: [1e8, c], ..own }.growth(&compliance(skew));
+                let growth = Bogie {
+                    law: [1e8, c],
+                    ..own
+                }
+                .growth(&compliance(skew));
                 growth.expect("a flexible contact")
             });
-            assert!((without - nearly.max(0.0)).abs() < 1e-6, "{skew}: {without} {nearly}");
+            assert!(
+                (without - nearly.max(0.0)).abs() < 1e-6,
+                "{skew}: {without} {nearly}"
+            );
             growing += usize::from(without > 0.0);
         }
-        assert!((1..5).contains(&growing), "some grow, some do not: {growing}");
+        assert!(
+            (1..5).contains(&growing),
+            "some grow, some do not: {growing}"
+        );
     }
 }

@@ -29,7 +29,11 @@ pub fn figures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         fits(0) && fits(1)
     };
     let points = || {
-        map.layers.iter().flat_map(|layer| &layer.points).map(|point| point.at).filter(|at| is_drawable(at))
+        map.layers
+            .iter()
+            .flat_map(|layer| &layer.points)
+            .map(|point| point.at)
+            .filter(|at| is_drawable(at))
     };
     let range = |k: usize| {
         let low = points().map(|at| at[k]).fold(f64::INFINITY, f64::min);
@@ -45,12 +49,28 @@ pub fn figures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
         for word in MapVerdict::WORDS {
-            let own = layer.points.iter().filter(|point| point.verdict.word() == word).map(|point| point.at);
-            chart.series.push(Series::new(word, Style::Points, own.filter(|at| is_drawable(at)).collect()));
+            let own = layer
+                .points
+                .iter()
+                .filter(|point| point.verdict.word() == word)
+                .map(|point| point.at);
+            chart.series.push(Series::new(
+                word,
+                Style::Points,
+                own.filter(|at| is_drawable(at)).collect(),
+            ));
         }
         for line in &layer.lines {
-            let points = line.points.iter().copied().filter(|at| is_drawable(at)).collect();
-            chart.series.push(Series { points, ..line.clone() });
+            let points = line
+                .points
+                .iter()
+                .copied()
+                .filter(|at| is_drawable(at))
+                .collect();
+            chart.series.push(Series {
+                points,
+                ..line.clone()
+            });
         }
         let counts = layer.counts();
         let summary: Vec<String> = MapVerdict::WORDS

@@ -61,7 +61,10 @@ fn reference(beta: f64) -> Passage {
     let mut s = (1e-3 / h).round() * h;
     let own = beta / (beta + 2.0);
     let mut state = [16.0 * own * s * s, 32.0 * own * s];
-    let mut out = Passage { factor: 0.0, lost: 1.0 };
+    let mut out = Passage {
+        factor: 0.0,
+        lost: 1.0,
+    };
     while s < LAST {
         let add = |a: [f64; 2], b: [f64; 2], by: f64| [a[0] + by * b[0], a[1] + by * b[1]];
         let k1 = slope(s, state);
@@ -92,17 +95,36 @@ fn simulated(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passag
     let stiffness = RIGID / midspan;
     // half of critical damping: oscillations of the wheel itself decay
     let damping = (stiffness * mass).sqrt();
-    let law =
-        sim::NormalLaw { bilateral: pulls, damper: sim::Damper::Rail, ..subject.linear(stiffness, damping) };
-    let scene = subject.crossing(mass, &[0.0], law, [subject.span[0], speed, LAST * length / speed]);
+    let law = sim::NormalLaw {
+        bilateral: pulls,
+        damper: sim::Damper::Rail,
+        ..subject.linear(stiffness, damping)
+    };
+    let scene = subject.crossing(
+        mass,
+        &[0.0],
+        law,
+        [subject.span[0], speed, LAST * length / speed],
+    );
     let mut scene = scene.map_err(|error| error.to_string())?;
     scene.output_dt = scene.end / SAMPLES;
-    let probe = splines::Probe { rail: 0, x: mid, axis: splines::Axis::Vertical };
-    scene.gauges.push(sim::Gauge { structure: 0, probe });
-    let run = sim::run(&scene, &[subject.foundation()], &mut |_| ControlFlow::Continue(()));
+    let probe = splines::Probe {
+        rail: 0,
+        x: mid,
+        axis: splines::Axis::Vertical,
+    };
+    scene.gauges.push(sim::Gauge {
+        structure: 0,
+        probe,
+    });
+    let run = sim::run(&scene, &[subject.foundation()], &mut |_| {
+        ControlFlow::Continue(())
+    });
     let run = run.map_err(|error| error.to_string())?;
     if run.status != Status::Done {
-        return Err(results::run_error::status(&run.status).1.unwrap_or_default());
+        return Err(results::run_error::status(&run.status)
+            .1
+            .unwrap_or_default());
     }
     let static_deflection = subject.load * midspan;
     let forces = run.history.column(Channel::Vertical(0));
@@ -112,7 +134,13 @@ fn simulated(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passag
     let deepest = until.fold(0.0_f64, |most, own| most.max(-own));
     let lost = first.map_or(1.0, |at| LAST * at as f64 / (forces.len() - 1) as f64);
     let least = forces.iter().fold(f64::MAX, |least, own| least.min(*own)) / subject.load;
-    Ok((Passage { factor: deepest / static_deflection, lost }, least))
+    Ok((
+        Passage {
+            factor: deepest / static_deflection,
+            lost,
+        },
+        least,
+    ))
 }
 
 /// The map of the place where contact is lost against beta, and factors at five values of beta as numbers.
@@ -135,11 +163,17 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     for beta in [100.0, 25.0, 10.0, 5.0, 2.0] {
         let right = reference(beta);
         let own = simulated(subject, beta, false);
-        for (who, passage) in [("Stokes", Some(right)), ("girderway", own.ok().map(|own| own.0))] {
+        for (who, passage) in [
+            ("Stokes", Some(right)),
+            ("girderway", own.ok().map(|own| own.0)),
+        ] {
             let Some(passage) = passage else { continue };
             map.note(format!("{who}: factor at beta {beta}"), passage.factor);
             if passage.lost < 1.0 {
-                map.note(format!("{who}: x/L of lift-off at beta {beta}"), passage.lost);
+                map.note(
+                    format!("{who}: x/L of lift-off at beta {beta}"),
+                    passage.lost,
+                );
             }
         }
     }
@@ -152,17 +186,25 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         for (layer, pulls) in layers.iter_mut().zip([true, false]) {
             let (at, value, verdict) = match simulated(subject, beta, pulls) {
                 Ok((own, least)) => {
-                    let apart = (own.factor - right.factor).abs().max(0.2 * (own.lost - right.lost).abs());
+                    let apart = (own.factor - right.factor)
+                        .abs()
+                        .max(0.2 * (own.lost - right.lost).abs());
                     let error = if least < -1e-6 { 1.0 } else { apart };
                     (own.lost, error, MapVerdict::of(error, ALLOWED, OBVIOUS))
                 }
                 Err(why) => (right.lost, 0.0, MapVerdict::Refused(why)),
             };
-            layer.points.push(MapPoint { at: [beta, at], value, verdict });
+            layer.points.push(MapPoint {
+                at: [beta, at],
+                value,
+                verdict,
+            });
         }
     }
     let line = Series::new("by Stokes' equation", Style::Line, lost);
-    layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
+    layers
+        .iter_mut()
+        .for_each(|layer| layer.lines.push(line.clone()));
     map.layers.extend(layers);
     map
 }

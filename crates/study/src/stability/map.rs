@@ -37,8 +37,13 @@ pub enum MapVerdict {
 
 impl MapVerdict {
     /// Words of the verdicts in files and legends, in the order of charts.
-    pub const WORDS: [&'static str; 5] =
-        ["right", "silently wrong", "diverges", "wrong, with a warning", "refused"];
+    pub const WORDS: [&'static str; 5] = [
+        "right",
+        "silently wrong",
+        "diverges",
+        "wrong, with a warning",
+        "refused",
+    ];
 
     /// The word of the verdict in files and legends.
     #[must_use]
@@ -96,7 +101,12 @@ impl MapLayer {
     /// A layer without points.
     #[must_use]
     pub fn new(method: impl Into<String>, is_ours: bool) -> MapLayer {
-        MapLayer { method: method.into(), is_ours, points: Vec::new(), lines: Vec::new() }
+        MapLayer {
+            method: method.into(),
+            is_ours,
+            points: Vec::new(),
+            lines: Vec::new(),
+        }
     }
 
     /// The same layer with these points.
@@ -108,7 +118,12 @@ impl MapLayer {
     /// The number of points of each verdict, in the order of [`MapVerdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
-        MapVerdict::WORDS.map(|word| self.points.iter().filter(|point| point.verdict.word() == word).count())
+        MapVerdict::WORDS.map(|word| {
+            self.points
+                .iter()
+                .filter(|point| point.verdict.word() == word)
+                .count()
+        })
     }
 }
 
@@ -136,7 +151,11 @@ impl MapScale {
     /// An axis from its parts.
     #[must_use]
     pub fn new(label: &str, unit: &str, log: bool) -> MapScale {
-        MapScale { label: label.to_owned(), unit: unit.to_owned(), log }
+        MapScale {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+            log,
+        }
     }
 }
 
@@ -162,18 +181,29 @@ impl StabilityMap {
     #[must_use]
     pub fn new(name: &'static str, title: &str, axes: [MapScale; 2], note: &str) -> StabilityMap {
         let (layers, findings) = (Vec::new(), Vec::new());
-        StabilityMap { name, title: title.to_owned(), axes, layers, findings, note: note.to_owned() }
+        StabilityMap {
+            name,
+            title: title.to_owned(),
+            axes,
+            layers,
+            findings,
+            note: note.to_owned(),
+        }
     }
 
     /// Adds a single number.
     pub fn note(&mut self, what: impl Into<String>, value: f64) {
-        self.findings.push(MapFinding { what: what.into(), value });
+        self.findings.push(MapFinding {
+            what: what.into(),
+            value,
+        });
     }
 
     /// Number of points at which the program itself is wrong without a warning.
     #[must_use]
     pub fn silent_count(&self) -> usize {
         let ours = self.layers.iter().filter(|layer| layer.is_ours);
-        ours.map(|layer| layer.counts()[1] + layer.counts()[2]).sum()
+        ours.map(|layer| layer.counts()[1] + layer.counts()[2])
+            .sum()
     }
 }

@@ -46,7 +46,11 @@ pub fn maps(subject: &MapSubject<'_>, quick: bool, observer: &dyn Observer) -> M
     observer.message("mapping steps");
     maps.extend(steps::maps(subject, points(30)));
     observer.message("mapping ties");
-    match if quick { Err("left out by --quick".to_owned()) } else { ties::map(points(27)) } {
+    match if quick {
+        Err("left out by --quick".to_owned())
+    } else {
+        ties::map(points(27))
+    } {
         Ok(map) => maps.push(map),
         Err(why) => absent.push(("ties".to_owned(), why)),
     }

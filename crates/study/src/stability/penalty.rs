@@ -84,12 +84,29 @@ impl Beam {
             j: self.twist,
             ..CrossSection::default()
         };
-        let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
-        model.points = (0..=count).map(|i| [i as f64 / count as f64, 0.0, 0.0]).collect();
-        model.members = (0..count).map(|e| Member::beam([e, e + 1], 0, model.up)).collect();
-        model.supports.push(Support { point: 0, fixed: [true, true, true, true, false, false] });
-        model.supports.push(Support { point: count, fixed: [false, true, true, true, false, false] });
-        let segments = (0..count).map(|member| RailSegment { member, offset: [0.0, self.offset, 0.0] });
+        let mut model = Model {
+            up: [0.0, 1.0, 0.0],
+            sections: vec![section],
+            ..Model::default()
+        };
+        model.points = (0..=count)
+            .map(|i| [i as f64 / count as f64, 0.0, 0.0])
+            .collect();
+        model.members = (0..count)
+            .map(|e| Member::beam([e, e + 1], 0, model.up))
+            .collect();
+        model.supports.push(Support {
+            point: 0,
+            fixed: [true, true, true, true, false, false],
+        });
+        model.supports.push(Support {
+            point: count,
+            fixed: [false, true, true, true, false, false],
+        });
+        let segments = (0..count).map(|member| RailSegment {
+            member,
+            offset: [0.0, self.offset, 0.0],
+        });
         let rail = Rail {
             origin: [0.0; 3],
             axis: [1.0, 0.0, 0.0],
@@ -97,8 +114,13 @@ impl Beam {
             stations: vec![0.5],
         };
         let frame = FactoredFrame::new(&model, &[rail]).map_err(|error| error.to_string())?;
-        let grid = frame.grid(&[Probe { rail: 0, x: 0.5, axis: Axis::Lateral }]);
-        grid.map(|grid| grid.value[(0, 0)]).map_err(|error| error.to_string())
+        let grid = frame.grid(&[Probe {
+            rail: 0,
+            x: 0.5,
+            axis: Axis::Lateral,
+        }]);
+        grid.map(|grid| grid.value[(0, 0)])
+            .map_err(|error| error.to_string())
     }
 }
 
@@ -110,7 +132,10 @@ fn beam_of(subject: &MapSubject<'_>) -> Beam {
         _ => 0.3,
     };
     let height = (girder.rail_height / subject.length()).abs();
-    Beam { twist, offset: if height > 0.0 { height } else { USUAL } }
+    Beam {
+        twist,
+        offset: if height > 0.0 { height } else { USUAL },
+    }
 }
 
 /// Relative error of a compliance, at least [`LEAST`].
@@ -123,14 +148,24 @@ fn post(beam: Beam, count: usize, stiffs: &[f64]) -> (Vec<MapPoint>, (f64, f64))
     let mut map_points = Vec::new();
     let mut best = (f64::INFINITY, 0.0);
     for &stiff in stiffs {
-        let (value, verdict) = match beam.penalty(count, stiff).map(|value| error_of(beam, value)) {
+        let (value, verdict) = match beam
+            .penalty(count, stiff)
+            .map(|value| error_of(beam, value))
+        {
             Some(error) => (error, MapVerdict::of(error, ALLOWED, OBVIOUS)),
-            None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
+            None => (
+                1.0,
+                MapVerdict::Refused("the matrix is not positive definite".to_owned()),
+            ),
         };
         if value < best.0 {
             best = (value, stiff);
         }
-        map_points.push(MapPoint { at: [stiff, value], value, verdict });
+        map_points.push(MapPoint {
+            at: [stiff, value],
+            value,
+            verdict,
+        });
     }
     (map_points, best)
 }
@@ -141,7 +176,11 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let beam = beam_of(subject);
     let axes = [
         MapScale::new("stiffness of the post / that of the girder", "", true),
-        MapScale::new("relative error of the lateral compliance of the rail", "", true),
+        MapScale::new(
+            "relative error of the lateral compliance of the rail",
+            "",
+            true,
+        ),
     ];
     let mut map = StabilityMap::new(
         "penalty",
@@ -150,13 +189,19 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         "A soft post deflects, a stiff one loses digits; wrong if the error exceeds 1e-6. In girderway the offset is \
          part of the kinematics, without a stiffness to choose.",
     );
-    map.note("torsional stiffness / lateral bending stiffness", beam.twist);
+    map.note(
+        "torsional stiffness / lateral bending stiffness",
+        beam.twist,
+    );
     map.note("height of the rail / span", beam.offset);
     let stiffs = spread(1.0, 1e16, points);
     for count in [4, 16, 64] {
         let (map_points, best) = post(beam, count, &stiffs);
         map.note(format!("{count} elements: smallest error"), best.0);
-        map.note(format!("{count} elements: stiffness of smallest error"), best.1);
+        map.note(
+            format!("{count} elements: stiffness of smallest error"),
+            best.1,
+        );
         for stiff in [1e3, 1e5, 1e7] {
             if let Some(value) = beam.penalty(count, stiff) {
                 map.note(
@@ -165,7 +210,8 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
                 );
             }
         }
-        map.layers.push(MapLayer::new(format!("stiff post, {count} elements"), false).with(map_points));
+        map.layers
+            .push(MapLayer::new(format!("stiff post, {count} elements"), false).with(map_points));
     }
     let mut map_points = Vec::new();
     for count in [4, 16, 64] {
@@ -181,7 +227,8 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
             verdict: verdict.clone(),
         }));
     }
-    map.layers.push(MapLayer::new("girderway, 4, 16 and 64 elements", true).with(map_points));
+    map.layers
+        .push(MapLayer::new("girderway, 4, 16 and 64 elements", true).with(map_points));
     map
 }
 
@@ -192,11 +239,17 @@ mod tests {
     #[test]
     fn error_of_a_post_is_its_own_bending() {
         // the post adds h^3 / (3 s); the rest is exact
-        let beam = Beam { twist: 0.3, offset: 0.06 };
+        let beam = Beam {
+            twist: 0.3,
+            offset: 0.06,
+        };
         for stiff in [1.0, 10.0, 1e3] {
             let value = beam.penalty(8, stiff).expect("a stable beam");
             let expected = beam.exact() + 0.06_f64.powi(3) / (3.0 * stiff);
-            assert!((value / expected - 1.0).abs() < 1e-10, "{stiff}: {value} {expected}");
+            assert!(
+                (value / expected - 1.0).abs() < 1e-10,
+                "{stiff}: {value} {expected}"
+            );
         }
         let value = beam.by_offset(8).expect("a stable beam");
         assert!((value / beam.exact() - 1.0).abs() < 1e-13, "{value}");

@@ -64,13 +64,27 @@ fn explicit<const S: usize>(
         }
         slopes[stage] = of.slope(t + node * h, at);
     }
-    let sum = |i: usize| weights.iter().zip(&slopes).map(|(weight, slope)| weight * slope[i]).sum::<f64>();
+    let sum = |i: usize| {
+        weights
+            .iter()
+            .zip(&slopes)
+            .map(|(weight, slope)| weight * slope[i])
+            .sum::<f64>()
+    };
     [z + h * sum(0), v + h * sum(1), 0.0, 0.0]
 }
 
 fn rk4(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
     let weights = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
-    explicit(of, t, h, state, [0.0, 0.5, 0.5, 1.0], [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]], weights)
+    explicit(
+        of,
+        t,
+        h,
+        state,
+        [0.0, 0.5, 0.5, 1.0],
+        [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
+        weights,
+    )
 }
 
 /// One step of the method of order 5 of Dormand and Prince.
@@ -83,11 +97,37 @@ fn dp5(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> Oscillato
         &[1.0 / 5.0],
         &[3.0 / 40.0, 9.0 / 40.0],
         &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-        &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
-        &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+        &[
+            19372.0 / 6561.0,
+            -25360.0 / 2187.0,
+            64448.0 / 6561.0,
+            -212.0 / 729.0,
+        ],
+        &[
+            9017.0 / 3168.0,
+            -355.0 / 33.0,
+            46732.0 / 5247.0,
+            49.0 / 176.0,
+            -5103.0 / 18656.0,
+        ],
     ];
-    let weights = [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0];
-    explicit(of, t, h, state, [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0], rows, weights)
+    let weights = [
+        35.0 / 384.0,
+        0.0,
+        500.0 / 1113.0,
+        125.0 / 192.0,
+        -2187.0 / 6784.0,
+        11.0 / 84.0,
+    ];
+    explicit(
+        of,
+        t,
+        h,
+        state,
+        [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0],
+        rows,
+        weights,
+    )
 }
 
 fn midpoint(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
@@ -98,7 +138,11 @@ fn midpoint(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) ->
 
 fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
     let slope = of.slope(t, [z, v]);
-    let [z, v] = of.implicit(t + h, 0.5 * h, [z + 0.5 * h * slope[0], v + 0.5 * h * slope[1]]);
+    let [z, v] = of.implicit(
+        t + h,
+        0.5 * h,
+        [z + 0.5 * h * slope[0], v + 0.5 * h * slope[1]],
+    );
     [z, v, 0.0, 0.0]
 }
 
@@ -107,8 +151,17 @@ fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -
 /// # Source
 /// J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical dissipation,
 /// J. Appl. Mech. 60 (1993), 371-375.
-fn alpha(of: &Oscillator<'_>, t: f64, h: f64, [z, v, a, _]: OscillatorState, radius: f64) -> OscillatorState {
-    let (am, af) = ((2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0));
+fn alpha(
+    of: &Oscillator<'_>,
+    t: f64,
+    h: f64,
+    [z, v, a, _]: OscillatorState,
+    radius: f64,
+) -> OscillatorState {
+    let (am, af) = (
+        (2.0 * radius - 1.0) / (radius + 1.0),
+        radius / (radius + 1.0),
+    );
     let gamma = 0.5 + af - am;
     let beta = 0.25 * (1.0 + af - am) * (1.0 + af - am);
     let [s0, s1] = [(of.stiffness)(t), (of.stiffness)(t + h)];
@@ -130,7 +183,11 @@ fn alpha5(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> Oscill
 }
 
 fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: OscillatorState) -> OscillatorState {
-    let [new, speed] = of.implicit(t + h, 2.0 / 3.0 * h, [(4.0 * z - z0) / 3.0, (4.0 * v - v0) / 3.0]);
+    let [new, speed] = of.implicit(
+        t + h,
+        2.0 / 3.0 * h,
+        [(4.0 * z - z0) / 3.0, (4.0 * v - v0) / 3.0],
+    );
     [new, speed, z, v]
 }
 
@@ -140,14 +197,24 @@ pub fn radius(matrix: &DMatrix<f64>) -> f64 {
     if matrix.iter().any(|own| !own.is_finite()) {
         return f64::INFINITY;
     }
-    matrix.complex_eigenvalues().iter().map(|own| own.norm()).fold(0.0, f64::max)
+    matrix
+        .complex_eigenvalues()
+        .iter()
+        .map(|own| own.norm())
+        .fold(0.0, f64::max)
 }
 
 /// Spectral radius of the monodromy matrix of `count` equal steps over the time `period`.
 ///
 /// Column j of this `size` x `size` matrix is the state after all steps that start from the unit state j.
 #[must_use]
-pub fn monodromy(of: &Oscillator<'_>, step: StepMethod, size: usize, period: f64, count: usize) -> f64 {
+pub fn monodromy(
+    of: &Oscillator<'_>,
+    step: StepMethod,
+    size: usize,
+    period: f64,
+    count: usize,
+) -> f64 {
     let h = period / count as f64;
     let mut out = DMatrix::zeros(size, size);
     for column in 0..size {
@@ -170,14 +237,19 @@ mod tests {
     /// Error of z after unit time of z'' + (0.2 + 0.3 t) z' + 4 (1 + t) z = 0 by `steps` steps.
     fn error(name: &str, step: StepMethod, steps: u32) -> f64 {
         let stiffness = |t: f64| 4.0 * (1.0 + t);
-        let of = Oscillator { damping: &|t| 0.2 + 0.3 * t, stiffness: &stiffness };
+        let of = Oscillator {
+            damping: &|t| 0.2 + 0.3 * t,
+            stiffness: &stiffness,
+        };
         let run = |name: &str, step: StepMethod, steps: u32| {
             let h = 1.0 / f64::from(steps);
             // a multistep method starts from an earlier exact state or acceleration
             let fine = |until: f64| {
                 let count = 4000;
                 let h = until / f64::from(count);
-                (0..count).fold([1.0, 0.5, 0.0, 0.0], |state, i| rk4(&of, f64::from(i) * h, h, state))
+                (0..count).fold([1.0, 0.5, 0.0, 0.0], |state, i| {
+                    rk4(&of, f64::from(i) * h, h, state)
+                })
             };
             if name == "BDF2" {
                 let [z, v, ..] = fine(h);
@@ -192,10 +264,16 @@ mod tests {
 
     #[test]
     fn steppers_have_their_orders() {
-        for ((name, _, step), order) in STEPPERS.into_iter().zip([1.0, 4.0, 5.0, 2.0, 2.0, 2.0, 2.0, 2.0]) {
+        for ((name, _, step), order) in STEPPERS
+            .into_iter()
+            .zip([1.0, 4.0, 5.0, 2.0, 2.0, 2.0, 2.0, 2.0])
+        {
             let [coarse, fine] = [40, 80].map(|steps| error(name, step, steps));
             let observed = (coarse / fine).log2();
-            assert!((observed - order).abs() < 0.3, "{name}: order {observed}, theory {order}");
+            assert!(
+                (observed - order).abs() < 0.3,
+                "{name}: order {observed}, theory {order}"
+            );
         }
     }
 }

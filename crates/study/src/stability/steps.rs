@@ -59,14 +59,20 @@ impl Crossing<'_, '_> {
     fn radius(&self, (size, step): (usize, StepMethod), period: f64, count: usize) -> f64 {
         let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
         let damping = |t: f64| self.damping * self.softening(t / period);
-        let of = Oscillator { damping: &damping, stiffness: &stiffness };
+        let of = Oscillator {
+            damping: &damping,
+            stiffness: &stiffness,
+        };
         monodromy(&of, step, size, period, count)
     }
 
     /// Spectral radius of the exact motion where the damper acts against the ground instead of the rail.
     fn physical_with_ground_damper(&self, period: f64) -> f64 {
         let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
-        let of = Oscillator { damping: &|_| self.damping, stiffness: &stiffness };
+        let of = Oscillator {
+            damping: &|_| self.damping,
+            stiffness: &stiffness,
+        };
         monodromy(&of, STEPPERS[2].2, 2, period, self.fine(period))
     }
 
@@ -93,14 +99,24 @@ impl Crossing<'_, '_> {
     /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run
     /// starts with a unit value of z or z' and yields a column of the monodromy matrix. The error is the message of
     /// the simulator.
-    fn simulated(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
+    fn simulated(
+        &self,
+        stepping: Stepping,
+        speed: f64,
+        accuracy: f64,
+    ) -> Result<(f64, f64), String> {
         let subject = self.subject;
         let law = subject.linear(subject.stiffness, subject.damping);
         let end = subject.length() / speed;
         let mut out = DMatrix::zeros(2, 2);
         let mut residual = 0.0_f64;
         for column in 0..2 {
-            let scene = subject.crossing(subject.mass(), &[0.0], law.clone(), [subject.span[0], speed, end]);
+            let scene = subject.crossing(
+                subject.mass(),
+                &[0.0],
+                law.clone(),
+                [subject.span[0], speed, end],
+            );
             let mut scene = scene.map_err(|error| error.to_string())?;
             // free oscillation: nothing drives it but its initial state
             scene.gravity = 0.0;
@@ -111,11 +127,14 @@ impl Crossing<'_, '_> {
             } else {
                 scene.bodies[0].start_speed[1] = unit * self.omega;
             }
-            let run =
-                sim::run_by(stepping, &scene, &[subject.foundation()], &mut |_| ControlFlow::Continue(()));
+            let run = sim::run_by(stepping, &scene, &[subject.foundation()], &mut |_| {
+                ControlFlow::Continue(())
+            });
             let run = run.map_err(|error| error.to_string())?;
             if !run.status.is_complete() {
-                return Err(results::run_error::status(&run.status).1.unwrap_or_default());
+                return Err(results::run_error::status(&run.status)
+                    .1
+                    .unwrap_or_default());
             }
             residual = residual.max(run.audit.residual());
             for (row, (channel, scale)) in [
@@ -139,14 +158,27 @@ pub fn maps(subject: &MapSubject<'_>, points: usize) -> Vec<StabilityMap> {
     let omega = (subject.stiffness / subject.mass()).sqrt();
     let count = 8000;
     let place = |i: usize| subject.span[0] + subject.length() * i as f64 / f64::from(count);
-    let softness = (0..=count as usize).map(|i| subject.stiffness * subject.flexibility(place(i))).collect();
-    let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), softness };
+    let softness = (0..=count as usize)
+        .map(|i| subject.stiffness * subject.flexibility(place(i)))
+        .collect();
+    let crossing = Crossing {
+        subject,
+        omega,
+        damping: subject.damping / subject.mass(),
+        softness,
+    };
     // from quasi-static to the speed at which a span passes in about a period of the wheel on its spring
     let fastest = omega * subject.length() / (2.0 * PI) * 0.86;
     let speeds = spread(fastest / 300.0, fastest, points);
-    let physical = speeds.iter().map(|speed| crossing.physical(subject.length() / speed)).collect();
+    let physical = speeds
+        .iter()
+        .map(|speed| crossing.physical(subject.length() / speed))
+        .collect();
     let motion = Motions { speeds, physical };
-    vec![by_step(&crossing, &motion, fastest, points), by_accuracy(&crossing, &motion, points)]
+    vec![
+        by_step(&crossing, &motion, fastest, points),
+        by_accuracy(&crossing, &motion, points),
+    ]
 }
 
 /// The speeds of a map, and the spectral radius of the exact motion at each.
@@ -158,19 +190,31 @@ struct Motions {
 impl Motions {
     /// Speed and spectral radius of the exact motion.
     fn each(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.speeds.iter().copied().zip(self.physical.iter().copied())
+        self.speeds
+            .iter()
+            .copied()
+            .zip(self.physical.iter().copied())
     }
 }
 
 /// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`. If the exact motion
 /// grows, the stepper may exceed its spectral radius by 2 %; otherwise the motion of the stepper must not grow.
 fn judge(radius: f64, physical: f64) -> MapVerdict {
-    let allowed = if physical > 1.0 { TOLERATED * physical } else { 1.0 + GROWTH };
+    let allowed = if physical > 1.0 {
+        TOLERATED * physical
+    } else {
+        1.0 + GROWTH
+    };
     MapVerdict::of(radius, allowed, OBVIOUS * allowed)
 }
 
 /// The map of step length against speed.
-fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points: usize) -> StabilityMap {
+fn by_step(
+    crossing: &Crossing<'_, '_>,
+    motions: &Motions,
+    fastest: f64,
+    points: usize,
+) -> StabilityMap {
     let (subject, omega) = (crossing.subject, crossing.omega);
     let axes = [
         MapScale::new("speed", &subject.unit(Dimension::SPEED), true),
@@ -185,13 +229,22 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
          that motion grows).",
     );
     map.note("frequency of the wheel on its spring, radian/s", omega);
-    map.note("fraction of critical damping", 0.5 * crossing.damping / omega);
+    map.note(
+        "fraction of critical damping",
+        0.5 * crossing.damping / omega,
+    );
     let ground = crossing.physical_with_ground_damper(subject.length() / fastest);
-    map.note("growth over a span at the highest speed with the damper to the ground", ground);
+    map.note(
+        "growth over a span at the highest speed with the damper to the ground",
+        ground,
+    );
     for (speed, physical) in motions.each() {
         if physical > 1.0 + GROWTH {
             map.note(
-                format!("growth of the exact motion over a span at {speed:.4} {}", map.axes[0].unit),
+                format!(
+                    "growth of the exact motion over a span at {speed:.4} {}",
+                    map.axes[0].unit
+                ),
                 physical,
             );
         }
@@ -200,14 +253,23 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
     for (name, size, step) in STEPPERS {
         let (map_points, first) = other_stepper(crossing, motions, &steps, (size, step));
         if first.is_finite() {
-            map.note(format!("{name}: first unstable step x frequency of a motion that decays"), first);
+            map.note(
+                format!("{name}: first unstable step x frequency of a motion that decays"),
+                first,
+            );
         }
         map.layers.push(MapLayer::new(name, false).with(map_points));
     }
-    for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
+    for method in [
+        Method::Sdirk4,
+        Method::Radau,
+        Method::Gauss2,
+        Method::Gauss3,
+    ] {
         let map_points = simulator_by_step(crossing, motions, &steps, fastest, method);
         let word = stepper_word(method);
-        map.layers.push(MapLayer::new(format!("girderway, {word}, equal steps"), true).with(map_points));
+        map.layers
+            .push(MapLayer::new(format!("girderway, {word}, equal steps"), true).with(map_points));
     }
     map
 }
@@ -224,13 +286,19 @@ fn other_stepper(
     let mut first = f64::INFINITY;
     for (speed, physical) in motions.each() {
         for &wanted in steps {
-            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else { continue };
+            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else {
+                continue;
+            };
             let value = crossing.radius(stepper, period, count);
             let verdict = judge(value, physical);
             if verdict != MapVerdict::Right && physical < DECAYS {
                 first = first.min(real);
             }
-            map_points.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+            map_points.push(MapPoint {
+                at: [speed, real],
+                value: finite(value),
+                verdict,
+            });
         }
     }
     (map_points, first)
@@ -247,8 +315,13 @@ fn simulator_by_step(
     let mut map_points = Vec::new();
     for (speed, physical) in motions.each().filter(|(speed, _)| *speed > fastest / 60.0) {
         for &wanted in steps {
-            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else { continue };
-            let stepping = Stepping { method, step: Some(period / count as f64) };
+            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else {
+                continue;
+            };
+            let stepping = Stepping {
+                method,
+                step: Some(period / count as f64),
+            };
             let (value, verdict) = match crossing.simulated(stepping, speed, 1e-4) {
                 Ok((value, residual)) => match judge(value, physical) {
                     MapVerdict::Right => (value, MapVerdict::Right),
@@ -257,7 +330,11 @@ fn simulator_by_step(
                 },
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            map_points.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+            map_points.push(MapPoint {
+                at: [speed, real],
+                value: finite(value),
+                verdict,
+            });
         }
     }
     map_points
@@ -280,22 +357,34 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) ->
     for (speed, physical) in motions.each() {
         for accuracy in spread(1e-7, 1e-1, points.min(13)) {
             let (value, verdict) = match crossing.simulated(Stepping::default(), speed, accuracy) {
-                Ok((value, _)) => {
-                    (value, MapVerdict::of(value / physical.max(1.0) - 1.0, accuracy + RADIUS_ERROR, OBVIOUS))
-                }
+                Ok((value, _)) => (
+                    value,
+                    MapVerdict::of(
+                        value / physical.max(1.0) - 1.0,
+                        accuracy + RADIUS_ERROR,
+                        OBVIOUS,
+                    ),
+                ),
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            map_points.push(MapPoint { at: [speed, accuracy], value: finite(value), verdict });
+            map_points.push(MapPoint {
+                at: [speed, accuracy],
+                value: finite(value),
+                verdict,
+            });
         }
     }
-    map.layers.push(MapLayer::new("girderway", true).with(map_points));
+    map.layers
+        .push(MapLayer::new("girderway", true).with(map_points));
     map
 }
 
 /// `count` values from `low` to `high`, equally spaced in their logarithms.
 #[must_use]
 pub fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
-    (0..count).map(|i| low * (high / low).powf(i as f64 / (count - 1).max(1) as f64)).collect()
+    (0..count)
+        .map(|i| low * (high / low).powf(i as f64 / (count - 1).max(1) as f64))
+        .collect()
 }
 
 /// The value, or the largest finite number where it is infinite or not a number: files contain finite numbers only.

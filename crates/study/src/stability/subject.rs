@@ -45,11 +45,18 @@ impl<'a> MapSubject<'a> {
         let find = |truck: &'a formats::scene::Truck| {
             let structure = &scene.structures[scene.rails[truck.rail].structure];
             let solved = solution_of(known, &structure.origin)?;
-            Some((truck, structure, solved, solved.girder.as_ref()?, solved.surface.as_ref()?))
+            Some((
+                truck,
+                structure,
+                solved,
+                solved.girder.as_ref()?,
+                solved.surface.as_ref()?,
+            ))
         };
         let first = scene.trucks.iter().find_map(find);
-        let (truck, structure, solved, girder, surface) =
-            first.ok_or("stability maps need a truck on a straight girder, the short form of a beam spec")?;
+        let (truck, structure, solved, girder, surface) = first.ok_or(
+            "stability maps need a truck on a straight girder, the short form of a beam spec",
+        )?;
         let wheels: usize = scene
             .trucks
             .iter()
@@ -106,8 +113,19 @@ impl<'a> MapSubject<'a> {
     /// Vertical compliance matrix for the places `at` along the rail, n x n: entry (i, j) is the deflection at place
     /// i under a unit load at place j, both downward. `None` where `compliance` has no answer at a place.
     #[must_use]
-    pub fn compliance(&self, compliance: &dyn Compliance, at: &[f64]) -> Option<nalgebra::DMatrix<f64>> {
-        let probes: Vec<Probe> = at.iter().map(|&x| Probe { rail: 0, x, axis: Axis::Vertical }).collect();
+    pub fn compliance(
+        &self,
+        compliance: &dyn Compliance,
+        at: &[f64],
+    ) -> Option<nalgebra::DMatrix<f64>> {
+        let probes: Vec<Probe> = at
+            .iter()
+            .map(|&x| Probe {
+                rail: 0,
+                x,
+                axis: Axis::Vertical,
+            })
+            .collect();
         let mut out = Influence::zeros(at.len());
         compliance.fill(&probes, &mut out).ok()?;
         Some(out.value)
@@ -116,7 +134,8 @@ impl<'a> MapSubject<'a> {
     /// Deflection at x under a unit load there, both downward; not a number beyond the rail.
     #[must_use]
     pub fn flexibility(&self, x: f64) -> f64 {
-        self.compliance(self.surface, &[x]).map_or(f64::NAN, |matrix| matrix[(0, 0)])
+        self.compliance(self.surface, &[x])
+            .map_or(f64::NAN, |matrix| matrix[(0, 0)])
     }
 
     /// The exact influence surface of the girder as a foundation without mass.
@@ -143,7 +162,10 @@ impl<'a> MapSubject<'a> {
     /// The law of a linear wheel whose contact can pull, with its damper to the ground.
     #[must_use]
     pub fn linear(&self, stiffness: f64, damping: f64) -> NormalLaw {
-        NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, damping, Damper::Ground) }
+        NormalLaw {
+            bilateral: true,
+            ..NormalLaw::linear(stiffness, damping, Damper::Ground)
+        }
     }
 }
 

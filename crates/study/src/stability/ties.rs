@@ -48,17 +48,35 @@ struct Track {
 
 impl Track {
     fn new() -> Result<Track, String> {
-        let rail = CrossSection { e: 30e6, iz: 94.9, mass: 9.785e-3, ..CrossSection::default() };
-        let ties = Ties { spacing: 24.0, k: 72e3, mass: 0.5, rail, elements: 1, ..Ties::default() };
+        let rail = CrossSection {
+            e: 30e6,
+            iz: 94.9,
+            mass: 9.785e-3,
+            ..CrossSection::default()
+        };
+        let ties = Ties {
+            spacing: 24.0,
+            k: 72e3,
+            mass: 0.5,
+            rail,
+            elements: 1,
+            ..Ties::default()
+        };
         let (bending, bed) = (rail.e * rail.iz, ties.k / ties.spacing);
         let mass = rail.mass + ties.mass / ties.spacing;
         let beta = (bed / (4.0 * bending)).powf(0.25);
         let length = (LENGTH / beta / ties.spacing).round() * ties.spacing;
-        let units = Units { length: Length::Inch, force: Force::Pound };
-        let spec = on_ground("track", units, &ties, [0.0, length]).map_err(|error| error.to_string())?;
+        let units = Units {
+            length: Length::Inch,
+            force: Force::Pound,
+        };
+        let spec =
+            on_ground("track", units, &ties, [0.0, length]).map_err(|error| error.to_string())?;
         let solved = solve(&spec).map_err(|error| error.to_string())?;
         let with_mass = full_mesh_foundation(&solved, 1).map_err(|failure| failure.to_string())?;
-        let surface = solved.surface.ok_or("the surface of the track is not known")?;
+        let surface = solved
+            .surface
+            .ok_or("the surface of the track is not known")?;
         Ok(Track {
             length,
             static_flexibility: 1.0 / (8.0 * bending * beta * beta * beta),
@@ -75,21 +93,31 @@ impl Track {
         let stiffness = SOFT / self.static_flexibility;
         let [x0, end] = [START * self.length, (STOP - START) * self.length / speed];
         let (weight, gravity) = (1e4, 386.0886);
-        let law = NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, 0.0, Damper::Rail) };
+        let law = NormalLaw {
+            bilateral: true,
+            ..NormalLaw::linear(stiffness, 0.0, Damper::Rail)
+        };
         let scene = crossing(gravity, weight / gravity, &[0.0], law, [x0, speed, end]);
         let mut scene = scene.map_err(|error| error.to_string())?;
         (scene.output_dt, scene.accuracy) = (end / 500.0, 1e-4);
-        let run = sim::run(&scene, std::slice::from_ref(foundation), &mut |_| ControlFlow::Continue(()));
+        let run = sim::run(&scene, std::slice::from_ref(foundation), &mut |_| {
+            ControlFlow::Continue(())
+        });
         let run = run.map_err(|error| error.to_string())?;
         if !run.status.is_complete() {
-            return Err(results::run_error::status(&run.status).1.unwrap_or_default());
+            return Err(results::run_error::status(&run.status)
+                .1
+                .unwrap_or_default());
         }
-        let (deflections, forces) =
-            (run.history.column(Channel::Deflection(0)), run.history.column(Channel::Vertical(0)));
+        let (deflections, forces) = (
+            run.history.column(Channel::Deflection(0)),
+            run.history.column(Channel::Vertical(0)),
+        );
         let from = ((EVALUATED - START) / (STOP - START) * deflections.len() as f64) as usize;
         let pairs = deflections.iter().zip(&forces).skip(from);
-        let ratios: Vec<f64> =
-            pairs.map(|(deflection, force)| deflection / (force * self.static_flexibility)).collect();
+        let ratios: Vec<f64> = pairs
+            .map(|(deflection, force)| deflection / (force * self.static_flexibility))
+            .collect();
         Ok(ratios.iter().sum::<f64>() / ratios.len().max(1) as f64)
     }
 }
@@ -112,8 +140,11 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
          the solution for a Winkler bed. Wrong if the error exceeds 1e-2.",
     );
     map.note("critical speed, in/s", track.critical_speed);
-    let mut layers = [("rail without mass", false), ("girderway, ties with mass", true)]
-        .map(|(method, ours)| MapLayer::new(method, ours));
+    let mut layers = [
+        ("rail without mass", false),
+        ("girderway, ties with mass", true),
+    ]
+    .map(|(method, ours)| MapLayer::new(method, ours));
     let mut line = Vec::new();
     for i in 0..points {
         let fraction = 0.05 + (FASTEST - 0.05) * i as f64 / (points - 1).max(1) as f64;
@@ -128,13 +159,22 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
                 Err(why) => (expected, 0.0, MapVerdict::Refused(why)),
             };
             if layer.is_ours {
-                map.note(format!("deflection at {fraction:.3} of the critical speed"), at);
+                map.note(
+                    format!("deflection at {fraction:.3} of the critical speed"),
+                    at,
+                );
             }
-            layer.points.push(MapPoint { at: [fraction, at], value, verdict });
+            layer.points.push(MapPoint {
+                at: [fraction, at],
+                value,
+                verdict,
+            });
         }
     }
     let line = Series::new("rail on a Winkler bed", Style::Line, line);
-    layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
+    layers
+        .iter_mut()
+        .for_each(|layer| layer.lines.push(line.clone()));
     map.layers.extend(layers);
     Ok(map)
 }

@@ -78,13 +78,16 @@ impl ExtrapolationRisk {
             out.push(ExtrapolationRisk::Zero);
         }
         if z != x {
-            out.push(ExtrapolationRisk::Rectangle { shape: [z.len(), x.len()] });
+            out.push(ExtrapolationRisk::Rectangle {
+                shape: [z.len(), x.len()],
+            });
         }
         if x.len() < PORTABLE {
             out.push(ExtrapolationRisk::Few { found: x.len() });
         }
-        let spacing =
-            |f: fn(f64, f64) -> f64, start| x.windows(2).fold(start, |a, pair| f(a, pair[1] - pair[0]));
+        let spacing = |f: fn(f64, f64) -> f64, start| {
+            x.windows(2).fold(start, |a, pair| f(a, pair[1] - pair[0]))
+        };
         let spacing = [spacing(f64::min, f64::INFINITY), spacing(f64::max, 0.0)];
         if spacing[1] > spacing[0] * (1.0 + EVEN) {
             out.push(ExtrapolationRisk::Uneven { spacing });
@@ -96,10 +99,11 @@ impl ExtrapolationRisk {
                 out.push(ExtrapolationRisk::Inside { at });
             }
             if z == x {
-                let worst =
-                    (0..x.len()).min_by(|&i, &j| table.values()[(i, i)].total_cmp(&table.values()[(j, j)]));
-                let negative =
-                    worst.map(|i| (x[i], table.values()[(i, i)])).filter(|(_, value)| *value < 0.0);
+                let worst = (0..x.len())
+                    .min_by(|&i, &j| table.values()[(i, i)].total_cmp(&table.values()[(j, j)]));
+                let negative = worst
+                    .map(|i| (x[i], table.values()[(i, i)]))
+                    .filter(|(_, value)| *value < 0.0);
                 out.extend(negative.map(|(at, value)| ExtrapolationRisk::Negative { at, value }));
             }
         }
@@ -113,7 +117,8 @@ impl ExtrapolationRisk {
         {
             out.push(ExtrapolationRisk::Short { rail: [from, to] });
         }
-        let missing = |b: &&f64| **b > first && **b < last && x.iter().all(|x| (x - **b).abs() > slack);
+        let missing =
+            |b: &&f64| **b > first && **b < last && x.iter().all(|x| (x - **b).abs() > slack);
         let at: Vec<f64> = breaks.iter().filter(missing).copied().collect();
         if !at.is_empty() {
             out.push(ExtrapolationRisk::Breaks { at });
@@ -189,5 +194,9 @@ impl fmt::Display for ExtrapolationRisk {
 }
 
 fn list(places: &[f64]) -> String {
-    places.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
+    places
+        .iter()
+        .map(|x| short(*x))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

@@ -44,7 +44,9 @@ pub fn figures(
     found: &TableQuality,
 ) -> Result<Vec<TableFigure>, Box<dyn std::error::Error>> {
     let mut out = Vec::new();
-    let Some(paths) = found.item.paths else { return Ok(out) };
+    let Some(paths) = found.item.paths else {
+        return Ok(out);
+    };
     let exact = match (&found.exact_values, &subject.surface) {
         (ExactValues::Surface, Some(surface)) => coupling_block(surface, paths),
         (ExactValues::Beam(beam), _) => coupling_block(&beam.surface, UP),
@@ -56,7 +58,10 @@ pub fn figures(
     } else {
         format!("SPLINE/{} {}", found.item.id, found.item.name)
     };
-    let length = subject.units.map(|units| units.label(Dimension::LENGTH)).unwrap_or_default();
+    let length = subject
+        .units
+        .map(|units| units.label(Dimension::LENGTH))
+        .unwrap_or_default();
     let own = |points: &[f64]| [points[0], points[points.len() - 1]];
     let (mut x, mut z) = (own(table.x()), own(table.z()));
     if let Some([a, b]) = exact.range() {
@@ -86,19 +91,31 @@ fn error_map(
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Box<dyn std::error::Error>> {
-    let Some(paths) = found.item.paths else { return Ok(None) };
+    let Some(paths) = found.item.paths else {
+        return Ok(None);
+    };
     let table = &found.item.table;
     let worst = found
         .readings
         .iter()
         .filter_map(|r| Some((r.method, found.relative(&r.error?))))
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((method, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(None) };
-    let Some(reading) = reading(subject, &found.item, method) else { return Ok(None) };
-    let (x, z) = (sample_places(table.x(), x, MAP), sample_places(table.z(), z, MAP));
+    let Some((method, error)) = worst.filter(|(_, error)| *error > 0.0) else {
+        return Ok(None);
+    };
+    let Some(reading) = reading(subject, &found.item, method) else {
+        return Ok(None);
+    };
+    let (x, z) = (
+        sample_places(table.x(), x, MAP),
+        sample_places(table.z(), z, MAP),
+    );
     let scale = scale(found);
     let mut values = map(&coupling_block(reading.as_ref(), paths), exact, &z, &x)?;
-    values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
+    values
+        .iter_mut()
+        .flatten()
+        .for_each(|value| *value *= 100.0 / scale);
     let plot = SurfacePlot {
         title: format!("{title}: {} minus exact", method.word()),
         label: "error relative to the largest coefficient".to_owned(),
@@ -115,13 +132,20 @@ fn error_map(
         method.word(),
         short(100.0 * error)
     );
-    Ok(Some(TableFigure { picture: plot.svg()?.into(), caption }))
+    Ok(Some(TableFigure {
+        picture: plot.svg()?.into(),
+        caption,
+    }))
 }
 
 /// Scale of relative errors.
 fn scale(found: &TableQuality) -> f64 {
     let own = found.readings.iter().find_map(|r| r.error.map(|e| e.scale));
-    found.scale.or(own).filter(|scale| *scale > 0.0).unwrap_or(1.0)
+    found
+        .scale
+        .or(own)
+        .filter(|scale| *scale > 0.0)
+        .unwrap_or(1.0)
 }
 
 /// Chart of the error of G(x, x) of every reading along the rail.
@@ -133,7 +157,9 @@ fn diagonal(
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Error> {
-    let Some(paths) = found.item.paths else { return Ok(None) };
+    let Some(paths) = found.item.paths else {
+        return Ok(None);
+    };
     let x = sample_places(found.item.table.x(), range, ACROSS);
     let scale = scale(found);
     let mut chart = Chart::new(
@@ -141,10 +167,15 @@ fn diagonal(
         ChartAxis::new("position of the wheel", length),
         ChartAxis::new("error relative to the largest coefficient", "%"),
     );
-    for (index, one) in
-        found.readings.iter().enumerate().filter(|(_, r)| r.method != TableReadingMethod::Exact)
+    for (index, one) in found
+        .readings
+        .iter()
+        .enumerate()
+        .filter(|(_, r)| r.method != TableReadingMethod::Exact)
     {
-        let Some(reading) = reading(subject, &found.item, one.method) else { continue };
+        let Some(reading) = reading(subject, &found.item, one.method) else {
+            continue;
+        };
         let own = coupling_block(reading.as_ref(), paths);
         let mut points = Vec::with_capacity(x.len());
         for &x in &x {
@@ -156,21 +187,31 @@ fn diagonal(
     if chart.series.is_empty() {
         return Ok(None);
     }
-    for support in found.supports.iter().filter(|s| (range[0]..=range[1]).contains(s)) {
+    for support in found
+        .supports
+        .iter()
+        .filter(|s| (range[0]..=range[1]).contains(s))
+    {
         chart = chart.mark(*support, "support");
     }
     let caption =
         "Error of G(x, x), the compliance under a wheel that moves along the rail: reading minus exact \
          value."
             .to_owned();
-    Ok(Some(TableFigure { picture: chart.into(), caption }))
+    Ok(Some(TableFigure {
+        picture: chart.into(),
+        caption,
+    }))
 }
 
 /// All findings as one page of HTML.
 ///
 /// # Errors
 /// As [`figures`], and as [`Report::html`].
-pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<dyn std::error::Error>> {
+pub fn page(
+    subject: &TableSource,
+    all: &[TableQuality],
+) -> Result<String, Box<dyn std::error::Error>> {
     let mut report = Report {
         title: "Quality of influence tables".to_owned(),
         subtitle: subject.file.clone(),
@@ -195,7 +236,12 @@ pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<d
 
 /// Table of the readings of one table.
 fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable {
-    let unit = |dimension| subject.units.map(|units| units.label(dimension)).unwrap_or_default();
+    let unit = |dimension| {
+        subject
+            .units
+            .map(|units| units.label(dimension))
+            .unwrap_or_default()
+    };
     let column = |name: &str, unit: &str| report::TableColumn::new(name, unit);
     let (length, stiffness) = (unit(Dimension::LENGTH), unit(Dimension::STIFFNESS));
     let mut table = report::ReportTable {
@@ -211,7 +257,8 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
         ],
         rows: Vec::new(),
     };
-    let number = |value: Option<f64>| value.map_or(report::TableCell::Empty, report::TableCell::Number);
+    let number =
+        |value: Option<f64>| value.map_or(report::TableCell::Empty, report::TableCell::Number);
     for one in &found.readings {
         let direct = one.direct.as_ref();
         table.rows.push(vec![
@@ -219,10 +266,18 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
             number(one.error.map(|e| 100.0 * found.relative(&e))),
             number(one.error.map(|e| e.largest.x)),
             number(one.error.map(|e| e.largest.z)),
-            number(direct.filter(|d| d.scale > 0.0).map(|d| 100.0 * d.asymmetry.value / d.scale)),
-            direct.and_then(|d| d.layouts.last()).map_or(report::TableCell::Empty, |layout| {
-                layout.stiffness.map_or_else(|| "never".into(), report::TableCell::Number)
-            }),
+            number(
+                direct
+                    .filter(|d| d.scale > 0.0)
+                    .map(|d| 100.0 * d.asymmetry.value / d.scale),
+            ),
+            direct
+                .and_then(|d| d.layouts.last())
+                .map_or(report::TableCell::Empty, |layout| {
+                    layout
+                        .stiffness
+                        .map_or_else(|| "never".into(), report::TableCell::Number)
+                }),
             number(direct.and_then(|d| d.slope_jump).map(|k| k.jump())),
         ]);
     }

@@ -1,8 +1,8 @@
 //! The findings of one table, and the verdicts that follow.
 
 use splines::quality::{
-    BlockExtreme, ExtrapolatedRow, RailDirection, ReadingError, Spectrum, TablePrecision, extrapolated_rows,
-    station_asymmetry, station_spectrum, support_stations, table_precision,
+    BlockExtreme, ExtrapolatedRow, RailDirection, ReadingError, Spectrum, TablePrecision,
+    extrapolated_rows, station_asymmetry, station_spectrum, support_stations, table_precision,
 };
 use splines::{Axis, BeamFit, Compliance, Error, InfluenceBlock};
 
@@ -97,7 +97,11 @@ impl TableQuality {
             (_, _, Some(beam)) => ExactValues::Beam(beam.clone()),
             _ => ExactValues::None,
         };
-        let supports = if direct { support_stations(table) } else { Vec::new() };
+        let supports = if direct {
+            support_stations(table)
+        } else {
+            Vec::new()
+        };
         let mut quality = TableQuality {
             item: item.clone(),
             digits: table_precision(table),
@@ -113,8 +117,9 @@ impl TableQuality {
             exact_values,
         };
         for end in ends(table.x(), settings.beyond) {
-            let worst =
-                extrapolated_rows(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
+            let worst = extrapolated_rows(table, end)?
+                .into_iter()
+                .max_by(|a, b| a.spread().total_cmp(&b.spread()));
             quality.beyond.extend(worst);
         }
         quality.readings = quality.read(subject, settings, beam.as_ref())?;
@@ -130,18 +135,32 @@ impl TableQuality {
         beam: Option<&BeamFit>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
-        let Some(paths) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
-        let Some(frame) = self.frame(subject, settings, paths) else { return Ok(out) };
+        let Some(paths) = self.item.paths.filter(|_| !self.is_empty()) else {
+            return Ok(out);
+        };
+        let Some(frame) = self.frame(subject, settings, paths) else {
+            return Ok(out);
+        };
         for method in TableReadingMethod::ALL {
             if method == TableReadingMethod::Exact {
                 // the beam of the table counts as a reading where the exact surface is another one
                 if let (Some(beam), ExactValues::Surface) = (beam, &self.exact_values) {
-                    out.push(ReadingFindings::of(method, &coupling_block(&beam.surface, UP), &frame)?);
+                    out.push(ReadingFindings::of(
+                        method,
+                        &coupling_block(&beam.surface, UP),
+                        &frame,
+                    )?);
                 }
                 continue;
             }
-            let Some(reading) = reading(subject, &self.item, method) else { continue };
-            out.push(ReadingFindings::of(method, &coupling_block(reading.as_ref(), paths), &frame)?);
+            let Some(reading) = reading(subject, &self.item, method) else {
+                continue;
+            };
+            out.push(ReadingFindings::of(
+                method,
+                &coupling_block(reading.as_ref(), paths),
+                &frame,
+            )?);
         }
         Ok(out)
     }
@@ -177,19 +196,29 @@ impl TableQuality {
             range = [common(range[0], range[1]); 2];
         }
         let exact = match &self.exact_values {
-            ExactValues::Surface => subject.surface.as_ref().map(|surface| coupling_block(surface, paths)),
+            ExactValues::Surface => subject
+                .surface
+                .as_ref()
+                .map(|surface| coupling_block(surface, paths)),
             ExactValues::Beam(beam) => Some(coupling_block(&beam.surface, UP)),
             ExactValues::None => None,
         };
-        if let Some([x, z]) = exact.as_ref().and_then(splines::quality::CouplingBlock::range) {
+        if let Some([x, z]) = exact
+            .as_ref()
+            .and_then(splines::quality::CouplingBlock::range)
+        {
             range = [common(range[0], x), common(range[1], z)];
         }
         let span = match self.supports.as_slice() {
             [first, .., last] => Some(common([*first, *last], range[0])),
             _ => None,
         };
-        let frame =
-            ReadingPlanes { exact, range, span: span.filter(|[a, b]| a < b), spacing: settings.spacing };
+        let frame = ReadingPlanes {
+            exact,
+            range,
+            span: span.filter(|[a, b]| a < b),
+            spacing: settings.spacing,
+        };
         range.iter().all(|[a, b]| a < b).then_some(frame)
     }
 
@@ -199,18 +228,28 @@ impl TableQuality {
         if let Some(worst) = self.asymmetry.filter(|worst| worst.value > slack) {
             self.verdicts.push(TableVerdict::Asymmetric(worst));
         }
-        if let Some(spectrum) = self.spectrum.filter(|s| s.smallest < -slack - ROUNDING * s.largest) {
+        if let Some(spectrum) = self
+            .spectrum
+            .filter(|s| s.smallest < -slack - ROUNDING * s.largest)
+        {
             self.verdicts.push(TableVerdict::Indefinite(spectrum));
         }
-        let Some((method, tolerance)) = settings.judged else { return };
+        let Some((method, tolerance)) = settings.judged else {
+            return;
+        };
         if self.item.paths.is_none() || self.is_empty() {
             return;
         }
-        let error =
-            self.readings.iter().find(|reading| reading.method == method).and_then(|found| found.error);
+        let error = self
+            .readings
+            .iter()
+            .find(|reading| reading.method == method)
+            .and_then(|found| found.error);
         match error.map(|error| self.relative(&error)) {
             Some(error) if error <= tolerance => {}
-            Some(error) => self.verdicts.push(TableVerdict::Error(method, error, tolerance)),
+            Some(error) => self
+                .verdicts
+                .push(TableVerdict::Error(method, error, tolerance)),
             None => self.verdicts.push(TableVerdict::Unknown(method)),
         }
     }
@@ -228,7 +267,10 @@ const UNCOUPLED: f64 = 1e-9;
 /// Geometric mean of the largest entries of the two direct tables of a coupling.
 fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
     let largest = |path: RailDirection| {
-        let own = subject.items.iter().filter(|item| item.paths == Some([path; 2]));
+        let own = subject
+            .items
+            .iter()
+            .filter(|item| item.paths == Some([path; 2]));
         own.map(|item| item.table.values().amax()).next()
     };
     let [deflection, load] = item.paths?;
@@ -242,20 +284,33 @@ pub(super) fn reading(
     method: TableReadingMethod,
 ) -> Option<Box<dyn Compliance>> {
     let [deflection, load] = item.paths?;
-    let own = InfluenceBlock { deflection, load, table: item.table.clone() };
+    let own = InfluenceBlock {
+        deflection,
+        load,
+        table: item.table.clone(),
+    };
     let all = subject.blocks();
-    let together = if all.contains(&own) { method.read(&all).ok() } else { None };
+    let together = if all.contains(&own) {
+        method.read(&all).ok()
+    } else {
+        None
+    };
     together.or_else(|| method.read(&[own]).ok())
 }
 
 /// Ends of the elements of the loaded rail; empty where they are unknown.
 fn breaks(subject: &TableSource, item: &TableItem) -> Vec<f64> {
     let surface = subject.surface.as_ref().zip(item.paths);
-    surface.map(|(surface, [_, load])| surface.breaks(load.0)).unwrap_or_default()
+    surface
+        .map(|(surface, [_, load])| surface.breaks(load.0))
+        .unwrap_or_default()
 }
 
 /// Places beyond both ends, at the given `distance` or at the spacing of the outermost two stations.
 fn ends(x: &[f64], distance: Option<f64>) -> [f64; 2] {
     let n = x.len();
-    [x[0] - distance.unwrap_or(x[1] - x[0]), x[n - 1] + distance.unwrap_or(x[n - 1] - x[n - 2])]
+    [
+        x[0] - distance.unwrap_or(x[1] - x[0]),
+        x[n - 1] + distance.unwrap_or(x[n - 1] - x[n - 2]),
+    ]
 }

@@ -28,12 +28,17 @@ fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
     let exact_values = match &found.exact_values {
         ExactValues::Surface => json!({ "from": "surface" }),
-        ExactValues::Beam(beam) => json!({ "from": "table", "EI": 1.0 / beam.bending, "error": beam.error }),
+        ExactValues::Beam(beam) => {
+            json!({ "from": "table", "EI": 1.0 / beam.bending, "error": beam.error })
+        }
         ExactValues::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
-    let risks: Vec<Value> =
-        found.risks.iter().map(|risk| json!({ "kind": risk.word(), "text": risk.to_string() })).collect();
+    let risks: Vec<Value> = found
+        .risks
+        .iter()
+        .map(|risk| json!({ "kind": risk.word(), "text": risk.to_string() }))
+        .collect();
     let beyond: Vec<Value> = found
         .beyond
         .iter()
@@ -123,6 +128,8 @@ fn verdict(verdict: &TableVerdict) -> Value {
         TableVerdict::Error(method, error, tolerance) => {
             json!({ "check": "error", "reading": method.word(), "error": error, "tolerance": tolerance })
         }
-        TableVerdict::Unknown(method) => json!({ "check": "error", "reading": method.word(), "error": null }),
+        TableVerdict::Unknown(method) => {
+            json!({ "check": "error", "reading": method.word(), "error": null })
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Methods of reading tables.
 
 use splines::{
-    Axis, BeamFit, Compliance, Error, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable,
-    TableReading, fit_beam,
+    Axis, BeamFit, Compliance, Error, FactoredTable, InfluenceBlock, Rank, ReadingMethod,
+    SplineTable, TableReading, fit_beam,
 };
 
 /// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam is taken as
@@ -54,8 +54,12 @@ impl TableReadingMethod {
     #[must_use]
     pub const fn order(self) -> f64 {
         match self {
-            TableReadingMethod::Akispl | TableReadingMethod::Symmetrised | TableReadingMethod::Cubspl => 2.0,
-            TableReadingMethod::Natural | TableReadingMethod::Factored | TableReadingMethod::Exact => 3.0,
+            TableReadingMethod::Akispl
+            | TableReadingMethod::Symmetrised
+            | TableReadingMethod::Cubspl => 2.0,
+            TableReadingMethod::Natural
+            | TableReadingMethod::Factored
+            | TableReadingMethod::Exact => 3.0,
         }
     }
 
@@ -70,7 +74,9 @@ impl TableReadingMethod {
             TableReadingMethod::Cubspl => ReadingMethod::Cubspl,
             TableReadingMethod::Symmetrised => ReadingMethod::Symmetrised,
             TableReadingMethod::Natural => ReadingMethod::Natural,
-            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(blocks, Rank::Full)?)),
+            TableReadingMethod::Factored => {
+                return Ok(Box::new(FactoredTable::new(blocks, Rank::Full)?));
+            }
             TableReadingMethod::Exact => {
                 return match blocks {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {
@@ -90,5 +96,9 @@ impl TableReadingMethod {
 /// A table that deviates from every such beam by more than 1 percent of its largest entry.
 pub fn beam_of(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
     let beam = fit_beam(rail, table)?;
-    if beam.error <= BEAM_TOLERANCE { Ok(beam) } else { Err(Error::NoBeamFit) }
+    if beam.error <= BEAM_TOLERANCE {
+        Ok(beam)
+    } else {
+        Err(Error::NoBeamFit)
+    }
 }

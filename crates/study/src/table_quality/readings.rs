@@ -1,9 +1,9 @@
 //! The findings of one reading of one table.
 
 use splines::quality::{
-    BlockExtreme, CouplingBlock, LoopWork, ReadingError, SlopeJump, Spectrum, WheelLayout, asymmetry,
-    diagonal_slope_jumps, indefinite_fraction, loop_work, pair_slope_jumps, reading_error, sample_places,
-    spectrum, weakest_layouts,
+    BlockExtreme, CouplingBlock, LoopWork, ReadingError, SlopeJump, Spectrum, WheelLayout,
+    asymmetry, diagonal_slope_jumps, indefinite_fraction, loop_work, pair_slope_jumps,
+    reading_error, sample_places, spectrum, weakest_layouts,
 };
 use splines::{Compliance, Error};
 
@@ -84,22 +84,38 @@ impl ReadingFindings {
         let exact = frame.exact.as_ref();
         let against = |from: [[f64; 2]; 2]| {
             let error = |exact: &CouplingBlock<'_>| {
-                let ends = |own: &[f64], rail: usize| [own, &exact.compliance.breaks(rail)].concat();
+                let ends =
+                    |own: &[f64], rail: usize| [own, &exact.compliance.breaks(rail)].concat();
                 let [x, z] = [ends(&x, exact.load.0), ends(&z, exact.deflection.0)];
                 let [x, z] = [dense(&x, from[0]), dense(&z, from[1])];
                 reading_error(block, exact, &x, &z)
             };
             exact.map(error).transpose()
         };
-        let direct = block.is_direct().then(|| direct(block, &x, frame)).transpose()?;
-        let span = frame.span.filter(|_| block.is_direct()).map_or(Ok(None), |span| against([span; 2]))?;
-        Ok(ReadingFindings { method, error: against(frame.range)?, span, direct })
+        let direct = block
+            .is_direct()
+            .then(|| direct(block, &x, frame))
+            .transpose()?;
+        let span = frame
+            .span
+            .filter(|_| block.is_direct())
+            .map_or(Ok(None), |span| against([span; 2]))?;
+        Ok(ReadingFindings {
+            method,
+            error: against(frame.range)?,
+            span,
+            direct,
+        })
     }
 }
 
 /// Densely spaced places over `range`, the breaks included.
 fn dense(breaks: &[f64], range: [f64; 2]) -> Vec<f64> {
-    sample_places(breaks, range, (4 * breaks.len()).clamp(PLACES[0], PLACES[1]))
+    sample_places(
+        breaks,
+        range,
+        (4 * breaks.len()).clamp(PLACES[0], PLACES[1]),
+    )
 }
 
 /// The findings on symmetry and definiteness of a direct block.
@@ -116,13 +132,21 @@ fn direct(
         *fraction = indefinite_fraction(block, wheels, LAYOUTS, range)?;
     }
     let largest = |slope_jumps: Vec<SlopeJump>| {
-        slope_jumps.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()))
+        slope_jumps
+            .into_iter()
+            .max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()))
     };
-    let pair = match frame.spacing.filter(|spacing| *spacing < range[1] - range[0]) {
+    let pair = match frame
+        .spacing
+        .filter(|spacing| *spacing < range[1] - range[0])
+    {
         None => None,
         Some(spacing) => {
             let slope_jump = largest(pair_slope_jumps(block, spacing, range)?);
-            Some(Pair { work: loop_work(block, spacing, &at)?, slope_jump })
+            Some(Pair {
+                work: loop_work(block, spacing, &at)?,
+                slope_jump,
+            })
         }
     };
     Ok(DirectFindings {
@@ -147,7 +171,10 @@ pub fn map(
     x: &[f64],
 ) -> Result<Vec<Vec<f64>>, Error> {
     let error = block.matrix(z, x)? - exact.matrix(z, x)?;
-    Ok(error.row_iter().map(|row| row.iter().copied().collect()).collect())
+    Ok(error
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect())
 }
 
 /// The block of a compliance between two paths: deflection and load.
@@ -156,5 +183,9 @@ pub fn coupling_block(
     compliance: &dyn Compliance,
     [deflection, load]: [splines::quality::RailDirection; 2],
 ) -> CouplingBlock<'_> {
-    CouplingBlock { compliance, deflection, load }
+    CouplingBlock {
+        compliance,
+        deflection,
+        load,
+    }
 }

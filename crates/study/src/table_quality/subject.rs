@@ -58,7 +58,8 @@ impl TableItem {
     /// Whether deflections and loads are of the same path: only such a table is symmetric.
     #[must_use]
     pub fn is_direct(&self) -> bool {
-        self.paths.is_some_and(|[deflection, load]| deflection == load)
+        self.paths
+            .is_some_and(|[deflection, load]| deflection == load)
     }
 }
 
@@ -71,7 +72,10 @@ impl TableSource {
         let inputs = Inputs::open_bytes(path)?;
         let input = &inputs.all()[0];
         if tables::is_tables(&input.display_name, &input.bytes) {
-            TableSource::of_tables(&input.display_name, &tables::contents(&input.display_name, &input.bytes)?)
+            TableSource::of_tables(
+                &input.display_name,
+                &tables::contents(&input.display_name, &input.bytes)?,
+            )
         } else {
             TableSource::of_grid(&input.source()?)
         }
@@ -80,7 +84,11 @@ impl TableSource {
     fn of_grid(source: &Source) -> Result<TableSource, Error> {
         let (grid, surface) = grid_file::read(source)?;
         let mut notes: Vec<String> = Vec::new();
-        for rail in grid.rails.iter().filter(|rail| rail.stations.len() < SplineTable::FEWEST_X) {
+        for rail in grid
+            .rails
+            .iter()
+            .filter(|rail| rail.stations.len() < SplineTable::FEWEST_X)
+        {
             notes.push(format!(
                 "rail {} has fewer than four stations, so it has no table of loads",
                 rail.name
@@ -93,11 +101,20 @@ impl TableSource {
             items.extend(item(&source.name, table)?.map(|item| TableItem { paths, ..item }));
         }
         if items.is_empty() {
-            let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
+            let fault = Fault::new(
+                &Place::root().key("rails"),
+                "must have a rail of at least four stations",
+            );
             let fault = fault.hint("a SPLINE has four x values or more");
             return Err(Error::Input(source.diagnose(&Faults(vec![fault]))));
         }
-        Ok(TableSource { file: source.name.clone(), units: Some(grid.units), items, surface, notes })
+        Ok(TableSource {
+            file: source.name.clone(),
+            units: Some(grid.units),
+            items,
+            surface,
+            notes,
+        })
     }
 
     fn of_tables(file: &str, contents: &Contents) -> Result<TableSource, Error> {
@@ -105,10 +122,14 @@ impl TableSource {
         let mut notes = Vec::new();
         for (table, linear) in &contents.tables {
             match item(file, table)? {
-                Some(item) => items.push(TableItem { linear: *linear, ..item }),
-                None => {
-                    notes.push(format!("SPLINE/{} has a single curve, so it is no influence table", table.id))
-                }
+                Some(item) => items.push(TableItem {
+                    linear: *linear,
+                    ..item
+                }),
+                None => notes.push(format!(
+                    "SPLINE/{} has a single curve, so it is no influence table",
+                    table.id
+                )),
             }
         }
         // the file does not state which tables belong together: each is a path of its own
@@ -119,22 +140,41 @@ impl TableSource {
         }
         if items.is_empty() {
             let wrong = Diagnostic::of_file(file, "has no SPLINE with a curve for each z");
-            return Err(wrong.hint("an influence table has one Y list for each z").into());
+            return Err(wrong
+                .hint("an influence table has one Y list for each z")
+                .into());
         }
         if contents.units.is_none() {
-            notes.push("the file states no units: all numbers are in the units of the file".to_owned());
+            notes.push(
+                "the file states no units: all numbers are in the units of the file".to_owned(),
+            );
         }
-        Ok(TableSource { file: file.to_owned(), units: contents.units, items, surface: None, notes })
+        Ok(TableSource {
+            file: file.to_owned(),
+            units: contents.units,
+            items,
+            surface: None,
+            notes,
+        })
     }
 
     /// The tables that can be read together: those of known paths, whose direct tables are in the file.
     #[must_use]
     pub fn blocks(&self) -> Vec<InfluenceBlock> {
         let own = |path: RailDirection| self.items.iter().any(|item| item.paths == Some([path; 2]));
-        let known = self.items.iter().filter_map(|item| Some((item.paths?, &item.table)));
+        let known = self
+            .items
+            .iter()
+            .filter_map(|item| Some((item.paths?, &item.table)));
         known
-            .filter(|([deflection, load], table)| own(*deflection) && own(*load) && table.z().len() > 1)
-            .map(|([deflection, load], table)| InfluenceBlock { deflection, load, table: table.clone() })
+            .filter(|([deflection, load], table)| {
+                own(*deflection) && own(*load) && table.z().len() > 1
+            })
+            .map(|([deflection, load], table)| InfluenceBlock {
+                deflection,
+                load,
+                table: table.clone(),
+            })
             .collect()
     }
 }
@@ -145,24 +185,47 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     if curves.z().is_empty() {
         return Ok(None);
     }
-    let numbers = curves.x().iter().chain(curves.z()).chain(curves.y().iter().flatten());
+    let numbers = curves
+        .x()
+        .iter()
+        .chain(curves.z())
+        .chain(curves.y().iter().flatten());
     if let Some(wrong) = numbers.into_iter().find(|number| number.abs() > LARGEST) {
-        let wrong =
-            format!("SPLINE/{} has the value {wrong:e}, which is too large for any structure", given.id);
-        return Err(Diagnostic::of_file(file, wrong).hint("which units are these?").into());
+        let wrong = format!(
+            "SPLINE/{} has the value {wrong:e}, which is too large for any structure",
+            given.id
+        );
+        return Err(Diagnostic::of_file(file, wrong)
+            .hint("which units are these?")
+            .into());
     }
     for points in [curves.x(), curves.z()] {
         let least = NEAREST * (points[points.len() - 1] - points[0]);
         if let Some(pair) = points.windows(2).find(|pair| pair[1] - pair[0] < least) {
-            let wrong = format!("SPLINE/{} has stations at {} and {}", given.id, pair[0], pair[1]);
-            return Err(Diagnostic::of_file(file, wrong).hint("remove one of them").into());
+            let wrong = format!(
+                "SPLINE/{} has stations at {} and {}",
+                given.id, pair[0], pair[1]
+            );
+            return Err(Diagnostic::of_file(file, wrong)
+                .hint("remove one of them")
+                .into());
         }
     }
     let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
     let table = SplineTable::new(curves.x().to_vec(), curves.z().to_vec(), values)?;
     let unnamed = format!("SPLINE_{}", given.id);
-    let name = if given.name == unnamed { String::new() } else { given.name.clone() };
-    Ok(Some(TableItem { id: given.id, name, paths: None, linear: None, table }))
+    let name = if given.name == unnamed {
+        String::new()
+    } else {
+        given.name.clone()
+    };
+    Ok(Some(TableItem {
+        id: given.id,
+        name,
+        paths: None,
+        linear: None,
+        table,
+    }))
 }
 
 /// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of
@@ -171,11 +234,19 @@ fn paths(id: u32, rails: usize) -> Option<[RailDirection; 2]> {
     let place = usize::try_from(id).ok()?.checked_sub(6)?;
     let (pair, index) = (place / 6, place % 6);
     let (deflection, load) = axes(*GridBlock::ALL.get(index)?);
-    Some([(pair / rails.max(1), deflection), (pair % rails.max(1), load)])
+    Some([
+        (pair / rails.max(1), deflection),
+        (pair % rails.max(1), load),
+    ])
 }
 
 /// Whether the name of a table says that it couples two directions or two rails.
 fn is_coupling(name: &str) -> bool {
-    let couplings = GridBlock::ALL.into_iter().filter(|quantity| quantity.direct() != [*quantity; 2]);
-    name.contains("_from_") || couplings.into_iter().any(|quantity| name.ends_with(quantity.name()))
+    let couplings = GridBlock::ALL
+        .into_iter()
+        .filter(|quantity| quantity.direct() != [*quantity; 2]);
+    name.contains("_from_")
+        || couplings
+            .into_iter()
+            .any(|quantity| name.ends_with(quantity.name()))
 }

@@ -20,13 +20,19 @@ struct Words(Option<Units>);
 
 impl Words {
     fn of(self, dimension: Dimension) -> String {
-        self.0.map(|units| units.label(dimension)).unwrap_or_default()
+        self.0
+            .map(|units| units.label(dimension))
+            .unwrap_or_default()
     }
 
     /// ` (unit)`, or nothing.
     fn bracket(self, dimension: Dimension) -> String {
         let unit = self.of(dimension);
-        if unit.is_empty() { unit } else { format!(" ({unit})") }
+        if unit.is_empty() {
+            unit
+        } else {
+            format!(" ({unit})")
+        }
     }
 }
 
@@ -52,7 +58,11 @@ pub fn text(subject: &TableSource, all: &[TableQuality]) -> String {
 fn one(out: &mut String, found: &TableQuality, units: Words) {
     let table = &found.item.table;
     let (x, length) = (table.x(), units.of(Dimension::LENGTH));
-    let name = if found.item.name.is_empty() { String::new() } else { format!(" {}", found.item.name) };
+    let name = if found.item.name.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", found.item.name)
+    };
     let _ = writeln!(
         out,
         "SPLINE/{}{name}: {} x {} values, x from {} to {} {length}",
@@ -69,7 +79,10 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         );
     }
     if found.is_empty() {
-        let _ = writeln!(out, "  no coupling: all values are rounding errors relative to the direct tables");
+        let _ = writeln!(
+            out,
+            "  no coupling: all values are rounding errors relative to the direct tables"
+        );
         return;
     }
     stations(out, found, units);
@@ -161,7 +174,10 @@ impl Rows<'_> {
 
 /// The table of all readings.
 fn readings(out: &mut String, found: &TableQuality, units: Words) {
-    let mut rows = Rows { out, all: &found.readings };
+    let mut rows = Rows {
+        out,
+        all: &found.readings,
+    };
     errors(&mut rows, found, units);
     loop_work(&mut rows, found, units);
     definiteness(&mut rows, units);
@@ -172,19 +188,38 @@ fn readings(out: &mut String, found: &TableQuality, units: Words) {
 fn errors(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
     rows.add("", &|r| Some(r.method.word().to_owned()));
-    rows.add("largest error (%)", &|r| r.error.map(|e| short(100.0 * found.relative(&e))));
-    rows.add(&format!("  at x, z{length}"), &|r| r.error.map(|e| place(&e.largest)));
-    rows.add("largest error under the load itself (%)", &|r| {
-        r.error.and_then(|e| Some(short(100.0 * e.diagonal?.value.abs() / e.scale.max(f64::MIN_POSITIVE))))
-    });
-    rows.add(&format!("  at x{length}"), &|r| r.error.and_then(|e| Some(short(e.diagonal?.x))));
-    rows.add("largest error between the supports (%)", &|r| r.span.map(|e| short(100.0 * e.relative())));
-    rows.add(&format!("  at x, z{length}"), &|r| r.span.map(|e| place(&e.largest)));
-    rows.add("largest |G(x, z) - G(z, x)| (%)", &|r| {
-        r.direct.as_ref().map(|d| percent(d.asymmetry.value, d.scale))
+    rows.add("largest error (%)", &|r| {
+        r.error.map(|e| short(100.0 * found.relative(&e)))
     });
     rows.add(&format!("  at x, z{length}"), &|r| {
-        r.direct.as_ref().filter(|d| d.asymmetry.value > 0.0).map(|d| place(&d.asymmetry))
+        r.error.map(|e| place(&e.largest))
+    });
+    rows.add("largest error under the load itself (%)", &|r| {
+        r.error.and_then(|e| {
+            Some(short(
+                100.0 * e.diagonal?.value.abs() / e.scale.max(f64::MIN_POSITIVE),
+            ))
+        })
+    });
+    rows.add(&format!("  at x{length}"), &|r| {
+        r.error.and_then(|e| Some(short(e.diagonal?.x)))
+    });
+    rows.add("largest error between the supports (%)", &|r| {
+        r.span.map(|e| short(100.0 * e.relative()))
+    });
+    rows.add(&format!("  at x, z{length}"), &|r| {
+        r.span.map(|e| place(&e.largest))
+    });
+    rows.add("largest |G(x, z) - G(z, x)| (%)", &|r| {
+        r.direct
+            .as_ref()
+            .map(|d| percent(d.asymmetry.value, d.scale))
+    });
+    rows.add(&format!("  at x, z{length}"), &|r| {
+        r.direct
+            .as_ref()
+            .filter(|d| d.asymmetry.value > 0.0)
+            .map(|d| place(&d.asymmetry))
     });
 }
 
@@ -192,34 +227,65 @@ fn errors(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
 fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
     let (factor, work) = match found.load {
-        Some(load) => (load * load, format!("work of a loop of forces{}", units.bracket(Dimension::MOMENT))),
-        None => (1.0, format!("work of a loop / P^2{}", units.bracket(Dimension::FLEXIBILITY))),
+        Some(load) => (
+            load * load,
+            format!(
+                "work of a loop of forces{}",
+                units.bracket(Dimension::MOMENT)
+            ),
+        ),
+        None => (
+            1.0,
+            format!(
+                "work of a loop / P^2{}",
+                units.bracket(Dimension::FLEXIBILITY)
+            ),
+        ),
     };
-    rows.add(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
-    rows.add(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
+    rows.add(&work, &|r| {
+        r.direct.as_ref().map(|d| short(factor * d.asymmetry.value))
+    });
+    rows.add(&format!("{work}, pair"), &|r| {
+        pair(r).map(|p| short(factor * p.work.work))
+    });
     rows.add("  relative to its stored energy (%)", &|r| {
         pair(r).map(|p| percent(p.work.work, p.work.stored))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
-        pair(r).filter(|p| p.work.work > 0.0).map(|p| short(p.work.at[0]))
+        pair(r)
+            .filter(|p| p.work.work > 0.0)
+            .map(|p| short(p.work.at[0]))
     });
 }
 
 /// Eigenvalues and indefinite layouts of wheels.
 fn definiteness(rows: &mut Rows<'_>, units: Words) {
     rows.add("smallest eigenvalue / largest", &|r| {
-        r.direct.as_ref().map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
+        r.direct
+            .as_ref()
+            .map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
     });
     for (k, wheels) in WHEELS.into_iter().enumerate() {
-        rows.add(&format!("indefinite layouts of {wheels} wheels (%)"), &|r| {
-            r.direct.as_ref().map(|d| short(100.0 * d.indefinite_fractions[k]))
-        });
+        rows.add(
+            &format!("indefinite layouts of {wheels} wheels (%)"),
+            &|r| {
+                r.direct
+                    .as_ref()
+                    .map(|d| short(100.0 * d.indefinite_fractions[k]))
+            },
+        );
     }
     for (k, wheels) in WHEELS.into_iter().enumerate() {
         let unit = units.bracket(Dimension::STIFFNESS);
-        rows.add(&format!("{wheels} wheels indefinite from k ={unit}"), &|r| {
-            r.direct.as_ref().and_then(|d| d.layouts.get(k)).map(stiffness)
-        });
+        rows.add(
+            &format!("{wheels} wheels indefinite from k ={unit}"),
+            &|r| {
+                r.direct
+                    .as_ref()
+                    .and_then(|d| d.layouts.get(k))
+                    .map(stiffness)
+            },
+        );
     }
 }
 
@@ -228,22 +294,43 @@ fn slope_jumps(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
     let slope = match found.load {
         Some(_) => "jump of slope under a wheel (rad)".to_owned(),
-        None => format!("jump of slope under a wheel{}", units.bracket(Dimension::of(0, -1, 0))),
+        None => format!(
+            "jump of slope under a wheel{}",
+            units.bracket(Dimension::of(0, -1, 0))
+        ),
     };
     let load = found.load.unwrap_or(1.0);
-    let jump =
-        |value: f64, d: &DirectFindings| if noise(value, d) { "0".to_owned() } else { short(load * value) };
-    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.slope_jump?.jump(), d))));
+    let jump = |value: f64, d: &DirectFindings| {
+        if noise(value, d) {
+            "0".to_owned()
+        } else {
+            short(load * value)
+        }
+    };
+    rows.add(&slope, &|r| {
+        r.direct
+            .as_ref()
+            .and_then(|d| Some(jump(d.slope_jump?.jump(), d)))
+    });
     rows.add(&format!("  at x{length}"), &|r| {
-        r.direct.as_ref().and_then(|d| d.slope_jump.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
+        r.direct
+            .as_ref()
+            .and_then(|d| d.slope_jump.filter(|k| !noise(k.jump(), d)))
+            .map(|k| short(k.x))
     });
     rows.add(&format!("{slope}, pair"), &|r| {
         let d = r.direct.as_ref()?;
-        Some(jump(d.pair?.slope_jump?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
+        Some(jump(
+            d.pair?.slope_jump?.jump() * if found.load.is_some() { 2.0 } else { 1.0 },
+            d,
+        ))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
         let d = r.direct.as_ref()?;
-        d.pair?.slope_jump.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
+        d.pair?
+            .slope_jump
+            .filter(|k| !noise(k.jump(), d))
+            .map(|k| short(k.x))
     });
 }
 
@@ -251,7 +338,11 @@ fn slope_jumps(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
 fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
     let scale = found.item.table.values().amax();
-    for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
+    for row in found
+        .beyond
+        .iter()
+        .filter(|row| row.spread() > 1e-9 * scale)
+    {
         let _ = writeln!(
             out,
             "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} \
@@ -269,7 +360,9 @@ fn beyond(out: &mut String, found: &TableQuality, units: Words) {
 
 /// A failed check in words.
 fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
-    let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
+    let unit = units
+        .map(|units| units.label(Dimension::FLEXIBILITY))
+        .unwrap_or_default();
     match verdict {
         TableVerdict::Asymmetric(worst) => format!(
             "not symmetric: T(x = {}, z = {}) and the value with x and z exchanged differ by {} {unit}; use their \
@@ -290,7 +383,10 @@ fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
             short(100.0 * tolerance)
         ),
         TableVerdict::Unknown(method) => {
-            format!("the error of {} is unknown, because no exact values are available", method.word())
+            format!(
+                "the error of {} is unknown, because no exact values are available",
+                method.word()
+            )
         }
     }
 }
@@ -308,7 +404,11 @@ fn stiffness(layout: &WheelLayout) -> String {
 }
 
 fn percent(part: f64, whole: f64) -> String {
-    short(if whole > 0.0 { 100.0 * part / whole } else { 0.0 })
+    short(if whole > 0.0 {
+        100.0 * part / whole
+    } else {
+        0.0
+    })
 }
 
 /// Whether a jump is rounding.
@@ -318,5 +418,9 @@ fn noise(jump: f64, direct: &DirectFindings) -> bool {
 
 /// A ratio, 0 where it is rounding.
 fn rounded(ratio: f64) -> String {
-    if ratio.abs() < 1e-13 { "0".to_owned() } else { short(ratio) }
+    if ratio.abs() < 1e-13 {
+        "0".to_owned()
+    } else {
+        short(ratio)
+    }
 }

@@ -52,7 +52,10 @@ impl std::fmt::Debug for Largest {
 
 fn raise(worst: &mut Largest, value: f64, what: impl Fn() -> String) {
     if value > worst.value {
-        *worst = Largest { value, what: if value > TOLD { what() } else { String::new() } };
+        *worst = Largest {
+            value,
+            what: if value > TOLD { what() } else { String::new() },
+        };
     }
 }
 
@@ -85,23 +88,34 @@ impl Trial<'_> {
         let lines = self.reference.lines(places);
         let count = 6 * places.len();
         let factor = self.scene.case.dead;
-        let dead: Vec<f64> =
-            self.reference.dead(&lines, count, places).into_iter().map(|value| factor * value).collect();
+        let dead: Vec<f64> = self
+            .reference
+            .dead(&lines, count, places)
+            .into_iter()
+            .map(|value| factor * value)
+            .collect();
         let holds = self.reference.frame().restraints(self.reference.model());
         let effects: Vec<Effect> = holds.into_iter().map(Effect::Reaction).collect();
         let of_reactions = self.reference.effect_lines(&effects);
         let dead_reactions = self.reference.dead(&of_reactions, effects.len(), &[]);
-        let largest: Vec<f64> =
-            self.found.effects.iter().map(|both| both[0].value.abs().max(both[1].value.abs())).collect();
+        let largest: Vec<f64> = self
+            .found
+            .effects
+            .iter()
+            .map(|both| both[0].value.abs().max(both[1].value.abs()))
+            .collect();
         let reaction_size = largest.iter().fold(0.0, |a: f64, b| a.max(*b));
         let draw = Draw::new(self.scene, &self.reference);
-        let mut cuts: Vec<(usize, f64)> = places.iter().map(|place| (place.rail, place.x)).collect();
+        let mut cuts: Vec<(usize, f64)> =
+            places.iter().map(|place| (place.rail, place.x)).collect();
         for (rail, ends) in self.scene.spans.iter().enumerate() {
             cuts.extend(ends.iter().map(|x| (rail, *x)));
         }
         let mut work = Vec::new();
         for _ in 0..states {
-            let Some(state) = draw.state(dice, &cuts) else { continue };
+            let Some(state) = draw.state(dice, &cuts) else {
+                continue;
+            };
             worst.states += 1;
             let loads = self.loads(&state);
             let mut own = dead.clone();
@@ -117,7 +131,8 @@ impl Trial<'_> {
                 }
             }
             let mut values: Vec<f64> = dead_reactions.iter().map(|value| factor * value).collect();
-            self.reference.respond(&of_reactions, &loads, &mut values, &mut work);
+            self.reference
+                .respond(&of_reactions, &loads, &mut values, &mut work);
             for (k, (value, [most, least])) in values.iter().zip(&self.found.effects).enumerate() {
                 let over = (value - most.value).max(least.value - value) / reaction_size;
                 raise(&mut worst.beyond_reaction, over, || {
@@ -127,42 +142,77 @@ impl Trial<'_> {
         }
     }
 
-    fn compare(&self, place: &Place, quantity: GirderResponse, value: f64, state: &State, worst: &mut Worst) {
-        let k = GirderResponse::ALL.iter().position(|q| *q == quantity).expect("it is one of them");
+    fn compare(
+        &self,
+        place: &Place,
+        quantity: GirderResponse,
+        value: f64,
+        state: &State,
+        worst: &mut Worst,
+    ) {
+        let k = GirderResponse::ALL
+            .iter()
+            .position(|q| *q == quantity)
+            .expect("it is one of them");
         let size = self.sizes[k];
-        let at = || format!("seed {} {quantity:?} {value} at {place:?}, {state:?}", self.seed);
+        let at = || {
+            format!(
+                "seed {} {quantity:?} {value} at {place:?}, {state:?}",
+                self.seed
+            )
+        };
         let same = self.found.envelopes.iter().filter(|e| {
             e.rail == place.rail && e.quantity == quantity && (e.governing.x - place.x).abs() < 1e-9
         });
         for e in same {
-            let over = if e.is_max { value - e.governing.value } else { e.governing.value - value };
-            raise(&mut worst.beyond_envelope, over / size, || format!("{} envelope {:?}", at(), e.governing));
+            let over = if e.is_max {
+                value - e.governing.value
+            } else {
+                e.governing.value - value
+            };
+            raise(&mut worst.beyond_envelope, over / size, || {
+                format!("{} envelope {:?}", at(), e.governing)
+            });
         }
         let span = self.span(place.rail, place.x);
-        let own = self
-            .found
-            .extremes
-            .iter()
-            .filter(|e| e.rail == place.rail && e.quantity == quantity && span.contains(&e.span));
+        let own =
+            self.found.extremes.iter().filter(|e| {
+                e.rail == place.rail && e.quantity == quantity && span.contains(&e.span)
+            });
         for e in own {
             let sign = if e.is_max { 1.0 } else { -1.0 };
-            raise(&mut worst.beyond_bound, sign * (value - e.bound) / size, || {
-                format!("{} bound {e:?}", at())
-            });
+            raise(
+                &mut worst.beyond_bound,
+                sign * (value - e.bound) / size,
+                || format!("{} bound {e:?}", at()),
+            );
             if e.bound == e.governing.value {
                 let over = sign * (value - e.governing.value) / size;
-                raise(&mut worst.beyond_extreme, over, || format!("{} extreme {e:?}", at()));
+                raise(&mut worst.beyond_extreme, over, || {
+                    format!("{} extreme {e:?}", at())
+                });
             }
         }
     }
 
     /// Every extreme is reached by the state that governs it, in the limit from one of the sides.
     fn reached(&self, worst: &mut Worst) {
-        let envelopes = self.found.envelopes.iter().map(|e| (e.rail, e.quantity, &e.governing));
-        let extremes = self.found.extremes.iter().map(|e| (e.rail, e.quantity, &e.governing));
+        let envelopes = self
+            .found
+            .envelopes
+            .iter()
+            .map(|e| (e.rail, e.quantity, &e.governing));
+        let extremes = self
+            .found
+            .extremes
+            .iter()
+            .map(|e| (e.rail, e.quantity, &e.governing));
         let all: Vec<(usize, GirderResponse, &Governing)> = extremes.chain(envelopes).collect();
         for (rail, quantity, governing) in all {
-            let k = GirderResponse::ALL.iter().position(|q| *q == quantity).expect("it is one of them");
+            let k = GirderResponse::ALL
+                .iter()
+                .position(|q| *q == quantity)
+                .expect("it is one of them");
             if k >= 6 {
                 continue;
             }
@@ -174,7 +224,10 @@ impl Trial<'_> {
                 }
             }
             raise(&mut worst.not_reached, least / self.sizes[k], || {
-                format!("seed {} {quantity:?} rail {rail} not reached {governing:?}", self.seed)
+                format!(
+                    "seed {} {quantity:?} rail {rail} not reached {governing:?}",
+                    self.seed
+                )
             });
         }
     }
@@ -201,11 +254,17 @@ impl Trial<'_> {
                     (train.position + shift, train.stance)
                 })
                 .collect();
-            let Some(loads) = self.allowed_loads(&state) else { continue };
-            let mut own: Vec<f64> = dead.iter().map(|value| self.scene.case.dead * value).collect();
+            let Some(loads) = self.allowed_loads(&state) else {
+                continue;
+            };
+            let mut own: Vec<f64> = dead
+                .iter()
+                .map(|value| self.scene.case.dead * value)
+                .collect();
             self.reference.respond(&lines, &loads, &mut own, &mut work);
             for (place, own) in places.iter().zip(own.chunks(6)) {
-                least = least.min((self.reference.quantities(place, own)[k] - governing.value).abs());
+                least =
+                    least.min((self.reference.quantities(place, own)[k] - governing.value).abs());
             }
         }
         least
@@ -215,12 +274,18 @@ impl Trial<'_> {
     fn allowed_loads(&self, state: &State) -> Option<Vec<Load>> {
         let mut out = Vec::new();
         let draw = Draw::new(self.scene, &self.reference);
-        for (index, (train, &(position, stance))) in self.scene.case.trains.iter().zip(state).enumerate() {
+        for (index, (train, &(position, stance))) in
+            self.scene.case.trains.iter().zip(state).enumerate()
+        {
             let [first, last] = draw.limits(index, stance);
             if !train.enters && !(first - 1e-10..=last + 1e-10).contains(&position) {
                 return None;
             }
-            let position = if train.enters { position } else { position.clamp(first, last) };
+            let position = if train.enters {
+                position
+            } else {
+                position.clamp(first, last)
+            };
             out.extend(self.reference.loads(train, position, stance));
         }
         Some(out)
@@ -228,27 +293,47 @@ impl Trial<'_> {
 
     /// Deflections of states against bounds, and the gaps between values and bounds.
     fn deflections(&self, dice: &mut Rng, states: usize, worst: &mut Worst) {
-        let surface = self.reference.frame().surface().expect("the structure has a surface").surface;
+        let surface = self
+            .reference
+            .frame()
+            .surface()
+            .expect("the structure has a surface")
+            .surface;
         let draw = Draw::new(self.scene, &self.reference);
         // Values without dead load, where there is none.
         let has_dead = self.scene.case.dead != 0.0 && !self.scene.dead.is_empty();
         for _ in 0..if has_dead { 0 } else { states } {
-            let Some(state) = draw.state(dice, &[]) else { continue };
+            let Some(state) = draw.state(dice, &[]) else {
+                continue;
+            };
             let loads = self.loads(&state);
             let rail = dice.usize(..self.scene.rails.len());
             let [low, high] = self.reference.ranges[rail];
             let x = low + (high - low) * dice.f64();
-            let Some(place) = self.reference.places(rail, x).first().copied() else { continue };
-            for quantity in [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection] {
-                let value = self.reference.deflection(&surface, rail, x, quantity, &loads);
+            let Some(place) = self.reference.places(rail, x).first().copied() else {
+                continue;
+            };
+            for quantity in [
+                GirderResponse::VerticalDeflection,
+                GirderResponse::LateralDeflection,
+            ] {
+                let value = self
+                    .reference
+                    .deflection(&surface, rail, x, quantity, &loads);
                 self.compare(&place, quantity, value, &state, worst);
             }
         }
         for e in &self.found.extremes {
-            let k = GirderResponse::ALL.iter().position(|q| *q == e.quantity).expect("it is one of them");
+            let k = GirderResponse::ALL
+                .iter()
+                .position(|q| *q == e.quantity)
+                .expect("it is one of them");
             let gap = (e.bound - e.governing.value).abs() / self.sizes[k];
-            let kind =
-                if self.scene.case.trains.len() == 1 { &mut worst.gap_one } else { &mut worst.gap_several };
+            let kind = if self.scene.case.trains.len() == 1 {
+                &mut worst.gap_one
+            } else {
+                &mut worst.gap_several
+            };
             raise(kind, gap, || format!("seed {} gap {e:?}", self.seed));
         }
     }
@@ -258,8 +343,14 @@ impl Trial<'_> {
 fn run(seed: u64, states: usize, worst: &mut Worst) {
     let scene = scene::scene(seed);
     let mut dice = Rng::with_seed(seed ^ 0x5eed);
-    let eccentric = scene.case.trains.iter().flat_map(|train| &train.wheels).any(|w| w.eccentricity != 0.0);
-    let structure = Structure::new(&scene.model, &scene.rails, eccentric).expect("the structure is stable");
+    let eccentric = scene
+        .case
+        .trains
+        .iter()
+        .flat_map(|train| &train.wheels)
+        .any(|w| w.eccentricity != 0.0);
+    let structure =
+        Structure::new(&scene.model, &scene.rails, eccentric).expect("the structure is stable");
     let reference = Reference::new(&scene);
     let mut draw = |count: usize| -> Vec<Place> {
         let mut out = Vec::new();
@@ -274,15 +365,32 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
     let asked = draw(6);
     let further = draw(20);
     let mut places = vec![Vec::new(); scene.rails.len()];
-    asked.iter().for_each(|place| places[place.rail].push(place.x));
+    asked
+        .iter()
+        .for_each(|place| places[place.rail].push(place.x));
     let holds = structure.frame().restraints(&scene.model);
-    let effects = holds.into_iter().map(|hold| vec![Effect::Reaction(hold)]).collect();
-    let request = Request { spans: scene.spans.clone(), places, effects };
+    let effects = holds
+        .into_iter()
+        .map(|hold| vec![Effect::Reaction(hold)])
+        .collect();
+    let request = Request {
+        spans: scene.spans.clone(),
+        places,
+        effects,
+    };
     worst.scenes += 1;
-    let found = match envelopes(&structure, &scene.dead, std::slice::from_ref(&scene.case), &request) {
+    let found = match envelopes(
+        &structure,
+        &scene.dead,
+        std::slice::from_ref(&scene.case),
+        &request,
+    ) {
         Ok(mut found) => found.remove(0),
         Err(
-            Error::NoRoom { .. } | Error::TooLong { .. } | Error::NoStiffness { .. } | Error::Ring { .. },
+            Error::NoRoom { .. }
+            | Error::TooLong { .. }
+            | Error::NoStiffness { .. }
+            | Error::Ring { .. },
         ) => {
             worst.refused += 1;
             return;
@@ -291,20 +399,40 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
     };
     let mut sizes = [1e-300; 8];
     for e in &found.envelopes {
-        let k = GirderResponse::ALL.iter().position(|q| *q == e.quantity).expect("it is one of them");
+        let k = GirderResponse::ALL
+            .iter()
+            .position(|q| *q == e.quantity)
+            .expect("it is one of them");
         sizes[k] = f64::max(sizes[k], e.governing.value.abs());
     }
     for e in &found.extremes {
-        let k = GirderResponse::ALL.iter().position(|q| *q == e.quantity).expect("it is one of them");
+        let k = GirderResponse::ALL
+            .iter()
+            .position(|q| *q == e.quantity)
+            .expect("it is one of them");
         sizes[k] = f64::max(sizes[k], e.governing.value.abs());
     }
-    let force = scene.case.trains.iter().flat_map(|t| &t.wheels).map(|w| w.vertical).fold(0.0, f64::max);
+    let force = scene
+        .case
+        .trains
+        .iter()
+        .flat_map(|t| &t.wheels)
+        .map(|w| w.vertical)
+        .fold(0.0, f64::max);
     // A quantity that is only rounding is compared with the loads.
-    sizes[..6].iter_mut().for_each(|size| *size = size.max(1e-3 * force));
+    sizes[..6]
+        .iter_mut()
+        .for_each(|size| *size = size.max(1e-3 * force));
     // Deflections in both directions are of one kind.
     let bent = sizes[6].max(sizes[7]).max(1e-9);
     sizes[6..].fill(bent);
-    let trial = Trial { seed, scene: &scene, reference, found, sizes };
+    let trial = Trial {
+        seed,
+        scene: &scene,
+        reference,
+        found,
+        sizes,
+    };
     let all: Vec<Place> = asked.into_iter().chain(further).collect();
     let mut dice = Rng::with_seed(!seed);
     trial.search(&mut dice, states, &all, worst);
@@ -316,8 +444,14 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
 fn check(worst: &Worst) {
     println!("{worst:?}");
     assert!(worst.refused * 3 < worst.scenes, "{worst:?}");
-    assert!(worst.beyond_envelope.value < 1e-12 && worst.beyond_extreme.value < 1e-12, "{worst:?}");
-    assert!(worst.beyond_reaction.value < 1e-12 && worst.beyond_bound.value < 1e-12, "{worst:?}");
+    assert!(
+        worst.beyond_envelope.value < 1e-12 && worst.beyond_extreme.value < 1e-12,
+        "{worst:?}"
+    );
+    assert!(
+        worst.beyond_reaction.value < 1e-12 && worst.beyond_bound.value < 1e-12,
+        "{worst:?}"
+    );
     assert!(worst.not_reached.value < 1e-6, "{worst:?}");
     assert!(worst.gap_one.value < 1e-9, "{worst:?}");
 }

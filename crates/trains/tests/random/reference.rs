@@ -55,15 +55,17 @@ impl<'a> Reference<'a> {
         for train in &scene.case.trains {
             for wheel in &train.wheels {
                 for side in [wheel.eccentricity, -wheel.eccentricity] {
-                    beside.entry((wheel.rail, (side + 0.0).to_bits())).or_insert_with(|| {
-                        let mut rail = scene.rails[wheel.rail].clone();
-                        let z = cross(unit(rail.axis), scene.model.up);
-                        for segment in &mut rail.segments {
-                            (0..3).for_each(|k| segment.offset[k] += side * z[k]);
-                        }
-                        rails.push(rail);
-                        rails.len() - 1
-                    });
+                    beside
+                        .entry((wheel.rail, (side + 0.0).to_bits()))
+                        .or_insert_with(|| {
+                            let mut rail = scene.rails[wheel.rail].clone();
+                            let z = cross(unit(rail.axis), scene.model.up);
+                            for segment in &mut rail.segments {
+                                (0..3).for_each(|k| segment.offset[k] += side * z[k]);
+                            }
+                            rails.push(rail);
+                            rails.len() - 1
+                        });
                 }
             }
         }
@@ -75,14 +77,36 @@ impl<'a> Reference<'a> {
                     [0, 1, 2].map(|k| point[k] + member.offsets[end][k])
                 });
                 let axis = [0, 1, 2].map(|k| ends[1][k] - ends[0][k]);
-                let segments = vec![RailSegment { member: index, offset: [0.0; 3] }];
-                rails.push(Rail { origin: ends[0], axis, segments, stations: Vec::new() });
-                weighted.push((rails.len() - 1, axis.iter().map(|a| a * a).sum::<f64>().sqrt(), index));
+                let segments = vec![RailSegment {
+                    member: index,
+                    offset: [0.0; 3],
+                }];
+                rails.push(Rail {
+                    origin: ends[0],
+                    axis,
+                    segments,
+                    stations: Vec::new(),
+                });
+                weighted.push((
+                    rails.len() - 1,
+                    axis.iter().map(|a| a * a).sum::<f64>().sqrt(),
+                    index,
+                ));
             }
         }
         let frame = FactoredFrame::new(&scene.model, &rails).expect("the structure is stable");
-        let ranges = scene.rails.iter().map(|rail| covered(&scene.model, rail)).collect();
-        Reference { scene, frame, beside, ranges, weighted }
+        let ranges = scene
+            .rails
+            .iter()
+            .map(|rail| covered(&scene.model, rail))
+            .collect();
+        Reference {
+            scene,
+            frame,
+            beside,
+            ranges,
+            weighted,
+        }
     }
 
     pub fn model(&self) -> &Model {
@@ -102,7 +126,11 @@ impl<'a> Reference<'a> {
                 fraction: fraction.clamp(0.0, 1.0),
             })
         };
-        self.scene.rails[rail].segments.iter().filter_map(on).collect()
+        self.scene.rails[rail]
+            .segments
+            .iter()
+            .filter_map(on)
+            .collect()
     }
 
     /// Influence lines of all internal forces of sections, six for each.
@@ -121,7 +149,9 @@ impl<'a> Reference<'a> {
     }
 
     pub fn effect_lines(&self, effects: &[Effect]) -> InfluenceLines {
-        self.frame.influence_lines(&self.scene.model, effects).expect("the effects exist")
+        self.frame
+            .influence_lines(&self.scene.model, effects)
+            .expect("the effects exist")
     }
 
     /// The wheels of a train in a state; those beyond their rails are left out.
@@ -132,18 +162,27 @@ impl<'a> Reference<'a> {
         let mut out = Vec::new();
         for wheel in &train.wheels {
             let own = &self.scene.rails[wheel.rail];
-            let shift: f64 = (0..3).map(|k| (first.origin[k] - own.origin[k]) * axis[k]).sum();
+            let shift: f64 = (0..3)
+                .map(|k| (first.origin[k] - own.origin[k]) * axis[k])
+                .sum();
             let x = position + if stance.turned { -wheel.x } else { wheel.x } + shift;
             let [low, high] = self.ranges[wheel.rail];
             let slack = if train.enters { 1e-12 } else { 1e-9 };
             if x < low - slack || x > high + slack {
-                assert!(train.enters, "a wheel at {x} is beyond its rail {low} to {high}");
+                assert!(
+                    train.enters,
+                    "a wheel at {x} is beyond its rail {low} to {high}"
+                );
                 continue;
             }
             out.push(Load {
                 rail: wheel.rail,
                 x: x.clamp(low, high),
-                force: [along * wheel.longitudinal, -wheel.vertical, lateral * wheel.lateral],
+                force: [
+                    along * wheel.longitudinal,
+                    -wheel.vertical,
+                    lateral * wheel.lateral,
+                ],
                 eccentricity: side * wheel.eccentricity,
             });
         }
@@ -151,16 +190,35 @@ impl<'a> Reference<'a> {
     }
 
     /// Sums of influence lines under loads.
-    pub fn respond(&self, lines: &InfluenceLines, loads: &[Load], out: &mut [f64], work: &mut Vec<f64>) {
+    pub fn respond(
+        &self,
+        lines: &InfluenceLines,
+        loads: &[Load],
+        out: &mut [f64],
+        work: &mut Vec<f64>,
+    ) {
         work.resize(out.len(), 0.0);
         for load in loads {
             let rail = self.beside[&(load.rail, (load.eccentricity + 0.0).to_bits())];
-            for (force, axis) in load.force.iter().zip([Axis::Longitudinal, Axis::Vertical, Axis::Lateral]) {
+            for (force, axis) in
+                load.force
+                    .iter()
+                    .zip([Axis::Longitudinal, Axis::Vertical, Axis::Lateral])
+            {
                 if *force != 0.0 {
                     lines
-                        .fill(Probe { rail, x: load.x, axis }, work)
+                        .fill(
+                            Probe {
+                                rail,
+                                x: load.x,
+                                axis,
+                            },
+                            work,
+                        )
                         .expect("the load is on a rail that resists it");
-                    out.iter_mut().zip(work.iter()).for_each(|(out, one)| *out += force * one);
+                    out.iter_mut()
+                        .zip(work.iter())
+                        .for_each(|(out, one)| *out += force * one);
                 }
             }
         }
@@ -172,14 +230,24 @@ impl<'a> Reference<'a> {
         let mut out = vec![0.0; count];
         let mut work = vec![0.0; count];
         let mut add = |probe: Probe, weight: f64, out: &mut Vec<f64>| {
-            lines.fill(probe, &mut work).expect("the structure resists weight");
-            out.iter_mut().zip(&work).for_each(|(out, one)| *out += weight * one);
+            lines
+                .fill(probe, &mut work)
+                .expect("the structure resists weight");
+            out.iter_mut()
+                .zip(&work)
+                .for_each(|(out, one)| *out += weight * one);
         };
         let dead = &self.scene.dead;
-        for (rail, load) in dead.lines.iter().enumerate().filter(|(_, load)| **load != 0.0) {
+        for (rail, load) in dead
+            .lines
+            .iter()
+            .enumerate()
+            .filter(|(_, load)| **load != 0.0)
+        {
             let mut ends: Vec<f64> = Vec::new();
             for segment in &self.scene.rails[rail].segments {
-                let [a, b] = segment_ends(&self.scene.model, &self.scene.rails[rail], segment.member);
+                let [a, b] =
+                    segment_ends(&self.scene.model, &self.scene.rails[rail], segment.member);
                 ends.extend([a, b]);
                 ends.extend(
                     cuts.iter()
@@ -189,7 +257,10 @@ impl<'a> Reference<'a> {
             }
             ends.sort_by(f64::total_cmp);
             // In a gap the nearer end carries the rail: it is cut in its middle.
-            let middles: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+            let middles: Vec<f64> = ends
+                .windows(2)
+                .map(|pair| 0.5 * (pair[0] + pair[1]))
+                .collect();
             ends.extend(middles);
             ends.sort_by(f64::total_cmp);
             for pair in ends.windows(2) {
@@ -197,7 +268,15 @@ impl<'a> Reference<'a> {
                     let half = 0.5 * (pair[1] - pair[0]);
                     let x = 0.5 * (pair[0] + pair[1]) + half * at;
                     if half > 0.0 {
-                        add(Probe { rail, x, axis: Axis::Vertical }, -load * weight * half, &mut out);
+                        add(
+                            Probe {
+                                rail,
+                                x,
+                                axis: Axis::Vertical,
+                            },
+                            -load * weight * half,
+                            &mut out,
+                        );
                     }
                 }
             }
@@ -210,7 +289,11 @@ impl<'a> Reference<'a> {
             let of = &model.members[member];
             let mass = model.sections[of.section].mass;
             let mut ends = vec![0.0, length];
-            ends.extend(cuts.iter().filter(|cut| cut.member == member).map(|cut| cut.fraction * length));
+            ends.extend(
+                cuts.iter()
+                    .filter(|cut| cut.member == member)
+                    .map(|cut| cut.fraction * length),
+            );
             ends.sort_by(f64::total_cmp);
             let ends_of = [0, 1].map(|end| {
                 let point = model.points[of.points[end]];
@@ -225,9 +308,25 @@ impl<'a> Reference<'a> {
                     let half = 0.5 * (pair[1] - pair[0]);
                     let x = 0.5 * (pair[0] + pair[1]) + half * at;
                     let load = -mass * dead.gravity * weight * half;
-                    add(Probe { rail, x, axis: Axis::Vertical }, load * cosine, &mut out);
+                    add(
+                        Probe {
+                            rail,
+                            x,
+                            axis: Axis::Vertical,
+                        },
+                        load * cosine,
+                        &mut out,
+                    );
                     if sine != 0.0 {
-                        add(Probe { rail, x, axis: Axis::Longitudinal }, load * sine, &mut out);
+                        add(
+                            Probe {
+                                rail,
+                                x,
+                                axis: Axis::Longitudinal,
+                            },
+                            load * sine,
+                            &mut out,
+                        );
                     }
                 }
             }
@@ -251,14 +350,22 @@ impl<'a> Reference<'a> {
         // The face that looks along the rail; on the other face force and moment are opposite.
         let face = dot(x, rail).signum();
         let vector = |from: usize| {
-            [0, 1, 2].map(|k| face * (own[from] * x[k] + own[from + 1] * y[k] + own[from + 2] * z[k]))
+            [0, 1, 2]
+                .map(|k| face * (own[from] * x[k] + own[from + 1] * y[k] + own[from + 2] * z[k]))
         };
         let (force, moment) = (vector(0), vector(3));
         let t = x.map(|c| c * face);
         let slope = dot(unit(model.up), t);
         let u = unit([0, 1, 2].map(|k| unit(model.up)[k] - slope * t[k]));
         let w = cross(t, u);
-        [dot(force, t), dot(moment, t), -dot(force, u), dot(force, w), dot(moment, w), dot(moment, u)]
+        [
+            dot(force, t),
+            dot(moment, t),
+            -dot(force, u),
+            dot(force, w),
+            dot(moment, w),
+            dot(moment, u),
+        ]
     }
 
     /// Deflection of a rail at a coordinate under loads.
@@ -278,10 +385,23 @@ impl<'a> Reference<'a> {
         let mut sum = 0.0;
         for load in loads {
             let own = self.beside[&(load.rail, (load.eccentricity + 0.0).to_bits())];
-            for (force, of) in load.force.iter().zip([Axis::Longitudinal, Axis::Vertical, Axis::Lateral]) {
+            for (force, of) in
+                load.force
+                    .iter()
+                    .zip([Axis::Longitudinal, Axis::Vertical, Axis::Lateral])
+            {
                 if *force != 0.0 {
-                    let at = [Probe { rail, x, axis }, Probe { rail: own, x: load.x, axis: of }];
-                    surface.fill(&at, &mut influence).expect("both are on rails");
+                    let at = [
+                        Probe { rail, x, axis },
+                        Probe {
+                            rail: own,
+                            x: load.x,
+                            axis: of,
+                        },
+                    ];
+                    surface
+                        .fill(&at, &mut influence)
+                        .expect("both are on rails");
                     sum += sign * force * influence.value[(0, 1)];
                 }
             }
@@ -299,5 +419,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }

@@ -2,7 +2,8 @@
 
 use fastrand::Rng;
 use fea::{
-    BeamTheory, CrossSection, Dof, Girder, GroundSpring, Member, Model, Rail, RailSegment, RigidLink, Support,
+    BeamTheory, CrossSection, Dof, Girder, GroundSpring, Member, Model, Rail, RailSegment,
+    RigidLink, Support,
 };
 use trains::{DeadLoads, Train, TrainCase, TrainWheel};
 
@@ -20,25 +21,54 @@ pub struct Scene {
 /// A scene from its seed: a continuous girder or a frame with one or two rails, with one to three trains.
 pub fn scene(seed: u64) -> Scene {
     let mut dice = Rng::with_seed(seed);
-    let theory = if dice.bool() { BeamTheory::Timoshenko } else { BeamTheory::EulerBernoulli };
-    let (model, rails, spans) =
-        if dice.u8(..3) == 0 { girder(&mut dice, theory) } else { frame(&mut dice, theory) };
+    let theory = if dice.bool() {
+        BeamTheory::Timoshenko
+    } else {
+        BeamTheory::EulerBernoulli
+    };
+    let (model, rails, spans) = if dice.u8(..3) == 0 {
+        girder(&mut dice, theory)
+    } else {
+        frame(&mut dice, theory)
+    };
     let ranges: Vec<[f64; 2]> = rails.iter().map(|rail| covered(&model, rail)).collect();
     let case = case(&mut dice, &rails, &ranges);
     let dead = if dice.bool() {
-        let lines =
-            rails.iter().map(|_| if dice.bool() { between(&mut dice, 0.1, 4.0) } else { 0.0 }).collect();
-        DeadLoads { gravity: if dice.bool() { 9.81 } else { 0.0 }, lines }
+        let lines = rails
+            .iter()
+            .map(|_| {
+                if dice.bool() {
+                    between(&mut dice, 0.1, 4.0)
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        DeadLoads {
+            gravity: if dice.bool() { 9.81 } else { 0.0 },
+            lines,
+        }
     } else {
         DeadLoads::default()
     };
-    Scene { model, rails, dead, case, spans }
+    Scene {
+        model,
+        rails,
+        dead,
+        case,
+        spans,
+    }
 }
 
 /// First and last coordinate that a rail covers.
 pub fn covered(model: &Model, rail: &Rail) -> [f64; 2] {
-    let ends = rail.segments.iter().flat_map(|segment| segment_ends(model, rail, segment.member));
-    ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    let ends = rail
+        .segments
+        .iter()
+        .flat_map(|segment| segment_ends(model, rail, segment.member));
+    ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+        [low.min(x), high.max(x)]
+    })
 }
 
 /// Coordinates of end 0 and end 1 of the flexible part of a member along a rail.
@@ -47,7 +77,9 @@ pub fn segment_ends(model: &Model, rail: &Rail, member: usize) -> [f64; 2] {
     let member = &model.members[member];
     [0, 1].map(|end| {
         let point = model.points[member.points[end]];
-        (0..3).map(|k| (point[k] + member.offsets[end][k] - rail.origin[k]) * axis[k]).sum()
+        (0..3)
+            .map(|k| (point[k] + member.offsets[end][k] - rail.origin[k]) * axis[k])
+            .sum()
     })
 }
 
@@ -61,8 +93,16 @@ fn between(dice: &mut Rng, low: f64, high: f64) -> f64 {
 }
 
 fn girder(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>) {
-    let spans: Vec<f64> = (0..dice.usize(1..=6)).map(|_| between(dice, 3.0, 12.0)).collect();
-    let overhangs = [0, 1].map(|_| if dice.u8(..3) == 0 { between(dice, 0.3, 2.5) } else { 0.0 });
+    let spans: Vec<f64> = (0..dice.usize(1..=6))
+        .map(|_| between(dice, 3.0, 12.0))
+        .collect();
+    let overhangs = [0, 1].map(|_| {
+        if dice.u8(..3) == 0 {
+            between(dice, 0.3, 2.5)
+        } else {
+            0.0
+        }
+    });
     let made = Girder {
         spans: spans.clone(),
         overhangs,
@@ -74,14 +114,20 @@ fn girder(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>
         j: Some(4e-6),
         ka_vertical: Some(0.005),
         ka_lateral: Some(0.009),
-        rail_height: if dice.bool() { between(dice, 0.1, 0.6) } else { 0.0 },
+        rail_height: if dice.bool() {
+            between(dice, 0.1, 0.6)
+        } else {
+            0.0
+        },
         mass_per_length: Some(0.15),
         theory,
         ..Girder::default()
     };
     let (model, rail) = made.model_and_rail().expect("the girder is valid");
     let mut ends = vec![0.0];
-    spans.iter().for_each(|span| ends.push(ends[ends.len() - 1] + span));
+    spans
+        .iter()
+        .for_each(|span| ends.push(ends[ends.len() - 1] + span));
     (model, vec![rail], vec![ends])
 }
 
@@ -102,14 +148,26 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
         mass,
     };
     let mut model = Model {
-        sections: vec![steel(0.02, 8e-4, 0.15), steel(0.03, 5e-4, 0.0), steel(0.01, 2e-4, 0.08)],
+        sections: vec![
+            steel(0.02, 8e-4, 0.15),
+            steel(0.03, 5e-4, 0.0),
+            steel(0.01, 2e-4, 0.08),
+        ],
         up: [0.0, 0.0, 1.0],
         theory,
         ..Model::default()
     };
     let lengths: Vec<f64> = (0..bays).map(|_| between(dice, 4.0, 10.0)).collect();
-    let half = if dice.bool() { between(dice, 0.05, 0.3) } else { 0.0 };
-    let slope = if dice.u8(..3) == 0 { between(dice, -0.05, 0.05) } else { 0.0 };
+    let half = if dice.bool() {
+        between(dice, 0.05, 0.3)
+    } else {
+        0.0
+    };
+    let slope = if dice.u8(..3) == 0 {
+        between(dice, -0.05, 0.05)
+    } else {
+        0.0
+    };
     let width = between(dice, 6.0, 20.0);
     let mut rails = Vec::new();
     let mut spans = Vec::new();
@@ -122,8 +180,13 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
         let mut supports = Vec::new();
         let origin = [start + between(dice, -5.0, 5.0), y, 6.0];
         for bay in 0..=bays {
-            let height =
-                6.0 + slope * (x - start) + if dice.u8(..4) == 0 { between(dice, -0.1, 0.1) } else { 0.0 };
+            let height = 6.0
+                + slope * (x - start)
+                + if dice.u8(..4) == 0 {
+                    between(dice, -0.1, 0.1)
+                } else {
+                    0.0
+                };
             model.points.push([x, y, 0.0]);
             let foot = model.points.len() - 1;
             let fixed = [true, true, true, true, dice.bool(), true];
@@ -137,11 +200,16 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
             }
             model.points.push([x, y, height]);
             let mut head = model.points.len() - 1;
-            model.members.push(Member::beam([foot, head], 1, [1.0, 0.0, 0.0]));
+            model
+                .members
+                .push(Member::beam([foot, head], 1, [1.0, 0.0, 0.0]));
             if dice.u8(..3) == 0 {
                 // A bracket: the girder sits beside the column.
                 model.points.push([x, y - 0.4, height]);
-                model.links.push(RigidLink { from: head, to: head + 1 });
+                model.links.push(RigidLink {
+                    from: head,
+                    to: head + 1,
+                });
                 head += 1;
             }
             top.push(head);
@@ -149,7 +217,15 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
             x += lengths.get(bay).copied().unwrap_or(0.0);
         }
         let mut segments = Vec::new();
-        let offset = [0.0, if dice.bool() { between(dice, -0.2, 0.2) } else { 0.0 }, between(dice, 0.0, 0.5)];
+        let offset = [
+            0.0,
+            if dice.bool() {
+                between(dice, -0.2, 0.2)
+            } else {
+                0.0
+            },
+            between(dice, 0.0, 0.5),
+        ];
         for bay in 0..bays {
             let mut points = [top[bay], top[bay + 1]];
             let mut offsets = [[half, 0.0, 0.0], [-half, 0.0, 0.0]];
@@ -157,15 +233,26 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
                 points.reverse();
                 offsets.reverse();
             }
-            let mut member = Member { offsets, ..Member::beam(points, 0, [0.0, 0.0, 1.0]) };
+            let mut member = Member {
+                offsets,
+                ..Member::beam(points, 0, [0.0, 0.0, 1.0])
+            };
             if dice.u8(..4) == 0 {
                 let end = dice.usize(..2);
                 member.releases[end][Dof::Rz as usize] = true;
             }
             model.members.push(member);
-            segments.push(RailSegment { member: model.members.len() - 1, offset });
+            segments.push(RailSegment {
+                member: model.members.len() - 1,
+                offset,
+            });
         }
-        rails.push(Rail { origin, axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() });
+        rails.push(Rail {
+            origin,
+            axis: [1.0, 0.0, 0.0],
+            segments,
+            stations: Vec::new(),
+        });
         let range = covered(&model, &rails[line]);
         supports[0] = range[0];
         supports[bays] = range[1];
@@ -174,7 +261,9 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
     }
     if lines == 2 {
         for (a, b) in tops[0].iter().zip(&tops[1]) {
-            model.members.push(Member::beam([*a, *b], 2, [0.0, 0.0, 1.0]));
+            model
+                .members
+                .push(Member::beam([*a, *b], 2, [0.0, 0.0, 1.0]));
         }
     }
     (model, rails, spans)
@@ -184,8 +273,12 @@ fn case(dice: &mut Rng, rails: &[Rail], ranges: &[[f64; 2]]) -> TrainCase {
     let count = [1, 1, 1, 2, 2, 3][dice.usize(..6)];
     let apart = |r: usize| rails[0].origin[0] - rails[r].origin[0];
     // The stretch over which all rails run, measured on rail 0.
-    let low = (0..rails.len()).map(|r| ranges[r][0] - apart(r)).fold(f64::NEG_INFINITY, f64::max);
-    let high = (0..rails.len()).map(|r| ranges[r][1] - apart(r)).fold(f64::INFINITY, f64::min);
+    let low = (0..rails.len())
+        .map(|r| ranges[r][0] - apart(r))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let high = (0..rails.len())
+        .map(|r| ranges[r][1] - apart(r))
+        .fold(f64::INFINITY, f64::min);
     let room = (high - low).max(1.0) / (count as f64) * 0.6;
     let mut trains: Vec<Train> = Vec::new();
     for _ in 0..count {
@@ -199,7 +292,11 @@ fn case(dice: &mut Rng, rails: &[Rail], ranges: &[[f64; 2]]) -> TrainCase {
     TrainCase {
         trains,
         ordered: dice.u8(..3) == 0,
-        gap: if dice.bool() { between(dice, 0.0, 0.3) } else { 0.0 },
+        gap: if dice.bool() {
+            between(dice, 0.0, 0.3)
+        } else {
+            0.0
+        },
         dead: [0.0, 1.0, 1.35][dice.usize(..3)],
     }
 }
@@ -217,16 +314,38 @@ fn train(dice: &mut Rng, rails: usize, room: f64) -> Train {
         .map(|_| TrainWheel {
             rail: if both { dice.usize(..rails) } else { own },
             x: between(dice, 0.0, length),
-            vertical: if equal { 100.0 } else { between(dice, 20.0, 200.0) },
-            lateral: if lateral { between(dice, -20.0, 20.0) } else { 0.0 },
-            longitudinal: if along { between(dice, -20.0, 20.0) } else { 0.0 },
-            eccentricity: if eccentric { between(dice, -0.05, 0.05) } else { 0.0 },
+            vertical: if equal {
+                100.0
+            } else {
+                between(dice, 20.0, 200.0)
+            },
+            lateral: if lateral {
+                between(dice, -20.0, 20.0)
+            } else {
+                0.0
+            },
+            longitudinal: if along {
+                between(dice, -20.0, 20.0)
+            } else {
+                0.0
+            },
+            eccentricity: if eccentric {
+                between(dice, -0.05, 0.05)
+            } else {
+                0.0
+            },
         })
         .collect();
     wheels.sort_by(|a, b| a.x.total_cmp(&b.x));
     Train {
         wheels,
-        ends: [0, 1].map(|_| if dice.bool() { between(dice, 0.0, 0.05 * room) } else { 0.0 }),
+        ends: [0, 1].map(|_| {
+            if dice.bool() {
+                between(dice, 0.0, 0.05 * room)
+            } else {
+                0.0
+            }
+        }),
         turned: dice.bool(),
         reverses: dice.u8(..3) > 0,
         enters: dice.u8(..4) == 0,

@@ -6,7 +6,11 @@ use crate::language::statement::{ArgumentValue, Statement, StatementArgument};
 use crate::{AdamsFault, Error, expression, number};
 
 /// Reads the arguments of a statement by the table of its kind.
-pub(super) fn known(cursor: &mut Cursor, table: Arguments, out: &mut Statement) -> Result<(), Error> {
+pub(super) fn known(
+    cursor: &mut Cursor,
+    table: Arguments,
+    out: &mut Statement,
+) -> Result<(), Error> {
     // Without an identifier the slash before the first argument separates as a comma does.
     let mut separated = out.id.is_none();
     loop {
@@ -19,7 +23,8 @@ pub(super) fn known(cursor: &mut Cursor, table: Arguments, out: &mut Statement) 
             .word()
             .filter(|_| separated)
             .ok_or_else(|| cursor.fault(start, AdamsFault::UnexpectedText))?;
-        let (form, name) = argument(table, &word).ok_or_else(|| cursor.fault(start, AdamsFault::Argument))?;
+        let (form, name) =
+            argument(table, &word).ok_or_else(|| cursor.fault(start, AdamsFault::Argument))?;
         let many = out.keyword == "SPLINE" && name == "Y";
         if !many && out.get(name).is_some() {
             return Err(cursor.fault(start, AdamsFault::Repeated));
@@ -37,7 +42,10 @@ pub(super) fn known(cursor: &mut Cursor, table: Arguments, out: &mut Statement) 
             Form::Function => function(cursor, Some(table))?,
         };
         separated = form == Form::Function;
-        out.arguments.push(StatementArgument { name: name.to_owned(), value });
+        out.arguments.push(StatementArgument {
+            name: name.to_owned(),
+            value,
+        });
     }
 }
 
@@ -65,11 +73,17 @@ pub(super) fn unknown(cursor: &mut Cursor, out: &mut Statement) -> Result<(), Er
         let text = item(cursor)?;
         let goes_on = !text.starts_with(|c: char| c.is_ascii_alphabetic());
         match out.arguments.last_mut() {
-            Some(StatementArgument { value: ArgumentValue::Word(list), .. }) if goes_on => {
+            Some(StatementArgument {
+                value: ArgumentValue::Word(list),
+                ..
+            }) if goes_on => {
                 list.push_str(", ");
                 list.push_str(&text);
             }
-            _ => out.arguments.push(StatementArgument { name: text, value: ArgumentValue::Flag }),
+            _ => out.arguments.push(StatementArgument {
+                name: text,
+                value: ArgumentValue::Flag,
+            }),
         }
     }
 }
@@ -99,7 +113,11 @@ fn item(cursor: &mut Cursor) -> Result<String, Error> {
         cursor.take();
     }
     let text = single_blanks(&text);
-    if text.is_empty() || quoted { Err(cursor.fault(start, AdamsFault::UnexpectedText)) } else { Ok(text) }
+    if text.is_empty() || quoted {
+        Err(cursor.fault(start, AdamsFault::UnexpectedText))
+    } else {
+        Ok(text)
+    }
 }
 
 /// Reads items up to the next argument.
@@ -110,7 +128,9 @@ fn words(cursor: &mut Cursor, table: Arguments) -> Result<String, Error> {
         let next = cursor.ahead(|cursor| {
             let comma = cursor.separator();
             let end = !cursor.skip();
-            let named = cursor.word().is_some_and(|word| cursor.eat('=') || argument(table, &word).is_some());
+            let named = cursor
+                .word()
+                .is_some_and(|word| cursor.eat('=') || argument(table, &word).is_some());
             comma && !end && !named
         });
         if !next {
@@ -133,8 +153,13 @@ fn whole(cursor: &mut Cursor) -> Result<ArgumentValue, Error> {
     cursor.separator();
     cursor.skip();
     let start = cursor.index();
-    let value = digits(cursor).parse().ok().filter(|value: &i64| (0..=i64::from(u32::MAX)).contains(value));
-    value.map(ArgumentValue::Whole).ok_or_else(|| cursor.fault(start, AdamsFault::Id))
+    let value = digits(cursor)
+        .parse()
+        .ok()
+        .filter(|value: &i64| (0..=i64::from(u32::MAX)).contains(value));
+    value
+        .map(ArgumentValue::Whole)
+        .ok_or_else(|| cursor.fault(start, AdamsFault::Id))
 }
 
 /// Reads numbers up to the next argument. With `angles` a number that ends with D is an angle in degrees; a
@@ -147,13 +172,15 @@ fn numbers(cursor: &mut Cursor, angles: bool) -> Result<ArgumentValue, Error> {
         let start = cursor.index();
         let text = digits(cursor);
         let plain = text.strip_suffix(['d', 'D']).filter(|_| angles);
-        let value =
-            number::read(plain.unwrap_or(&text)).ok_or_else(|| cursor.fault(start, AdamsFault::Number))?;
+        let value = number::read(plain.unwrap_or(&text))
+            .ok_or_else(|| cursor.fault(start, AdamsFault::Number))?;
         all.push((value, plain.is_some()));
         let next = cursor.ahead(|cursor| {
             let comma = cursor.separator();
-            let number =
-                cursor.skip() && cursor.peek().is_some_and(|l| l.c.is_ascii_digit() || "+-.".contains(l.c));
+            let number = cursor.skip()
+                && cursor
+                    .peek()
+                    .is_some_and(|l| l.c.is_ascii_digit() || "+-.".contains(l.c));
             comma && number
         });
         if !next {
@@ -163,10 +190,14 @@ fn numbers(cursor: &mut Cursor, angles: bool) -> Result<ArgumentValue, Error> {
     }
     let degrees = all.iter().any(|(_, degrees)| *degrees);
     if degrees && all.iter().all(|(value, degrees)| *degrees || *value == 0.0) {
-        return Ok(ArgumentValue::Degrees(all.into_iter().map(|(value, _)| value).collect()));
+        return Ok(ArgumentValue::Degrees(
+            all.into_iter().map(|(value, _)| value).collect(),
+        ));
     }
     let radians = |(value, degrees): (f64, bool)| if degrees { value.to_radians() } else { value };
-    Ok(ArgumentValue::Numbers(all.into_iter().map(radians).collect()))
+    Ok(ArgumentValue::Numbers(
+        all.into_iter().map(radians).collect(),
+    ))
 }
 
 /// Reads an expression up to `\`, the end of the statement, or a comma and another argument.
@@ -206,7 +237,10 @@ fn function(cursor: &mut Cursor, table: Option<Arguments>) -> Result<ArgumentVal
     }
     let text: String = text.into_iter().collect();
     expression::parse(&text).map_err(|(offset, fault)| {
-        let at = places.get(offset).copied().unwrap_or_else(|| places.last().map_or(start, |at| at + 1));
+        let at = places
+            .get(offset)
+            .copied()
+            .unwrap_or_else(|| places.last().map_or(start, |at| at + 1));
         cursor.fault(at, fault)
     })?;
     Ok(ArgumentValue::Function(text))
@@ -221,13 +255,16 @@ fn joins(c: char) -> bool {
 /// argument without value.
 fn argument_follows(cursor: &mut Cursor, table: Option<Arguments>) -> bool {
     cursor.separator();
-    let Some(word) = cursor.word() else { return false };
+    let Some(word) = cursor.word() else {
+        return false;
+    };
     if cursor.eat('=') {
         return true;
     }
     let end = !cursor.skip() || cursor.peek().is_some_and(|character| character.c == ',');
     let flag = |table| {
-        argument(table, &word).is_some_and(|found| found.0 == Form::Flag && found.1.len() == word.len())
+        argument(table, &word)
+            .is_some_and(|found| found.0 == Form::Flag && found.1.len() == word.len())
     };
     end && table.is_some_and(flag)
 }

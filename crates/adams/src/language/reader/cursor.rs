@@ -26,19 +26,36 @@ impl Cursor {
             let first = piece.text.chars().position(|c| !c.is_whitespace());
             for (k, c) in piece.text.chars().enumerate() {
                 let lead = c == ',' && first == Some(k) && !characters.is_empty();
-                characters.push(Character { c, line: piece.line, column: piece.column + k, lead });
+                characters.push(Character {
+                    c,
+                    line: piece.line,
+                    column: piece.column + k,
+                    lead,
+                });
             }
             let column = piece.column + piece.text.chars().count();
-            characters.push(Character { c: ' ', line: piece.line, column, lead: false });
+            characters.push(Character {
+                c: ' ',
+                line: piece.line,
+                column,
+                lead: false,
+            });
         }
-        Cursor { characters, next: 0 }
+        Cursor {
+            characters,
+            next: 0,
+        }
     }
 
     /// An error at the character `index`, or at the last one beyond the end.
     pub fn fault(&self, index: usize, fault: AdamsFault) -> Error {
         let place = self.characters.get(index).or(self.characters.last());
         let (line, column) = place.map_or((1, 1), |character| (character.line, character.column));
-        Error::At { line, column, fault }
+        Error::At {
+            line,
+            column,
+            fault,
+        }
     }
 
     /// The index of the next character.
@@ -58,7 +75,10 @@ impl Cursor {
 
     /// Passes over blanks, and returns whether characters are left.
     pub fn skip(&mut self) -> bool {
-        while self.peek().is_some_and(|character| character.c.is_whitespace()) {
+        while self
+            .peek()
+            .is_some_and(|character| character.c.is_whitespace())
+        {
             self.next += 1;
         }
         self.peek().is_some()
@@ -84,7 +104,10 @@ impl Cursor {
     /// Reads a word of letters, digits and underscores that begins with a letter.
     pub fn word(&mut self) -> Option<String> {
         self.skip();
-        if !self.peek().is_some_and(|character| character.c.is_ascii_alphabetic()) {
+        if !self
+            .peek()
+            .is_some_and(|character| character.c.is_ascii_alphabetic())
+        {
             return None;
         }
         Some(self.run(|c| c.is_ascii_alphanumeric() || c == '_'))

@@ -26,8 +26,14 @@ use Form::{Angles, Flag, Function, Numbers, Whole, Word, Words};
 /// The arguments of one kind of statement: their forms and full names.
 pub(super) type Arguments = &'static [(Form, &'static str)];
 
-const UNITS: Arguments =
-    &[(Word, "FORCE"), (Word, "MASS"), (Word, "LENGTH"), (Word, "TIME"), (Word, "SYSTEM"), (Numbers, "UCF")];
+const UNITS: Arguments = &[
+    (Word, "FORCE"),
+    (Word, "MASS"),
+    (Word, "LENGTH"),
+    (Word, "TIME"),
+    (Word, "SYSTEM"),
+    (Numbers, "UCF"),
+];
 
 const PART: Arguments = &[
     (Flag, "GROUND"),
@@ -127,8 +133,13 @@ const SPLINE: Arguments = &[
 
 const VARIABLE: Arguments = &[(Numbers, "IC"), (Function, "FUNCTION"), (Word, "ROUTINE")];
 
-const DIFF: Arguments =
-    &[(Numbers, "IC"), (Function, "FUNCTION"), (Flag, "IMPLICIT"), (Flag, "STATIC_HOLD"), (Word, "ROUTINE")];
+const DIFF: Arguments = &[
+    (Numbers, "IC"),
+    (Function, "FUNCTION"),
+    (Flag, "IMPLICIT"),
+    (Flag, "STATIC_HOLD"),
+    (Word, "ROUTINE"),
+];
 
 const SFORCE: Arguments = &[
     (Flag, "TRANSLATIONAL"),
@@ -210,7 +221,12 @@ const REQUEST: Arguments = &[
     (Word, "ROUTINE"),
 ];
 
-const ACCGRAV: Arguments = &[(Numbers, "IGRAV"), (Numbers, "JGRAV"), (Numbers, "KGRAV"), (Numbers, "GC")];
+const ACCGRAV: Arguments = &[
+    (Numbers, "IGRAV"),
+    (Numbers, "JGRAV"),
+    (Numbers, "KGRAV"),
+    (Numbers, "GC"),
+];
 
 /// The arguments of a kind of statement; `None` for kinds whose arguments are kept as they are written.
 fn arguments(keyword: &Keyword) -> Option<Arguments> {
@@ -242,7 +258,8 @@ pub(super) fn has_no_id(keyword: &Keyword) -> bool {
 /// The keyword that a word names or abbreviates, and its arguments. A word that is unknown or ambiguous
 /// is a keyword of its own.
 pub(super) fn keyword(word: &str) -> (Keyword, Option<Arguments>) {
-    let keyword = lookup(Keyword::ALL, word).unwrap_or_else(|| Keyword::Other(word.to_ascii_uppercase()));
+    let keyword =
+        lookup(Keyword::ALL, word).unwrap_or_else(|| Keyword::Other(word.to_ascii_uppercase()));
     let arguments = arguments(&keyword);
     (keyword, arguments)
 }

@@ -43,7 +43,10 @@ impl DataSet {
     /// ```
     pub fn read(text: &str) -> Result<DataSet, Error> {
         let (title, all) = statements(text)?;
-        let mut out = DataSet { title: title.unwrap_or("").to_owned(), statements: Vec::new() };
+        let mut out = DataSet {
+            title: title.unwrap_or("").to_owned(),
+            statements: Vec::new(),
+        };
         let mut seen = BTreeSet::new();
         for raw in &all {
             let mut cursor = Cursor::new(raw);
@@ -64,7 +67,9 @@ impl DataSet {
 /// One statement.
 fn statement(raw: &RawStatement<'_>, cursor: &mut Cursor) -> Result<Statement, Error> {
     let start = cursor.index();
-    let word = cursor.word().ok_or_else(|| cursor.fault(start, AdamsFault::UnexpectedText))?;
+    let word = cursor
+        .word()
+        .ok_or_else(|| cursor.fault(start, AdamsFault::UnexpectedText))?;
     if !cursor.eat('/') {
         return Err(cursor.fault(start, AdamsFault::UnexpectedText));
     }
@@ -76,7 +81,11 @@ fn statement(raw: &RawStatement<'_>, cursor: &mut Cursor) -> Result<Statement, E
     out.remarks = raw.remarks.iter().map(|text| single_blanks(text)).collect();
     cursor.skip();
     let at = cursor.index();
-    let digits = if lone { String::new() } else { cursor.run(|c| c.is_ascii_digit()) };
+    let digits = if lone {
+        String::new()
+    } else {
+        cursor.run(|c| c.is_ascii_digit())
+    };
     if digits.is_empty() {
         if arguments.is_some() && !lone {
             return Err(cursor.fault(at, AdamsFault::Id));

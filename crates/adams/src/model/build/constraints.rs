@@ -22,15 +22,26 @@ const JOINTS: &[&str] = &[
 ];
 
 /// The types of JPRIM.
-const PRIMITIVES: &[&str] =
-    &["ATPOINT", "INLINE", "INPLANE", "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"];
+const PRIMITIVES: &[&str] = &[
+    "ATPOINT",
+    "INLINE",
+    "INPLANE",
+    "ORIENTATION",
+    "PARALLEL_AXES",
+    "PERPENDICULAR",
+];
 
 /// Reads all constraints.
 pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
     for (keyword, kinds) in [("JOINT", JOINTS), ("JPRIM", PRIMITIVES)] {
         for arguments in build.each(keyword) {
-            let kind = arguments.one_of(kinds)?.ok_or_else(|| arguments.fault(AdamsFault::Type))?;
-            let (i, j) = (build.required_marker(&arguments, "I")?, build.required_marker(&arguments, "J")?);
+            let kind = arguments
+                .one_of(kinds)?
+                .ok_or_else(|| arguments.fault(AdamsFault::Type))?;
+            let (i, j) = (
+                build.required_marker(&arguments, "I")?,
+                build.required_marker(&arguments, "J")?,
+            );
             let equations = constraint::equations(kind);
             if equations.is_empty() {
                 return Err(arguments.fault(AdamsFault::Unsupported));
@@ -46,10 +57,24 @@ pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
             Some("ACCELERATION") => return Err(arguments.fault(AdamsFault::Unsupported)),
             _ => None,
         };
-        let motion = PrescribedMotion { formula: Formula::Number(0.0), start };
-        let index = constrain(build, "MOTION", &arguments, markers, vec![equation], Some(motion))?;
+        let motion = PrescribedMotion {
+            formula: Formula::Number(0.0),
+            start,
+        };
+        let index = constrain(
+            build,
+            "MOTION",
+            &arguments,
+            markers,
+            vec![equation],
+            Some(motion),
+        )?;
         let target = Target::Motion(index);
-        build.pending.push(Pending { statement: arguments.statement, argument: "FUNCTION", target });
+        build.pending.push(Pending {
+            statement: arguments.statement,
+            argument: "FUNCTION",
+            target,
+        });
     }
     Ok(())
 }
@@ -68,7 +93,14 @@ fn constrain(
         return Err(arguments.fault(AdamsFault::Floating));
     }
     build.symbols.constraints.insert((keyword, id), index);
-    build.model.constraints.push(Constraint { keyword, id, i, j, equations, motion });
+    build.model.constraints.push(Constraint {
+        keyword,
+        id,
+        i,
+        j,
+        equations,
+        motion,
+    });
     Ok(index)
 }
 
@@ -94,7 +126,10 @@ fn motion(build: &Build<'_>, arguments: &Arguments<'_>) -> Result<([usize; 2], E
         };
         return Ok(([joint.i, joint.j], kind));
     }
-    let markers = [build.required_marker(arguments, "I")?, build.required_marker(arguments, "J")?];
+    let markers = [
+        build.required_marker(arguments, "I")?,
+        build.required_marker(arguments, "J")?,
+    ];
     let equation = match arguments.one_of(&["X", "Y", "Z", "B1", "B2", "B3"])? {
         Some("X") => Equation::Along(0),
         Some("Y") => Equation::Along(1),

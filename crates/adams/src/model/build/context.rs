@@ -36,20 +36,37 @@ impl<'a> Build<'a> {
     /// The statements of a kind.
     pub fn each(&self, keyword: &str) -> impl Iterator<Item = Arguments<'a>> + use<'a> {
         let keyword = keyword.to_owned();
-        let all = self.set.statements.iter().filter(move |one| one.keyword == keyword);
+        let all = self
+            .set
+            .statements
+            .iter()
+            .filter(move |one| one.keyword == keyword);
         all.map(|statement| Arguments { statement })
     }
 
     /// The index of the marker that an argument names.
-    pub fn marker(&self, arguments: &Arguments<'_>, name: &'static str) -> Result<Option<usize>, Error> {
-        let Some(id) = arguments.reference(name)? else { return Ok(None) };
+    pub fn marker(
+        &self,
+        arguments: &Arguments<'_>,
+        name: &'static str,
+    ) -> Result<Option<usize>, Error> {
+        let Some(id) = arguments.reference(name)? else {
+            return Ok(None);
+        };
         let found = self.symbols.markers.get(&id).copied();
-        found.map(Some).ok_or_else(|| missing(arguments, "MARKER", id))
+        found
+            .map(Some)
+            .ok_or_else(|| missing(arguments, "MARKER", id))
     }
 
     /// The index of the marker that a required argument names.
-    pub fn required_marker(&self, arguments: &Arguments<'_>, name: &'static str) -> Result<usize, Error> {
-        self.marker(arguments, name)?.ok_or_else(|| arguments.missing_argument(name))
+    pub fn required_marker(
+        &self,
+        arguments: &Arguments<'_>,
+        name: &'static str,
+    ) -> Result<usize, Error> {
+        self.marker(arguments, name)?
+            .ok_or_else(|| arguments.missing_argument(name))
     }
 
     /// Adds a slot for the expression of an argument.
@@ -67,12 +84,18 @@ impl<'a> Build<'a> {
             implicit: matches!(owner, Owner::Rate(_)) && arguments.flag("IMPLICIT"),
             guess: 0.0,
         });
-        self.pending.push(Pending { statement: arguments.statement, argument, target: Target::Slot(slot) });
+        self.pending.push(Pending {
+            statement: arguments.statement,
+            argument,
+            target: Target::Slot(slot),
+        });
         Ok(slot)
     }
 }
 
 /// The error of a reference to a statement that does not exist.
 pub(super) fn missing(arguments: &Arguments<'_>, keyword: &str, id: u32) -> Error {
-    arguments.fault(AdamsFault::Missing { statement: StatementId::new(keyword, id) })
+    arguments.fault(AdamsFault::Missing {
+        statement: StatementId::new(keyword, id),
+    })
 }

@@ -9,14 +9,24 @@ use crate::{AdamsFault, Error};
 
 /// Reads all loads.
 pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
-    for kind in [LoadKind::Sforce, LoadKind::Vforce, LoadKind::Gforce, LoadKind::Beam] {
+    for kind in [
+        LoadKind::Sforce,
+        LoadKind::Vforce,
+        LoadKind::Gforce,
+        LoadKind::Beam,
+    ] {
         for arguments in build.each(kind.keyword()) {
             let index = build.model.loads.len();
             let id = arguments.id()?;
             let i = build.required_marker(&arguments, "I")?;
-            let other = if matches!(kind, LoadKind::Vforce | LoadKind::Gforce) { "JFLOAT" } else { "J" };
+            let other = if matches!(kind, LoadKind::Vforce | LoadKind::Gforce) {
+                "JFLOAT"
+            } else {
+                "J"
+            };
             let j = build.required_marker(&arguments, other)?;
-            if build.model.markers[i].floating || (other == "J" && build.model.markers[j].floating) {
+            if build.model.markers[i].floating || (other == "J" && build.model.markers[j].floating)
+            {
                 return Err(arguments.fault(AdamsFault::Floating));
             }
             let law = match kind {
@@ -24,13 +34,24 @@ pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
                 LoadKind::Sforce => {
                     let slot = build.slot(&arguments, "FUNCTION", Owner::Load(index, 0))?;
                     let action_only = arguments.flag("ACTIONONLY");
-                    let torque = arguments.one_of(&["TRANSLATIONAL", "ROTATIONAL"])? == Some("ROTATIONAL");
-                    if torque { Law::Torque { slot, action_only } } else { Law::Force { slot, action_only } }
+                    let torque =
+                        arguments.one_of(&["TRANSLATIONAL", "ROTATIONAL"])? == Some("ROTATIONAL");
+                    if torque {
+                        Law::Torque { slot, action_only }
+                    } else {
+                        Law::Force { slot, action_only }
+                    }
                 }
                 LoadKind::Vforce | LoadKind::Gforce => components(build, &arguments, index, i, j)?,
             };
             build.symbols.loads.insert((kind, id), index);
-            build.model.loads.push(AppliedForce { kind, id, i, j, law });
+            build.model.loads.push(AppliedForce {
+                kind,
+                id,
+                i,
+                j,
+                law,
+            });
         }
     }
     Ok(())

@@ -41,8 +41,8 @@ const IGNORED: &[&str] = &[
 
 /// Statements that are executed.
 const EXECUTED: &[&str] = &[
-    "ACCGRAV", "BEAM", "DIFF", "GFORCE", "JOINT", "JPRIM", "MARKER", "MOTION", "PART", "REQUEST", "SFORCE",
-    "SPLINE", "UNITS", "VARIABLE", "VFORCE",
+    "ACCGRAV", "BEAM", "DIFF", "GFORCE", "JOINT", "JPRIM", "MARKER", "MOTION", "PART", "REQUEST",
+    "SFORCE", "SPLINE", "UNITS", "VARIABLE", "VFORCE",
 ];
 
 impl AdamsModel {
@@ -54,7 +54,12 @@ impl AdamsModel {
     /// be parsed, use unknown names, or call a function with a wrong number of arguments.
     pub fn new(set: &DataSet) -> Result<AdamsModel, Error> {
         let (symbols, model) = (Symbols::default(), AdamsModel::default());
-        let mut build = Build { set, symbols, model, pending: Vec::new() };
+        let mut build = Build {
+            set,
+            symbols,
+            model,
+            pending: Vec::new(),
+        };
         build.check_kinds()?;
         build.parts()?;
         build.gravity()?;
@@ -98,14 +103,23 @@ impl<'a> Build<'a> {
             self.model.parts.push(Part::read(&arguments)?);
         }
         for arguments in self.each("MARKER") {
-            let id = arguments.reference("PART")?.ok_or_else(|| arguments.missing_argument("PART"))?;
-            let part = parts.get(&id).copied().ok_or_else(|| missing(&arguments, "PART", id))?;
-            self.symbols.markers.insert(arguments.id()?, self.model.markers.len());
+            let id = arguments
+                .reference("PART")?
+                .ok_or_else(|| arguments.missing_argument("PART"))?;
+            let part = parts
+                .get(&id)
+                .copied()
+                .ok_or_else(|| missing(&arguments, "PART", id))?;
+            self.symbols
+                .markers
+                .insert(arguments.id()?, self.model.markers.len());
             self.model.markers.push(Marker::read(&arguments, part)?);
         }
         for (k, arguments) in self.each("PART").enumerate() {
             let cm = self.marker(&arguments, "CM")?;
-            if cm.is_some_and(|cm| self.model.markers[cm].part != k || self.model.markers[cm].floating) {
+            if cm.is_some_and(|cm| {
+                self.model.markers[cm].part != k || self.model.markers[cm].floating
+            }) {
                 return Err(arguments.wrong_form("CM"));
             }
             self.model.parts[k].cm = cm;
@@ -134,7 +148,9 @@ impl<'a> Build<'a> {
             for method in [SplineMethod::Akima, SplineMethod::Natural] {
                 let family = SplineFunction::new(&spline, method);
                 let found = (self.model.families.len(), family.is_surface());
-                self.symbols.families.insert((arguments.id()?, method), found);
+                self.symbols
+                    .families
+                    .insert((arguments.id()?, method), found);
                 self.model.families.push(family);
                 self.model.splines.push(spline.id);
             }
@@ -161,7 +177,12 @@ impl<'a> Build<'a> {
             let starts = arguments.numbers("IC")?.unwrap_or_default();
             self.model.slots[slot].guess = starts.get(1).copied().unwrap_or(0.0);
             let start = starts.first().copied().unwrap_or(0.0);
-            self.model.diffs.push(Diff { id, start, slot, hold: arguments.flag("STATIC_HOLD") });
+            self.model.diffs.push(Diff {
+                id,
+                start,
+                slot,
+                hold: arguments.flag("STATIC_HOLD"),
+            });
             self.symbols.diffs.insert(id, (index, slot));
         }
         Ok(())
@@ -177,21 +198,38 @@ impl<'a> Build<'a> {
                 if arguments.flag(name) {
                     let target = Target::Request(index, columns.len());
                     columns.push((k, Formula::Number(0.0)));
-                    self.pending.push(Pending { statement: arguments.statement, argument: name, target });
+                    self.pending.push(Pending {
+                        statement: arguments.statement,
+                        argument: name,
+                        target,
+                    });
                 }
             }
-            self.model.requests.push(Request { id: arguments.id()?, columns });
+            self.model.requests.push(Request {
+                id: arguments.id()?,
+                columns,
+            });
         }
         Ok(())
     }
 
     /// Compiles the expressions and orders the slots.
     fn compile(mut self) -> Result<AdamsModel, Error> {
-        for Pending { statement, argument, target } in std::mem::take(&mut self.pending) {
+        for Pending {
+            statement,
+            argument,
+            target,
+        } in std::mem::take(&mut self.pending)
+        {
             let arguments = Arguments { statement };
-            let text = arguments.function(argument)?.ok_or_else(|| arguments.missing_argument(argument))?;
+            let text = arguments
+                .function(argument)?
+                .ok_or_else(|| arguments.missing_argument(argument))?;
             let reactions = matches!(target, Target::Request(..));
-            let compiler = Compiler { symbols: &self.symbols, reactions };
+            let compiler = Compiler {
+                symbols: &self.symbols,
+                reactions,
+            };
             let formula = expression::parse(text).and_then(|tree| compiler.compile(&tree));
             let formula = formula.map_err(|(offset, fault)| Error::In {
                 statement: StatementId::new(&statement.keyword, statement.id.unwrap_or(0)),
@@ -201,7 +239,9 @@ impl<'a> Build<'a> {
             })?;
             match target {
                 Target::Slot(slot) => self.model.slots[slot].formula = formula,
-                Target::Request(request, column) => self.model.requests[request].columns[column].1 = formula,
+                Target::Request(request, column) => {
+                    self.model.requests[request].columns[column].1 = formula
+                }
                 Target::Motion(constraint) => {
                     if let Some(motion) = &mut self.model.constraints[constraint].motion {
                         // A prescribed velocity is integrated over time, so it must not depend on anything
@@ -225,7 +265,11 @@ impl<'a> Build<'a> {
             })
             .collect();
         let implicit: Vec<bool> = model.slots.iter().map(|slot| slot.implicit).collect();
-        let preferred: Vec<bool> = model.slots.iter().map(|slot| slot.owner == Owner::Variable).collect();
+        let preferred: Vec<bool> = model
+            .slots
+            .iter()
+            .map(|slot| slot.owner == Owner::Variable)
+            .collect();
         model.order = order::order(&needs, &implicit, &preferred);
         model.symbols = self.symbols;
         Ok(model)

@@ -34,7 +34,8 @@ pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
         ];
         return lookup(systems, &system).ok_or_else(unknown);
     }
-    let (Some(force), Some(mass), Some(length)) = (word("FORCE"), word("MASS"), word("LENGTH")) else {
+    let (Some(force), Some(mass), Some(length)) = (word("FORCE"), word("MASS"), word("LENGTH"))
+    else {
         return Ok(1.0);
     };
     let newton = match lookup(AdamsForceUnit::ALL, &force).ok_or_else(unknown)? {
@@ -59,5 +60,9 @@ pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
     let factor: f64 = kilogram * meter / newton;
     // Slug and foot are consistent with the pound-force by definition; their quotient is not one to the last
     // bit.
-    Ok(if (factor - 1.0).abs() < 1e-12 { 1.0 } else { factor })
+    Ok(if (factor - 1.0).abs() < 1e-12 {
+        1.0
+    } else {
+        factor
+    })
 }

@@ -24,30 +24,46 @@ impl Search<'_> {
         let is_position =
             |unknown: &Unknown| matches!(unknown, Unknown::Translation(..) | Unknown::Rotation(..));
         let numbers = |is: &dyn Fn(&Unknown) -> bool| -> Vec<usize> {
-            (0..self.unknowns.len()).filter(|k| is(&self.unknowns[*k])).collect()
+            (0..self.unknowns.len())
+                .filter(|k| is(&self.unknowns[*k]))
+                .collect()
         };
         let columns = numbers(&is_position);
         let rows = numbers(&|unknown| matches!(unknown, Unknown::Reaction(..)));
-        let (gap_scales, scales) =
-            (self.residual_scales(&start), self.step_scales(&start, &vec![0.0; self.unknowns.len()]));
+        let (gap_scales, scales) = (
+            self.residual_scales(&start),
+            self.step_scales(&start, &vec![0.0; self.unknowns.len()]),
+        );
         if rows.is_empty() {
             return start;
         }
         let mut at = start.clone();
         for _ in 0..ASSEMBLIES {
-            let Ok((residual, matrix)) = self.linearize(&at, &self.unknowns) else { return start };
-            let gaps = DVector::from_iterator(rows.len(), rows.iter().map(|&r| residual[r] / gap_scales[r]));
+            let Ok((residual, matrix)) = self.linearize(&at, &self.unknowns) else {
+                return start;
+            };
+            let gaps = DVector::from_iterator(
+                rows.len(),
+                rows.iter().map(|&r| residual[r] / gap_scales[r]),
+            );
             if gaps.amax() <= ASSEMBLED {
                 return at;
             }
             let scaled = DMatrix::from_fn(rows.len(), columns.len(), |r, c| {
                 matrix[(rows[r], columns[c])] * scales[columns[c]] / gap_scales[rows[r]]
             });
-            let Some(svd) = scaled.try_svd(true, true, f64::EPSILON, 10_000) else { return start };
+            let Some(svd) = scaled.try_svd(true, true, f64::EPSILON, 10_000) else {
+                return start;
+            };
             let least = SINGULAR * svd.singular_values.max();
-            let Ok(solved) = svd.solve(&gaps, least) else { return start };
+            let Ok(solved) = svd.solve(&gaps, least) else {
+                return start;
+            };
             let mut step = vec![0.0; self.unknowns.len()];
-            columns.iter().zip(solved.iter()).for_each(|(&c, d)| step[c] = -d * scales[c]);
+            columns
+                .iter()
+                .zip(solved.iter())
+                .for_each(|(&c, d)| step[c] = -d * scales[c]);
             let fraction = 0.5 / self.largest_angle(&step).max(0.5);
             at = at.after(&self.unknowns, &step, fraction);
         }
@@ -70,8 +86,11 @@ impl Search<'_> {
             at.after(&self.inner, &step, 1.0)
         };
         // The equation of a differential, DIF1 = 0, has the sign of its derivative.
-        let continued: Vec<bool> =
-            self.inner.iter().map(|unknown| matches!(unknown, Unknown::Slot(_))).collect();
+        let continued: Vec<bool> = self
+            .inner
+            .iter()
+            .map(|unknown| matches!(unknown, Unknown::Slot(_)))
+            .collect();
         let linearize = |x: &[f64]| self.linearize(&with(x), &self.inner);
         let residual = |x: &[f64]| Ok(self.balanced(&with(x), &self.inner)?.0);
         match newton::solve(start.clone(), &continued, linearize, residual) {

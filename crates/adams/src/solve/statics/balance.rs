@@ -29,19 +29,43 @@ pub(super) fn balance<T: Scalar>(
     for (k, constraint) in model.constraints.iter().enumerate() {
         let value = prescribed(constraint, on)?;
         let (gap, wrench) = constrain(constraint, on, &value, &multipliers[k]);
-        apply(model, &mut wrenches, parts, on, [constraint.i, constraint.j], &wrench, false);
+        apply(
+            model,
+            &mut wrenches,
+            parts,
+            on,
+            [constraint.i, constraint.j],
+            &wrench,
+            false,
+        );
         on.reactions[k] = Some(wrench);
         gaps.push(gap);
     }
     for load in &model.loads {
         let wrench = load.wrench(&on.at);
-        apply(model, &mut wrenches, parts, on, [load.i, load.j], &wrench, load.action_only());
+        apply(
+            model,
+            &mut wrenches,
+            parts,
+            on,
+            [load.i, load.j],
+            &wrench,
+            load.action_only(),
+        );
     }
     let gravity = vector(model.gravity);
     for (k, part) in model.parts.iter().enumerate() {
         let weight = scale(&gravity, &T::constant(part.mass));
-        let place = part.cm.map_or(&parts[k].origin, |cm| &on.at.frames[cm].origin);
-        add_wrench(&mut wrenches[k], &parts[k], place, &[weight, vector([0.0; 3])], 1.0);
+        let place = part
+            .cm
+            .map_or(&parts[k].origin, |cm| &on.at.frames[cm].origin);
+        add_wrench(
+            &mut wrenches[k],
+            &parts[k],
+            place,
+            &[weight, vector([0.0; 3])],
+            1.0,
+        );
     }
     unknowns
         .iter()
@@ -58,7 +82,10 @@ pub(super) fn balance<T: Scalar>(
 }
 
 /// Computes all slots from the torn ones, and returns the errors of the torn ones. DIF1 is zero.
-fn slots<T: Scalar>(model: &AdamsModel, on: &mut Evaluation<'_, T>) -> Result<Vec<Option<T>>, Error> {
+fn slots<T: Scalar>(
+    model: &AdamsModel,
+    on: &mut Evaluation<'_, T>,
+) -> Result<Vec<Option<T>>, Error> {
     let mut errors = vec![None; model.slots.len()];
     let rate = |slot: usize| matches!(model.slots[slot].owner, Owner::Rate(_));
     for block in &model.order {
@@ -152,8 +179,13 @@ fn constrain<T: Scalar>(
 /// The difference between an angle, given by its sine and cosine, and another angle, from -pi to pi.
 fn angle_difference<T: Scalar>(sin: &T, cos: &T, other: &T) -> T {
     let one = |unary: UnaryFunction| {
-        Function::Unary(unary).value(std::slice::from_ref(other)).unwrap_or(T::constant(0.0))
+        Function::Unary(unary)
+            .value(std::slice::from_ref(other))
+            .unwrap_or(T::constant(0.0))
     };
     let (s, c) = (one(UnaryFunction::Sin), one(UnaryFunction::Cos));
-    atan2(&sin.times(&c).minus(&cos.times(&s)), &cos.times(&c).plus(&sin.times(&s)))
+    atan2(
+        &sin.times(&c).minus(&cos.times(&s)),
+        &cos.times(&c).plus(&sin.times(&s)),
+    )
 }

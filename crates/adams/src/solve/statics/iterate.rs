@@ -25,17 +25,31 @@ pub(super) enum Unknown {
 /// The unknowns of a model.
 pub(super) fn unknowns(model: &AdamsModel) -> Vec<Unknown> {
     let mut out = Vec::new();
-    for (k, _) in model.parts.iter().enumerate().filter(|(_, part)| !part.ground) {
+    for (k, _) in model
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| !part.ground)
+    {
         out.extend((0..3).map(|axis| Unknown::Translation(k, axis)));
         out.extend((0..3).map(|axis| Unknown::Rotation(k, axis)));
     }
     for block in &model.order {
         if let Block::Loop { torn, .. } = block {
             let rate = |slot: usize| matches!(model.slots[slot].owner, Owner::Rate(_));
-            out.extend(torn.iter().copied().filter(|slot| !rate(*slot)).map(Unknown::Slot));
+            out.extend(
+                torn.iter()
+                    .copied()
+                    .filter(|slot| !rate(*slot))
+                    .map(Unknown::Slot),
+            );
         }
     }
-    let moving = model.diffs.iter().enumerate().filter(|(_, diff)| !diff.hold);
+    let moving = model
+        .diffs
+        .iter()
+        .enumerate()
+        .filter(|(_, diff)| !diff.hold);
     out.extend(moving.map(|(k, _)| Unknown::Differential(k)));
     for (k, constraint) in model.constraints.iter().enumerate() {
         out.extend((0..constraint.equations.len()).map(|equation| Unknown::Reaction(k, equation)));
@@ -71,18 +85,30 @@ impl Iterate {
             rotations: Vec::new(),
             values: model.slots.iter().map(|slot| slot.guess).collect(),
             differentials: Vec::new(),
-            reactions: model.constraints.iter().map(|one| vec![0.0; one.equations.len()]).collect(),
+            reactions: model
+                .constraints
+                .iter()
+                .map(|one| vec![0.0; one.equations.len()])
+                .collect(),
         };
         for part in &model.parts {
             let ground = Pose::at_rest(Vector3::zeros(), Matrix3::identity());
-            let pose = if part.ground { Some(&ground) } else { state.parts.get(&part.id) };
-            let pose = pose.ok_or_else(|| Error::State { statement: StatementId::new("PART", part.id) })?;
+            let pose = if part.ground {
+                Some(&ground)
+            } else {
+                state.parts.get(&part.id)
+            };
+            let pose = pose.ok_or_else(|| Error::State {
+                statement: StatementId::new("PART", part.id),
+            })?;
             out.origins.push(pose.origin);
             out.rotations.push(orthonormal(&pose.rotation));
         }
         for diff in &model.diffs {
             let value = state.differentials.get(&diff.id);
-            let value = value.ok_or_else(|| Error::State { statement: StatementId::new("DIFF", diff.id) })?;
+            let value = value.ok_or_else(|| Error::State {
+                statement: StatementId::new("DIFF", diff.id),
+            })?;
             out.differentials.push(*value);
         }
         Ok(out)
@@ -114,22 +140,29 @@ impl Iterate {
     /// The frames of the parts, at rest.
     pub fn frames(&self) -> Vec<Frame<f64>> {
         let still = self.origins.iter().zip(&self.rotations);
-        still.map(|(origin, rotation)| Frame::at_rest((*origin).into(), rows(rotation))).collect()
+        still
+            .map(|(origin, rotation)| Frame::at_rest((*origin).into(), rows(rotation)))
+            .collect()
     }
 
     /// The frames of the parts with derivatives with respect to the unknowns. The derivative of axes A with
     /// respect to a rotation about the axis e is e x A.
     pub fn dual_frames(&self, unknowns: &[Unknown]) -> Vec<Frame<Dual>> {
         let count = unknowns.len();
-        let mut origins: Vec<[Dual; 3]> =
-            self.origins.iter().map(|origin| vector((*origin).into())).collect();
+        let mut origins: Vec<[Dual; 3]> = self
+            .origins
+            .iter()
+            .map(|origin| vector((*origin).into()))
+            .collect();
         let mut rotations: Vec<[Dual; 3]> = vec![vector([0.0; 3]); origins.len()];
         for (k, unknown) in unknowns.iter().enumerate() {
             match *unknown {
                 Unknown::Translation(part, axis) => {
                     origins[part][axis] = Dual::unknown(self.origins[part][axis], k, count);
                 }
-                Unknown::Rotation(part, axis) => rotations[part][axis] = Dual::unknown(0.0, k, count),
+                Unknown::Rotation(part, axis) => {
+                    rotations[part][axis] = Dual::unknown(0.0, k, count)
+                }
                 _ => {}
             }
         }
@@ -137,14 +170,21 @@ impl Iterate {
         each.map(|((origin, turn), rotation)| {
             let axes: Matrix<Dual> = matrix(rows(rotation));
             let change = cross_columns(&turn, &axes);
-            Frame::at_rest(origin, std::array::from_fn(|row| add(&axes[row], &change[row])))
+            Frame::at_rest(
+                origin,
+                std::array::from_fn(|row| add(&axes[row], &change[row])),
+            )
         })
         .collect()
     }
 
     /// The state at this iterate.
     pub fn state(&self, model: &AdamsModel) -> ModelState {
-        let moving = model.parts.iter().enumerate().filter(|(_, part)| !part.ground);
+        let moving = model
+            .parts
+            .iter()
+            .enumerate()
+            .filter(|(_, part)| !part.ground);
         let pose = |k: usize| Pose::at_rest(self.origins[k], self.rotations[k]);
         ModelState {
             time: self.time,
@@ -169,10 +209,17 @@ fn orthonormal(m: &Matrix3<f64>) -> Matrix3<f64> {
     let x = m.column(0).normalize();
     let y = (m.column(1) - x * x.dot(&m.column(1))).normalize();
     let out = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-    if out.iter().all(|value| value.is_finite()) { out } else { *m }
+    if out.iter().all(|value| value.is_finite()) {
+        out
+    } else {
+        *m
+    }
 }
 
 /// A value that is the unknown `index` of `count`, or a constant without index.
 pub(super) fn seed(value: f64, index: Option<usize>, count: usize) -> Dual {
-    index.map_or_else(|| Dual::constant(value), |index| Dual::unknown(value, index, count))
+    index.map_or_else(
+        || Dual::constant(value),
+        |index| Dual::unknown(value, index, count),
+    )
 }

@@ -58,7 +58,14 @@ impl AdamsModel {
     /// # Ok::<(), adams::Error>(())
     /// ```
     pub fn equilibrium(&self, time: f64, guess: &ModelState) -> Result<Equilibrium, Error> {
-        search(self, &ModelState { time, ..guess.clone() }, None)
+        search(
+            self,
+            &ModelState {
+                time,
+                ..guess.clone()
+            },
+            None,
+        )
     }
 
     /// The static equilibria at several times, each found from the one before: the quasi-static path. The
@@ -71,7 +78,14 @@ impl AdamsModel {
         for time in times {
             let before = out.last();
             let guess = before.map_or_else(|| self.initial(), |one| one.state.clone());
-            let next = search(self, &ModelState { time: *time, ..guess }, before)?;
+            let next = search(
+                self,
+                &ModelState {
+                    time: *time,
+                    ..guess
+                },
+                before,
+            )?;
             out.push(next);
         }
         Ok(out)

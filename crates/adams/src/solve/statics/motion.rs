@@ -9,15 +9,22 @@ const DEEPEST: usize = 30;
 /// The displacement or rotation that a MOTION prescribes at the time of the evaluation; zero for joints.
 ///
 /// A prescribed velocity is integrated from time zero by adaptive Gauss quadrature.
-pub(super) fn prescribed<T: Scalar>(constraint: &Constraint, on: &mut Evaluation<'_, T>) -> Result<T, Error> {
+pub(super) fn prescribed<T: Scalar>(
+    constraint: &Constraint,
+    on: &mut Evaluation<'_, T>,
+) -> Result<T, Error> {
     let refuse = |fault: AdamsFault| Error::In {
         statement: StatementId::new(constraint.keyword, constraint.id),
         argument: "FUNCTION",
         offset: 0,
         fault: Box::new(fault),
     };
-    let Some(motion) = &constraint.motion else { return Ok(T::constant(0.0)) };
-    let Some(start) = motion.start else { return motion.formula.value(on).map_err(refuse) };
+    let Some(motion) = &constraint.motion else {
+        return Ok(T::constant(0.0));
+    };
+    let Some(start) = motion.start else {
+        return motion.formula.value(on).map_err(refuse);
+    };
     let end = on.at.time;
     let mut speed = |time: f64| {
         on.at.time = time;
@@ -44,7 +51,8 @@ fn integral(
     if depth == 0 || (sum - whole).abs() <= 1e-14 * (left.abs() + right.abs()) {
         return Ok(sum);
     }
-    Ok(integral(speed, [a, middle], left, depth - 1)? + integral(speed, [middle, b], right, depth - 1)?)
+    Ok(integral(speed, [a, middle], left, depth - 1)?
+        + integral(speed, [middle, b], right, depth - 1)?)
 }
 
 /// The integral over an interval by Gauss quadrature with five points.

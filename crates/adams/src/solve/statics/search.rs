@@ -92,10 +92,18 @@ impl Search<'_> {
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
             let allowed = self.allowed_residuals(&at, &matrix, &rows);
-            let balances = residual.iter().zip(&allowed).all(|(r, allowed)| r.abs() <= *allowed);
-            let Some(factored) = self.factor(&at, matrix.clone(), resistance) else { break };
-            let Some(step) = factored.correction(&residual) else { break };
-            let is_held = factored.rank_deficiency() == 0 || solves(&matrix, &step, &residual, &rows);
+            let balances = residual
+                .iter()
+                .zip(&allowed)
+                .all(|(r, allowed)| r.abs() <= *allowed);
+            let Some(factored) = self.factor(&at, matrix.clone(), resistance) else {
+                break;
+            };
+            let Some(step) = factored.correction(&residual) else {
+                break;
+            };
+            let is_held =
+                factored.rank_deficiency() == 0 || solves(&matrix, &step, &residual, &rows);
             if resistance == 0.0 && !is_held {
                 (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY);
                 continue;
@@ -108,11 +116,18 @@ impl Search<'_> {
             let length = scaled_size(&step, &scales);
             let stalled = length <= STALLED && length >= 0.1 * before;
             if (length <= ROUNDING || stalled) && balances {
-                let end = if stalled { at } else { at.after(&self.unknowns, &step, 1.0) };
+                let end = if stalled {
+                    at
+                } else {
+                    at.after(&self.unknowns, &step, 1.0)
+                };
                 return self.report(&end, iterations, factored.rank_deficiency());
             }
             before = length;
-            match self.damped_step(&at, &factored, &step, &scales).filter(|_| length > ROUNDING) {
+            match self
+                .damped_step(&at, &factored, &step, &scales)
+                .filter(|_| length > ROUNDING)
+            {
                 Some(next) => at = next,
                 None if length <= STALLED && balances => {
                     return self.report(&at, iterations, factored.rank_deficiency());
@@ -122,12 +137,21 @@ impl Search<'_> {
         }
         let (keyword, id) = self.statement_of(worst.0);
         let statement = StatementId::new(keyword, id);
-        Err(Error::Equilibrium { statement, residual: worst.1, iterations })
+        Err(Error::Equilibrium {
+            statement,
+            residual: worst.1,
+            iterations,
+        })
     }
 
     /// The matrix with viscous resistance, factored in scales in which the stiffness that supports a part
     /// counts and rounding does not.
-    fn factor(&self, at: &Iterate, mut matrix: DMatrix<f64>, resistance: f64) -> Option<FactoredMatrix> {
+    fn factor(
+        &self,
+        at: &Iterate,
+        mut matrix: DMatrix<f64>,
+        resistance: f64,
+    ) -> Option<FactoredMatrix> {
         self.add_resistance(&mut matrix, resistance);
         let zero = vec![0.0; self.unknowns.len()];
         let (mut rows, mut columns) = (self.residual_scales(at), self.step_scales(at, &zero));
@@ -155,8 +179,13 @@ impl Search<'_> {
         let mut fraction = 0.5 / self.largest_angle(step).max(0.5);
         while fraction > 1e-6 {
             let next = self.closed(at.after(&self.unknowns, step, fraction));
-            let after = self.residual(&next).ok().and_then(|residual| factored.correction(&residual));
-            if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
+            let after = self
+                .residual(&next)
+                .ok()
+                .and_then(|residual| factored.correction(&residual));
+            if after.is_some_and(|after| {
+                scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length
+            }) {
                 return Some(next);
             }
             fraction *= 0.5;
@@ -166,13 +195,23 @@ impl Search<'_> {
 
     /// A step against the viscous resistance, limited to a twentieth of the size of the model and 0.2 rad,
     /// and the resistance of the next step. A step that increases the residual too much is rejected.
-    fn resisted_step(&self, at: Iterate, step: &[f64], left: f64, resistance: f64) -> (Iterate, f64) {
+    fn resisted_step(
+        &self,
+        at: Iterate,
+        step: &[f64],
+        left: f64,
+        resistance: f64,
+    ) -> (Iterate, f64) {
         let limit = |unknown: &Unknown| match unknown {
             Unknown::Translation(..) => 0.05 * self.length,
             Unknown::Rotation(..) => 0.2,
             _ => f64::INFINITY,
         };
-        let most = self.unknowns.iter().zip(step).map(|(unknown, d)| d.abs() / limit(unknown));
+        let most = self
+            .unknowns
+            .iter()
+            .zip(step)
+            .map(|(unknown, d)| d.abs() / limit(unknown));
         let fraction = 1.0 / most.fold(1.0, f64::max);
         let next = self.closed(at.after(&self.unknowns, step, fraction));
         let after = self.residual(&next).ok();
@@ -189,8 +228,11 @@ impl Search<'_> {
 
     /// The largest rotation of a step.
     pub fn largest_angle(&self, step: &[f64]) -> f64 {
-        let rotations =
-            self.unknowns.iter().zip(step).filter(|(unknown, _)| matches!(unknown, Unknown::Rotation(..)));
+        let rotations = self
+            .unknowns
+            .iter()
+            .zip(step)
+            .filter(|(unknown, _)| matches!(unknown, Unknown::Rotation(..)));
         rotations.fold(0.0_f64, |top, (_, d)| top.max(d.abs()))
     }
 
@@ -215,7 +257,13 @@ impl Search<'_> {
     ) -> Evaluation<'_, T> {
         let at = Configuration::new(&self.model.markers, frames, 0);
         let mode = Configuration::<T>::STATIC;
-        self.model.evaluation_on(Configuration { time, mode, differentials, values, ..at })
+        self.model.evaluation_on(Configuration {
+            time,
+            mode,
+            differentials,
+            values,
+            ..at
+        })
     }
 
     /// The residuals of `unknowns` and all values at an iterate.
@@ -225,7 +273,12 @@ impl Search<'_> {
         unknowns: &[Unknown],
     ) -> Result<(Vec<f64>, Evaluation<'_, f64>), Error> {
         let frames = at.frames();
-        let mut on = self.evaluation(at.time, &frames, at.differentials.clone(), at.values.clone());
+        let mut on = self.evaluation(
+            at.time,
+            &frames,
+            at.differentials.clone(),
+            at.values.clone(),
+        );
         let residual = balance(self.model, &frames, &mut on, unknowns, &at.reactions)?;
         Ok((residual, on))
     }
@@ -236,12 +289,22 @@ impl Search<'_> {
     }
 
     /// The residuals of `unknowns` and their Jacobian.
-    pub fn linearize(&self, at: &Iterate, unknowns: &[Unknown]) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
+    pub fn linearize(
+        &self,
+        at: &Iterate,
+        unknowns: &[Unknown],
+    ) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
         let count = unknowns.len();
         let index = |wanted: Unknown| unknowns.iter().position(|unknown| *unknown == wanted);
         let frames = at.dual_frames(unknowns);
-        let differential = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Differential(k)), count);
-        let differentials = at.differentials.iter().enumerate().map(differential).collect();
+        let differential =
+            |(k, value): (usize, &f64)| seed(*value, index(Unknown::Differential(k)), count);
+        let differentials = at
+            .differentials
+            .iter()
+            .enumerate()
+            .map(differential)
+            .collect();
         let slot = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Slot(k)), count);
         let values = at.values.iter().enumerate().map(slot).collect();
         let reactions: Vec<Vec<Dual>> = at
@@ -249,7 +312,8 @@ impl Search<'_> {
             .iter()
             .enumerate()
             .map(|(k, list)| {
-                let one = |(e, value): (usize, &f64)| seed(*value, index(Unknown::Reaction(k, e)), count);
+                let one =
+                    |(e, value): (usize, &f64)| seed(*value, index(Unknown::Reaction(k, e)), count);
                 list.iter().enumerate().map(one).collect()
             })
             .collect();
@@ -261,7 +325,11 @@ impl Search<'_> {
 
     /// The scale of each unknown, relative to which its steps are measured.
     pub fn step_scales(&self, at: &Iterate, step: &[f64]) -> Vec<f64> {
-        let reaction = at.reactions.iter().flatten().fold(self.force, |top, value| top.max(value.abs()));
+        let reaction = at
+            .reactions
+            .iter()
+            .flatten()
+            .fold(self.force, |top, value| top.max(value.abs()));
         let scale = |(unknown, d): (&Unknown, &f64)| match *unknown {
             Unknown::Translation(..) => self.length,
             Unknown::Rotation(..) => 1.0,
@@ -293,10 +361,16 @@ impl Search<'_> {
     fn allowed_residuals(&self, at: &Iterate, matrix: &DMatrix<f64>, rows: &[f64]) -> Vec<f64> {
         let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
         let rounding = |i: usize| -> f64 {
-            let terms = sizes.iter().enumerate().map(|(j, size)| (matrix[(i, j)] * size).abs());
+            let terms = sizes
+                .iter()
+                .enumerate()
+                .map(|(j, size)| (matrix[(i, j)] * size).abs());
             terms.sum::<f64>() * 8.0 * f64::EPSILON
         };
-        rows.iter().enumerate().map(|(i, scale)| (RESIDUAL * scale).max(rounding(i))).collect()
+        rows.iter()
+            .enumerate()
+            .map(|(i, scale)| (RESIDUAL * scale).max(rounding(i)))
+            .collect()
     }
 
     /// The scale of each residual.
@@ -340,14 +414,22 @@ impl Search<'_> {
     }
 
     /// The equilibrium at an iterate.
-    fn report(&self, at: &Iterate, iterations: usize, undetermined: usize) -> Result<Equilibrium, Error> {
+    fn report(
+        &self,
+        at: &Iterate,
+        iterations: usize,
+        undetermined: usize,
+    ) -> Result<Equilibrium, Error> {
         let (_, on) = self.balanced(at, &self.unknowns)?;
         on.beyond.borrow_mut().clear();
         let solution = self.model.report(&on, iterations)?;
         let mut reactions = BTreeMap::new();
         for (constraint, reaction) in self.model.constraints.iter().zip(&solution.reactions) {
             if let Some([force, torque]) = reaction {
-                let reaction = ConstraintReaction { force: (*force).into(), torque: (*torque).into() };
+                let reaction = ConstraintReaction {
+                    force: (*force).into(),
+                    torque: (*torque).into(),
+                };
                 reactions.insert((constraint.keyword, constraint.id), reaction);
             }
         }
@@ -364,29 +446,49 @@ impl Search<'_> {
 /// Whether a step satisfies J s + r = 0 to 1e-6 of the scales of the residuals. Where J is singular because nothing
 /// holds a part, it does not.
 fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -> bool {
-    let left = |i: usize| step.iter().enumerate().map(|(j, d)| matrix[(i, j)] * d).sum::<f64>() + residual[i];
+    let left = |i: usize| {
+        step.iter()
+            .enumerate()
+            .map(|(j, d)| matrix[(i, j)] * d)
+            .sum::<f64>()
+            + residual[i]
+    };
     (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
 fn scaled_size(all: &[f64], scales: &[f64]) -> f64 {
-    let ratio = |(value, scale): (&f64, &f64)| if *value == 0.0 { 0.0 } else { value.abs() / scale };
-    all.iter()
-        .zip(scales)
-        .map(ratio)
-        .fold(0.0, |top, one| if one.is_nan() { f64::INFINITY } else { top.max(one) })
+    let ratio = |(value, scale): (&f64, &f64)| {
+        if *value == 0.0 {
+            0.0
+        } else {
+            value.abs() / scale
+        }
+    };
+    all.iter().zip(scales).map(ratio).fold(0.0, |top, one| {
+        if one.is_nan() {
+            f64::INFINITY
+        } else {
+            top.max(one)
+        }
+    })
 }
 
 /// The index and value of the number with the largest ratio to its scale.
 fn largest(all: &[f64], scales: &[f64]) -> (usize, f64) {
     let ratio = |k: usize| all[k].abs() / scales[k];
-    let worst = (0..all.len()).max_by(|a, b| ratio(*a).total_cmp(&ratio(*b))).unwrap_or(0);
+    let worst = (0..all.len())
+        .max_by(|a, b| ratio(*a).total_cmp(&ratio(*b)))
+        .unwrap_or(0);
     (worst, all.get(worst).copied().unwrap_or(0.0))
 }
 
 /// The size of the model: the largest distance of a marker from its part, or of a part from the first one.
 fn model_length(model: &AdamsModel, at: &Iterate) -> f64 {
-    let arms = model.markers.iter().map(|marker| Vector3::from(marker.position).norm());
+    let arms = model
+        .markers
+        .iter()
+        .map(|marker| Vector3::from(marker.position).norm());
     let first = at.origins.first().copied().unwrap_or_default();
     let parts = at.origins.iter().map(|origin| (origin - first).norm());
     let top = arms.chain(parts).fold(0.0, f64::max);
@@ -396,6 +498,10 @@ fn model_length(model: &AdamsModel, at: &Iterate) -> f64 {
 /// The largest weight of a part.
 fn model_force(model: &AdamsModel) -> f64 {
     let g = Vector3::from(model.gravity).norm();
-    let top = model.parts.iter().map(|part| part.mass.abs() * g).fold(0.0, f64::max);
+    let top = model
+        .parts
+        .iter()
+        .map(|part| part.mass.abs() * g)
+        .fold(0.0, f64::max);
     if top > 0.0 { top } else { 1.0 }
 }

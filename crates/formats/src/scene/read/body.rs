@@ -32,8 +32,15 @@ pub(super) fn read(
     let free = read_dofs(raw, at, check);
     let x0 = check.number(raw.x0.unwrap_or_default(), &at.key("x0"), Dimension::LENGTH);
     let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
-    let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
-    let motion = if free[0] { BodyMotion::Free } else { BodyMotion::Held };
+    let start = raw
+        .start
+        .as_ref()
+        .map(|start| read_start(start, &free, &at.key("start"), check));
+    let motion = if free[0] {
+        BodyMotion::Free
+    } else {
+        BodyMotion::Held
+    };
     Body {
         name: name.to_owned(),
         mass,
@@ -41,7 +48,11 @@ pub(super) fn read(
         inertia,
         cg,
         free,
-        in_space: raw.dof.iter().flatten().any(|word| SPACE.contains(&word.as_str())),
+        in_space: raw
+            .dof
+            .iter()
+            .flatten()
+            .any(|word| SPACE.contains(&word.as_str())),
         track: Vec::new(),
         x0,
         v0,
@@ -54,11 +65,17 @@ pub(super) fn read(
 
 fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Check<'_>) -> f64 {
     match (raw.mass, raw.weight) {
-        (Some(mass), None) => check.positive(mass, &at.key("mass"), Dimension::MASS, "force time^2 / length"),
+        (Some(mass), None) => check.positive(
+            mass,
+            &at.key("mass"),
+            Dimension::MASS,
+            "force time^2 / length",
+        ),
         (None, Some(weight)) => {
             let weight = check.positive(weight, &at.key("weight"), Dimension::FORCE, "");
             if gravity == Some(0.0) {
-                let fault = Fault::new(&at.key("weight"), "needs a gravity above 0").hint("or give `mass`");
+                let fault =
+                    Fault::new(&at.key("weight"), "needs a gravity above 0").hint("or give `mass`");
                 check.faults.add(fault);
             }
             weight / gravity.filter(|g| *g > 0.0).unwrap_or(1.0)
@@ -66,7 +83,11 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
         (found, _) => {
             let found = if found.is_some() { "both" } else { "neither" };
             let hint = "`weight` is a force; `mass` is force time^2 / length";
-            check.faults.add(Fault::new(at, "must have either `mass` or `weight`").got(found).hint(hint));
+            check.faults.add(
+                Fault::new(at, "must have either `mass` or `weight`")
+                    .got(found)
+                    .hint(hint),
+            );
             1.0
         }
     }
@@ -74,12 +95,19 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
 
 fn read_dofs(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
     let mut free = [false; 6];
-    let Some(words) = check.faults.require(&raw.dof, at, "dof") else { return free };
+    let Some(words) = check.faults.require(&raw.dof, at, "dof") else {
+        return free;
+    };
     let place = at.key("dof");
     if words.iter().any(|word| SPACE.contains(&word.as_str())) {
         if *words != SPACE {
-            let fault = Fault::new(&place, "a body in space must have \"X\", \"Y\" and \"Z\", in this order");
-            check.faults.add(fault.hint("a body on a track has x, y, z, roll, yaw, pitch"));
+            let fault = Fault::new(
+                &place,
+                "a body in space must have \"X\", \"Y\" and \"Z\", in this order",
+            );
+            check
+                .faults
+                .add(fault.hint("a body on a track has x, y, z, roll, yaw, pitch"));
         }
         return [true, true, true, false, false, false];
     }
@@ -87,9 +115,9 @@ fn read_dofs(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] 
         let item = place.index(index);
         match DOFS.iter().position(|known| known == word) {
             Some(known) if free[known] => {
-                check
-                    .faults
-                    .add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
+                check.faults.add(
+                    Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")),
+                );
             }
             Some(known) => free[known] = true,
             None => {
@@ -111,10 +139,15 @@ fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Chec
     for (index, value) in given.into_iter().enumerate() {
         let Some(value) = value else { continue };
         let word = DOFS[index + 1];
-        let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
+        let dimension = if index < 2 {
+            Dimension::LENGTH
+        } else {
+            Dimension::NUMBER
+        };
         start[index] = check.number(value, &at.key(word), dimension);
         if !free[index + 1] {
-            let fault = Fault::new(&at.key(word), format!("`{word}` is not free")).hint("list it in `dof`");
+            let fault =
+                Fault::new(&at.key(word), format!("`{word}` is not free")).hint("list it in `dof`");
             check.faults.add(fault);
         }
     }
@@ -131,7 +164,11 @@ pub(super) fn read_motions(
     let root = Place::root();
     let list = root.key("motions");
     let mut first: Vec<Option<usize>> = vec![None; bodies.len()];
-    for (index, motion) in raw.iter().enumerate().filter(|(_, motion)| !spin::is_spin(motion)) {
+    for (index, motion) in raw
+        .iter()
+        .enumerate()
+        .filter(|(_, motion)| !spin::is_spin(motion))
+    {
         let at = list.index(index);
         let body = read_subject(motion, bodies, &at, check);
         let Some(body) = body else {
@@ -139,20 +176,35 @@ pub(super) fn read_motions(
             continue;
         };
         if let Some(earlier) = first[body].replace(index) {
-            let expected = format!("body {} already has a motion in motions[{earlier}]", bodies[body].name);
-            check.faults.add(Fault::new(&at, expected).hint("a body can have one motion along its rail"));
+            let expected = format!(
+                "body {} already has a motion in motions[{earlier}]",
+                bodies[body].name
+            );
+            check
+                .faults
+                .add(Fault::new(&at, expected).hint("a body can have one motion along its rail"));
             continue;
         }
         if bodies[body].in_space {
-            let fault = Fault::new(&at.key("body"), format!("body {} runs on no rail", bodies[body].name));
+            let fault = Fault::new(
+                &at.key("body"),
+                format!("body {} runs on no rail", bodies[body].name),
+            );
             check
                 .faults
-                .add(fault.hint("the motion of a body in space follows from its ropes, stops and weight"));
+                .add(fault.hint(
+                    "the motion of a body in space follows from its ropes, stops and weight",
+                ));
             continue;
         }
         if raw_bodies.0[body].1.pinned.is_some() {
-            let fault = Fault::new(&at.key("body"), format!("body {} is pinned", bodies[body].name));
-            check.faults.add(fault.hint("prescribe the motion of the body that carries it"));
+            let fault = Fault::new(
+                &at.key("body"),
+                format!("body {} is pinned", bodies[body].name),
+            );
+            check
+                .faults
+                .add(fault.hint("prescribe the motion of the body that carries it"));
             continue;
         }
         read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
@@ -168,23 +220,43 @@ pub(super) fn read_motions(
 }
 
 /// The body of a motion along the rail.
-fn read_subject(motion: &RawMotion, bodies: &[Body], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
-    for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
+fn read_subject(
+    motion: &RawMotion,
+    bodies: &[Body],
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    for (key, given) in [
+        ("truck", motion.truck.is_some()),
+        ("wheel", motion.wheel.is_some()),
+    ] {
         if given {
-            let fault =
-                Fault::new(&at.key(key), format!("`{key}` is only available in the motion of a spin"));
-            check.faults.add(fault.at_key().hint("such a motion has \"dof\": \"spin\""));
+            let fault = Fault::new(
+                &at.key(key),
+                format!("`{key}` is only available in the motion of a spin"),
+            );
+            check
+                .faults
+                .add(fault.at_key().hint("such a motion has \"dof\": \"spin\""));
         }
     }
-    let body = check.faults.require(&motion.body, at, "body").and_then(|name| {
-        let known = names(bodies, |body| &body.name);
-        resolve(name, &known, "body", &at.key("body"), check.faults)
-    });
+    let body = check
+        .faults
+        .require(&motion.body, at, "body")
+        .and_then(|name| {
+            let known = names(bodies, |body| &body.name);
+            resolve(name, &known, "body", &at.key("body"), check.faults)
+        });
     if let Some(dof) = check.faults.require(&motion.dof, at, "dof") {
         let place = at.key("dof");
         if DOFS[1..].contains(&dof.as_str()) {
-            let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
-            check.faults.add(fault.hint("motions of x, and of \"spin\" for wheels, are available"));
+            let fault = Fault::new(
+                &place,
+                format!("a motion of {dof} is not available in this version"),
+            );
+            check
+                .faults
+                .add(fault.hint("motions of x, and of \"spin\" for wheels, are available"));
         } else {
             check.faults.one_of(dof, &place, &[("x", ())]);
         }
@@ -202,23 +274,56 @@ enum Kind {
 
 fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Kind> {
     let kind = check.faults.require(&motion.kind, at, "kind")?;
-    let words = [("prescribed", Kind::Prescribed), ("drive", Kind::Drive), ("free", Kind::Free)];
+    let words = [
+        ("prescribed", Kind::Prescribed),
+        ("drive", Kind::Drive),
+        ("free", Kind::Free),
+    ];
     check.faults.one_of(kind, &at.key("kind"), &words)
 }
 
-fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_>, check: &mut Check<'_>) {
-    let Some(kind) = read_kind(motion, at, check) else { return };
+fn read_motion(
+    motion: &RawMotion,
+    raw: &RawBody,
+    body: &mut Body,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let Some(kind) = read_kind(motion, at, check) else {
+        return;
+    };
     for (key, given, holds, owner) in [
-        ("gain", motion.gain.is_some(), kind == Kind::Drive, "\"drive\""),
-        ("max_force", motion.max_force.is_some(), kind == Kind::Drive, "\"drive\""),
-        ("brake", motion.brake.is_some(), kind != Kind::Prescribed, "\"drive\" or \"free\""),
+        (
+            "gain",
+            motion.gain.is_some(),
+            kind == Kind::Drive,
+            "\"drive\"",
+        ),
+        (
+            "max_force",
+            motion.max_force.is_some(),
+            kind == Kind::Drive,
+            "\"drive\"",
+        ),
+        (
+            "brake",
+            motion.brake.is_some(),
+            kind != Kind::Prescribed,
+            "\"drive\" or \"free\"",
+        ),
     ] {
         if given && !holds {
-            let fault = Fault::new(&at.key(key), format!("`{key}` is only available in the motion {owner}"));
+            let fault = Fault::new(
+                &at.key(key),
+                format!("`{key}` is only available in the motion {owner}"),
+            );
             check.faults.add(fault.at_key());
         }
     }
-    let tables = motion_tables(motion, [Dimension::LENGTH, Dimension::SPEED, Dimension::ACCELERATION]);
+    let tables = motion_tables(
+        motion,
+        [Dimension::LENGTH, Dimension::SPEED, Dimension::ACCELERATION],
+    );
     match kind {
         Kind::Prescribed => read_prescribed(&tables, raw, body, at, check),
         Kind::Drive | Kind::Free => read_unprescribed(motion, kind, &tables, body, at, check),
@@ -237,17 +342,31 @@ fn read_unprescribed(
     for (key, what, ..) in tables {
         if kind == Kind::Free || *what != MotionKind::Speed {
             let expected = format!("`{key}` is only available in the motion \"prescribed\"");
-            check.faults.add(Fault::new(&at.key(key), expected).at_key());
+            check
+                .faults
+                .add(Fault::new(&at.key(key), expected).at_key());
         }
     }
     if !body.free[0] {
-        let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
+        let expected = format!(
+            "body {} cannot move freely: \"x\" is not in its `dof`",
+            body.name
+        );
         check.faults.add(Fault::new(at, expected));
     }
     body.brake = motion.brake.map(|time| {
-        check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
+        check.not_negative(
+            time,
+            &at.key("brake"),
+            Dimension::TIME,
+            "time from which the brakes are on",
+        )
     });
-    let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
+    let drive = if kind == Kind::Drive {
+        read_drive(motion, at, check)
+    } else {
+        None
+    };
     body.motion = drive.map_or(BodyMotion::Free, BodyMotion::Driven);
 }
 
@@ -259,7 +378,9 @@ fn read_prescribed(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) {
-    let Some(travel) = read_profile(tables, [body.x0, body.v0], at, check) else { return };
+    let Some(travel) = read_profile(tables, [body.x0, body.v0], at, check) else {
+        return;
+    };
     let what = tables[0].1;
     let begin = travel.at(0.0);
     let clashes = [
@@ -271,7 +392,10 @@ fn read_prescribed(
             let root = Place::root();
             let at = root.key("bodies");
             let at = at.key(&body.name);
-            let expected = format!("must be {}, the value of the motion at time 0", number(table));
+            let expected = format!(
+                "must be {}, the value of the motion at time 0",
+                number(table)
+            );
             check.faults.add(
                 Fault::new(&at.key(key), expected)
                     .got(number(own))

@@ -16,7 +16,10 @@ pub(in crate::scene) struct Files<'i> {
 impl<'i> Files<'i> {
     /// Starts without faults.
     pub fn of(inputs: &'i mut Inputs) -> Self {
-        Files { inputs, wrong: Vec::new() }
+        Files {
+            inputs,
+            wrong: Vec::new(),
+        }
     }
 
     /// Applies `read` to the file named at a place; `None` if the file does not exist or has faults.
@@ -31,7 +34,9 @@ impl<'i> Files<'i> {
             Ok(input) => input,
             Err(why) => {
                 let fault = Fault::new(at, format!("\"{name}\" {why}"));
-                check.faults.add(fault.hint("paths are relative to the scene's folder"));
+                check
+                    .faults
+                    .add(fault.hint("paths are relative to the scene's folder"));
                 return None;
             }
         };

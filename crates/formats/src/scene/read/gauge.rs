@@ -13,8 +13,11 @@ use crate::text::names::check_name;
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-const DIRECTIONS: [(&str, Axis); 3] =
-    [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+const DIRECTIONS: [(&str, Axis); 3] = [
+    ("vertical", Axis::Vertical),
+    ("lateral", Axis::Lateral),
+    ("longitudinal", Axis::Longitudinal),
+];
 
 pub(super) fn read(
     raw: &Entries<RawGauge>,
@@ -32,15 +35,24 @@ pub(super) fn read(
             Some(word) => check.faults.one_of(word, &at.key("direction"), &DIRECTIONS),
             None => Some(Axis::Vertical),
         };
-        let (Some(rail), Some(x), Some(axis)) = (rail, x, axis) else { continue };
+        let (Some(rail), Some(x), Some(axis)) = (rail, x, axis) else {
+            continue;
+        };
         let place = at.key("x");
         let x = check.number(x, &place, Dimension::LENGTH);
         let [first, last] = rails[rail].range;
         if x < first || x > last {
             let fault = Fault::new(&place, format!("must lie on rail {}", rails[rail].name)).got(x);
-            check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
+            check
+                .faults
+                .add(fault.hint(format!("the rail extends from {first} to {last}")));
         }
-        gauges.push(Gauge { name: name.clone(), rail, x, axis });
+        gauges.push(Gauge {
+            name: name.clone(),
+            rail,
+            x,
+            axis,
+        });
     }
     gauges
 }

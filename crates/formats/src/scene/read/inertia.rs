@@ -15,11 +15,20 @@ use crate::text::place::Place;
 /// The mass matrix of the bodies is assembled as in a run, on rigid structures. The inertia of a structure on a body
 /// is not known yet: its carrier, and the bodies to which this is pinned, are taken as having inertia.
 pub(super) fn check(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
-    let Ok(mut input) = simulation_input(scene) else { return };
+    let Ok(mut input) = simulation_input(scene) else {
+        return;
+    };
     if faults.concern(&["wheels"]) {
-        input.scene.wheels.fill(Wheel::new(1.0, NormalLaw::linear(1.0, 0.0, Damper::Rail)));
+        input
+            .scene
+            .wheels
+            .fill(Wheel::new(1.0, NormalLaw::linear(1.0, 0.0, Damper::Rail)));
     }
-    for mount in scene.structures.iter().filter_map(|structure| structure.carrier) {
+    for mount in scene
+        .structures
+        .iter()
+        .filter_map(|structure| structure.carrier)
+    {
         let mut carrier = Some(mount.body);
         // pins form no cycle: at most as many steps as bodies
         for _ in 0..scene.bodies.len() {
@@ -28,13 +37,23 @@ pub(super) fn check(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mu
             carrier = scene.bodies[body].pinned.map(|(to, _)| to);
         }
     }
-    let rigid: Vec<Foundation> = scene.structures.iter().map(|_| Foundation::rigid()).collect();
-    let Err(sim::Error::NoInertia { body, dof }) = Method::Sdirk4.suits(&input.scene, &rigid) else { return };
+    let rigid: Vec<Foundation> = scene
+        .structures
+        .iter()
+        .map(|_| Foundation::rigid())
+        .collect();
+    let Err(sim::Error::NoInertia { body, dof }) = Method::Sdirk4.suits(&input.scene, &rigid)
+    else {
+        return;
+    };
     let (name, given) = &raw.bodies.0[body];
     let (bodies, dof) = (root.key("bodies"), dof as usize);
     let at = bodies.key(name);
     let inertia = at.key("inertia");
-    let why = format!("{} is free, and no mass has inertia in this motion", DOFS[dof]);
+    let why = format!(
+        "{} is free, and no mass has inertia in this motion",
+        DOFS[dof]
+    );
     let fault = match (given.inertia, dof.checked_sub(3)) {
         (Some(values), Some(k)) => {
             Fault::new(&inertia.index(k), format!("must be positive: {why}")).got(number(values[k]))

@@ -67,7 +67,9 @@ pub(super) fn read(
         };
         let kind = check.faults.require(&raw.kind, &at, "kind");
         let kind = kind.and_then(|kind| check.faults.one_of(kind, &at.key("kind"), &KINDS));
-        let (Some(rail), Some(axis), Some(kind)) = (rail, axis, kind) else { continue };
+        let (Some(rail), Some(axis), Some(kind)) = (rail, axis, kind) else {
+            continue;
+        };
         if refuse_foreign_keys(raw, kind, &at, check) {
             continue;
         }
@@ -75,7 +77,9 @@ pub(super) fn read(
         let shape = match kind {
             Kind::Profile => profile(raw, &at, files, check).map(|rows| table(axis, &rows)),
             Kind::Sinusoid => Some(sinusoid(raw, axis, &rails[rail], &at, check)),
-            Kind::Step | Kind::Joint | Kind::Dip => local(raw, kind, axis, &rails[rail], &at, check),
+            Kind::Step | Kind::Joint | Kind::Dip => {
+                local(raw, kind, axis, &rails[rail], &at, check)
+            }
         };
         if faults < check.faults.0.len() {
             continue;
@@ -90,7 +94,12 @@ pub(super) fn read(
 }
 
 /// Rejects keys that belong to other kinds and returns whether there are any.
-fn refuse_foreign_keys(raw: &RawIrregularity, kind: Kind, at: &Place<'_>, check: &mut Check<'_>) -> bool {
+fn refuse_foreign_keys(
+    raw: &RawIrregularity,
+    kind: Kind,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> bool {
     let given = [
         ("x", raw.x.is_some()),
         ("height", raw.height.is_some()),
@@ -104,19 +113,34 @@ fn refuse_foreign_keys(raw: &RawIrregularity, kind: Kind, at: &Place<'_>, check:
         ("columns", raw.columns.is_some()),
         ("scale", raw.scale.is_some()),
     ];
-    let word = KINDS.iter().find(|(_, other)| *other == kind).map_or("", |(word, _)| *word);
-    let foreign = given.into_iter().filter(|(key, given)| *given && !kind.keys().contains(key));
+    let word = KINDS
+        .iter()
+        .find(|(_, other)| *other == kind)
+        .map_or("", |(word, _)| *word);
+    let foreign = given
+        .into_iter()
+        .filter(|(key, given)| *given && !kind.keys().contains(key));
     let mut some = false;
     for (key, _) in foreign {
-        let fault = Fault::new(&at.key(key), format!("`{key}` is not a key of the kind \"{word}\"")).at_key();
-        check.faults.add(fault.hint(format!("its keys are {}", kind.keys().join(", "))));
+        let fault = Fault::new(
+            &at.key(key),
+            format!("`{key}` is not a key of the kind \"{word}\""),
+        )
+        .at_key();
+        check
+            .faults
+            .add(fault.hint(format!("its keys are {}", kind.keys().join(", "))));
         some = true;
     }
     some
 }
 
 fn table(axis: Axis, rows: &[[f64; 2]]) -> Result<Irregularity, sim::Error> {
-    if axis == Axis::Lateral { Irregularity::new(&[], rows) } else { Irregularity::new(rows, &[]) }
+    if axis == Axis::Lateral {
+        Irregularity::new(&[], rows)
+    } else {
+        Irregularity::new(rows, &[])
+    }
 }
 
 /// Reads a step, a joint or a dip.
@@ -128,7 +152,11 @@ fn local(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<Result<Irregularity, sim::Error>> {
-    let (key, size) = if kind == Kind::Step { ("height", &raw.height) } else { ("depth", &raw.depth) };
+    let (key, size) = if kind == Kind::Step {
+        ("height", &raw.height)
+    } else {
+        ("depth", &raw.depth)
+    };
     let x = check.faults.require(&raw.x, at, "x").copied();
     let size = check.faults.require(size, at, key).copied();
     let half = match kind {
@@ -154,7 +182,12 @@ fn local(
             let (from, to) = (x - half, x + half);
             let low = -0.5 * size;
             let level = table(axis, &[[from, 0.0], [from, low], [to, low], [to, 0.0]]);
-            let wave = Wave { amplitude: -low, length: 2.0 * half, phase: FRAC_PI_2, range: [from, to] };
+            let wave = Wave {
+                amplitude: -low,
+                length: 2.0 * half,
+                phase: FRAC_PI_2,
+                range: [from, to],
+            };
             level.and_then(|level| Ok(level.plus(&Irregularity::wave(axis, wave)?)))
         }
         _ => table(axis, &[[x, 0.0], [x, size]]),
@@ -168,25 +201,53 @@ fn sinusoid(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Result<Irregularity, sim::Error> {
-    let amplitude = check.faults.require(&raw.amplitude, at, "amplitude").copied().unwrap_or_default();
+    let amplitude = check
+        .faults
+        .require(&raw.amplitude, at, "amplitude")
+        .copied()
+        .unwrap_or_default();
     let amplitude = check.number(amplitude, &at.key("amplitude"), Dimension::LENGTH);
-    let length =
-        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "distance from crest to crest");
-    let phase = check.number(raw.phase.unwrap_or_default(), &at.key("phase"), Dimension::NUMBER);
+    let length = check.required_positive(
+        raw.length,
+        at,
+        "length",
+        Dimension::LENGTH,
+        "distance from crest to crest",
+    );
+    let phase = check.number(
+        raw.phase.unwrap_or_default(),
+        &at.key("phase"),
+        Dimension::NUMBER,
+    );
     let place = at.key("range");
     let range = match raw.range {
         None => [f64::NEG_INFINITY, f64::INFINITY],
         Some(given) => {
             let range = [0, 1].map(|k| check.number(given[k], &place.index(k), Dimension::LENGTH));
             if given[1] <= given[0] {
-                let fault = Fault::new(&place.index(1), format!("must be above {}", number(given[0])));
-                check.faults.add(fault.got(number(given[1])).hint("first and last coordinate"));
+                let fault = Fault::new(
+                    &place.index(1),
+                    format!("must be above {}", number(given[0])),
+                );
+                check.faults.add(
+                    fault
+                        .got(number(given[1]))
+                        .hint("first and last coordinate"),
+                );
             }
             on_rail(range, rail, &place, check);
             range
         }
     };
-    Irregularity::wave(axis, Wave { amplitude, length, phase, range })
+    Irregularity::wave(
+        axis,
+        Wave {
+            amplitude,
+            length,
+            phase,
+            range,
+        },
+    )
 }
 
 fn on_rail(range: [f64; 2], rail: &RailOutline, at: &Place<'_>, check: &mut Check<'_>) {
@@ -198,6 +259,8 @@ fn on_rail(range: [f64; 2], rail: &RailOutline, at: &Place<'_>, check: &mut Chec
             format!("from {} to {}", number(range[0]), number(range[1]))
         };
         let fault = Fault::new(at, format!("must lie on rail {}", rail.name)).got(found);
-        check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
+        check
+            .faults
+            .add(fault.hint(format!("the rail extends from {first} to {last}")));
     }
 }

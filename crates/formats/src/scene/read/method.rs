@@ -15,13 +15,23 @@ use crate::units::Dimension;
 /// steps.
 pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Stepping {
     let place = root.key("stepper");
-    let word = raw.stepper.as_ref().and_then(|word| check.faults.one_of(word, &place, &STEPPERS));
+    let word = raw
+        .stepper
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &place, &STEPPERS));
     let method = word.unwrap_or_default();
     let length = root.key("step");
-    let step = check.optional_positive(raw.step, &length, Dimension::TIME, "leave it out for adaptive steps");
+    let step = check.optional_positive(
+        raw.step,
+        &length,
+        Dimension::TIME,
+        "leave it out for adaptive steps",
+    );
     if matches!(method, Method::Gauss2 | Method::Gauss3) && step.is_none() {
         let fault = Fault::new(root, "missing key `step`");
-        check.faults.add(fault.hint("\"gauss2\" and \"gauss3\" integrate with steps of one size"));
+        check
+            .faults
+            .add(fault.hint("\"gauss2\" and \"gauss3\" integrate with steps of one size"));
     }
     Stepping { method, step }
 }
@@ -39,7 +49,9 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     {
         return;
     }
-    let Ok(cast) = simulation_input(scene) else { return };
+    let Ok(cast) = simulation_input(scene) else {
+        return;
+    };
     let rigid: Vec<sim::Foundation> = scene
         .structures
         .iter()
@@ -50,18 +62,27 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
         .collect();
     let wanted = match method.suits(&cast.scene, &rigid) {
         Err(sim::Error::Method { wanted, .. }) => Some(wanted),
-        _ => scene.structures.iter().find_map(|structure| match structure.foundation {
-            Foundation::Parts { handover: Handover::PerPart { .. }, .. } => {
-                Some("one contact force for each wheel")
-            }
-            Foundation::Parts { .. } if has_mass(structure) => Some("natural modes, or parts without mass"),
-            Foundation::Ties { has_mass: true, c, .. } if c > 0.0 => Some("ties without dampers"),
-            _ => None,
-        }),
+        _ => scene
+            .structures
+            .iter()
+            .find_map(|structure| match structure.foundation {
+                Foundation::Parts {
+                    handover: Handover::PerPart { .. },
+                    ..
+                } => Some("one contact force for each wheel"),
+                Foundation::Parts { .. } if has_mass(structure) => {
+                    Some("natural modes, or parts without mass")
+                }
+                Foundation::Ties {
+                    has_mass: true, c, ..
+                } if c > 0.0 => Some("ties without dampers"),
+                _ => None,
+            }),
     };
     if let Some(wanted) = wanted {
         let word = stepper_word(method);
-        let fault = Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
+        let fault =
+            Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
         faults.add(
             fault.hint("\"sdirk4\" and \"esdirk5\" integrate every scene, \"auto\" chooses a method that suits the scene"),
         );

@@ -16,18 +16,31 @@ use crate::units::Dimension;
 fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>) -> Fatigue {
     let mut fatigue = Fatigue::default();
     let Some(raw) = raw else { return fatigue };
-    for (given, key, value) in
-        [(raw.loads, "gamma_Ff", &mut fatigue.loads), (raw.material, "gamma_Mf", &mut fatigue.material)]
-    {
+    for (given, key, value) in [
+        (raw.loads, "gamma_Ff", &mut fatigue.loads),
+        (raw.material, "gamma_Mf", &mut fatigue.material),
+    ] {
         if let Some(given) = given {
-            *value = check.positive(given, &at.key(key), Dimension::NUMBER, "a partial factor, such as 1.15");
+            *value = check.positive(
+                given,
+                &at.key(key),
+                Dimension::NUMBER,
+                "a partial factor, such as 1.15",
+            );
         }
     }
-    let words = [("once", Repetition::Once), ("repeated", Repetition::Repeated)];
-    let history = raw.history.as_ref().and_then(|word| check.faults.one_of(word, &at.key("history"), &words));
+    let words = [
+        ("once", Repetition::Once),
+        ("repeated", Repetition::Repeated),
+    ];
+    let history = raw
+        .history
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("history"), &words));
     fatigue.history = history.unwrap_or(Repetition::Once);
     let hint = "number of runs in the design life";
-    fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
+    fatigue.crossings =
+        check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
     fatigue
 }
 
@@ -38,7 +51,9 @@ pub(super) fn read(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Output {
-    let Some(raw) = &raw.output else { return Output::default() };
+    let Some(raw) = &raw.output else {
+        return Output::default();
+    };
     let at = root.key("output");
     let known: Vec<[Vec<String>; 3]> = structures
         .iter()
@@ -54,8 +69,12 @@ pub(super) fn read(
         let known: Vec<&String> = known.iter().flat_map(|names| &names[kind]).collect();
         read_columns(raw, &at.key(key), &known, form, check)
     };
-    let reactions =
-        pick(&raw.reactions, "reactions", 0, "a structure, or `<structure>.<support>` or `.<dof>` of it");
+    let reactions = pick(
+        &raw.reactions,
+        "reactions",
+        0,
+        "a structure, or `<structure>.<support>` or `.<dof>` of it",
+    );
     let sections = pick(
         &raw.sections,
         "sections",
@@ -70,7 +89,14 @@ pub(super) fn read(
     );
     let fatigue = read_fatigue(&raw.fatigue, &at.key("fatigue"), check);
     let spans = read_spans(raw, rails, &at.key("spans"), check);
-    Output { reactions, sections, stresses, fatigue, dead_load: raw.dead_load, spans }
+    Output {
+        reactions,
+        sections,
+        stresses,
+        fatigue,
+        dead_load: raw.dead_load,
+        spans,
+    }
 }
 
 /// Reads a selection of columns. Each name must select some of the columns `known`; `form` says what a name must be.
@@ -93,7 +119,12 @@ fn read_columns(
         }
         let mut fault = Fault::new(&place.index(index), format!("must be {form}"));
         let mut words: Vec<&str> = known.iter().map(|name| name.as_str()).collect();
-        words.extend(known.iter().filter_map(|known| known.rsplit_once('.')).map(|(before, _)| before));
+        words.extend(
+            known
+                .iter()
+                .filter_map(|known| known.rsplit_once('.'))
+                .map(|(before, _)| before),
+        );
         if let Some(near) = nearest(name, &words) {
             fault = fault.hint(format!("did you mean \"{near}\"?"));
         } else if words.is_empty() {
@@ -113,10 +144,15 @@ fn read_spans(
     let mut spans = Vec::new();
     for (name, given) in &raw.spans.0 {
         let at = place.key(name);
-        let Some(rail) = rail_named(name, rails, &at, check.faults) else { continue };
+        let Some(rail) = rail_named(name, rails, &at, check.faults) else {
+            continue;
+        };
         if given.len() < 2 {
-            let fault =
-                Fault::new(&at, "must have at least two coordinates, the ends of a span").got(given.len());
+            let fault = Fault::new(
+                &at,
+                "must have at least two coordinates, the ends of a span",
+            )
+            .got(given.len());
             check.faults.add(fault);
         }
         if !check.faults.increasing(given, &at) {
@@ -130,7 +166,9 @@ fn read_spans(
         let [first, last] = rails[rail].range;
         if let Some(k) = ends.iter().position(|x| *x < first || *x > last) {
             let fault = Fault::new(&at.index(k), format!("must lie on rail {name}")).got(given[k]);
-            check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
+            check
+                .faults
+                .add(fault.hint(format!("the rail extends from {first} to {last}")));
         }
         spans.push((rail, ends));
     }

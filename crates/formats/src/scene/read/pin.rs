@@ -22,12 +22,21 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
             resolve(to, &known, "body", &at.key("to"), check.faults)
         });
         let position = check.vector(pin.at.unwrap_or_default(), &at.key("at"), Dimension::LENGTH);
-        for (key, given) in
-            [("track", raw.track.is_some()), ("x0", raw.x0.is_some()), ("v0", raw.v0.is_some())]
-        {
+        for (key, given) in [
+            ("track", raw.track.is_some()),
+            ("x0", raw.x0.is_some()),
+            ("v0", raw.v0.is_some()),
+        ] {
             if given {
-                let fault = Fault::new(&own.key(key), format!("`{key}` cannot be combined with `pinned`"));
-                check.faults.add(fault.at_key().hint("the position of a pinned body follows from its pin"));
+                let fault = Fault::new(
+                    &own.key(key),
+                    format!("`{key}` cannot be combined with `pinned`"),
+                );
+                check.faults.add(
+                    fault
+                        .at_key()
+                        .hint("the position of a pinned body follows from its pin"),
+                );
             }
         }
         let free = bodies[b].free;
@@ -36,7 +45,9 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
                 &own.key("dof"),
                 format!("{word} of a pinned body follows from its pin and cannot be free"),
             );
-            check.faults.add(fault.hint("\"roll\", \"yaw\" and \"pitch\" can be free"));
+            check
+                .faults
+                .add(fault.hint("\"roll\", \"yaw\" and \"pitch\" can be free"));
             bodies[b].free[i] = false;
         }
         bodies[b].motion = BodyMotion::Held;
@@ -44,7 +55,9 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
         bodies[b].pinned = Some((to, position));
         if root_of(bodies, b).is_none() {
             let fault = Fault::new(&at.key("to"), "pins must not form a closed loop");
-            check.faults.add(fault.got(format!("\"{}\"", bodies[to].name)));
+            check
+                .faults
+                .add(fault.got(format!("\"{}\"", bodies[to].name)));
             bodies[b].pinned = None;
         }
     }

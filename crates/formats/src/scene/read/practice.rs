@@ -45,8 +45,11 @@ impl Classes {
                 .s_class
                 .as_ref()
                 .and_then(|word| check.faults.one_of(word, &at.key("s_class"), &histories)?),
-            building: building
-                .and_then(|word| check.faults.one_of(word, &at.key("building_class"), &BUILDINGS)),
+            building: building.and_then(|word| {
+                check
+                    .faults
+                    .one_of(word, &at.key("building_class"), &BUILDINGS)
+            }),
         }
     }
 }
@@ -58,7 +61,9 @@ fn efficiency(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
         let place = at.key("bumper_efficiency");
         let fault = Fault::new(&place, format!("must be between {LEAST_EFFICIENCY} and 1"));
         let hint = "mean over largest force: 0.5 for a spring, about 0.8 for a hydraulic bumper";
-        check.faults.add(fault.got(number(efficiency)).of_value().hint(hint));
+        check
+            .faults
+            .add(fault.got(number(efficiency)).of_value().hint(hint));
     }
     efficiency
 }
@@ -70,12 +75,19 @@ pub(super) fn lateral_section(
     check: &mut Check<'_>,
 ) -> Option<LateralSection> {
     let word = raw.as_ref()?.lateral_section.as_ref()?;
-    check.faults.one_of(word, &root.key("practice").key("lateral_section"), &LATERAL_SECTIONS)
+    check.faults.one_of(
+        word,
+        &root.key("practice").key("lateral_section"),
+        &LATERAL_SECTIONS,
+    )
 }
 
 /// Whether the member requests stresses and says nothing else. They need no crane on two rails, which codes need.
 fn is_for_stresses(raw: &RawPractice) -> bool {
-    let alone = RawPractice { lateral_section: raw.lateral_section.clone(), ..RawPractice::default() };
+    let alone = RawPractice {
+        lateral_section: raw.lateral_section.clone(),
+        ..RawPractice::default()
+    };
     raw.lateral_section.is_some() && *raw == alone
 }
 
@@ -90,29 +102,68 @@ pub(super) fn read(
     let raw = raw.as_ref()?;
     let at = root.key("practice");
     let mut unheeded = Faults::default();
-    let faults = if is_for_stresses(raw) { &mut unheeded } else { &mut *check.faults };
-    let check = &mut Check { faults, scale: check.scale };
+    let faults = if is_for_stresses(raw) {
+        &mut unheeded
+    } else {
+        &mut *check.faults
+    };
+    let check = &mut Check {
+        faults,
+        scale: check.scale,
+    };
     let classes = Classes::read(raw, &at, check);
     let bumper_efficiency = efficiency(raw, &at, check);
-    let kind = raw.kind.as_ref().and_then(|word| check.faults.one_of(word, &at.key("kind"), &KINDS));
-    let hoisting =
-        raw.hoisting.as_ref().and_then(|word| check.faults.one_of(word, &at.key("hoisting"), &HOISTING));
-    let drives = raw.drives.as_ref().and_then(|word| check.faults.one_of(word, &at.key("drives"), &DRIVES));
-    let release =
-        raw.release.as_ref().and_then(|word| check.faults.one_of(word, &at.key("release"), &RELEASE));
-    let guide = raw.guide.as_ref().and_then(|word| check.faults.one_of(word, &at.key("guide"), &GUIDE));
+    let kind = raw
+        .kind
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("kind"), &KINDS));
+    let hoisting = raw
+        .hoisting
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("hoisting"), &HOISTING));
+    let drives = raw
+        .drives
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("drives"), &DRIVES));
+    let release = raw
+        .release
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("release"), &RELEASE));
+    let guide = raw
+        .guide
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("guide"), &GUIDE));
     let mut size = |value: Option<f64>, key: &str, dimension: Dimension, hint: &str| {
         check.optional_positive(value, &at.key(key), dimension, hint)
     };
-    let approach =
-        size(raw.approach, "approach", Dimension::LENGTH, "distance from the hook to the nearer rail");
-    let rail_head = size(raw.rail_head, "rail_head", Dimension::LENGTH, "width of the rail's head");
+    let approach = size(
+        raw.approach,
+        "approach",
+        Dimension::LENGTH,
+        "distance from the hook to the nearer rail",
+    );
+    let rail_head = size(
+        raw.rail_head,
+        "rail_head",
+        Dimension::LENGTH,
+        "width of the rail's head",
+    );
     let speeds = [
         size(raw.bridge_speed, "bridge_speed", Dimension::SPEED, "rated"),
-        size(raw.trolley_speed, "trolley_speed", Dimension::SPEED, "rated"),
+        size(
+            raw.trolley_speed,
+            "trolley_speed",
+            Dimension::SPEED,
+            "rated",
+        ),
         size(raw.hoist_speed, "hoist_speed", Dimension::SPEED, "rated"),
     ];
-    let bumper_stroke = size(raw.bumper_stroke, "bumper_stroke", Dimension::LENGTH, "stroke of the bumpers");
+    let bumper_stroke = size(
+        raw.bumper_stroke,
+        "bumper_stroke",
+        Dimension::LENGTH,
+        "stroke of the bumpers",
+    );
     let (crane, place) = match &raw.crane {
         Some(name) => {
             let known = names(&scene.bodies, |body| &body.name);
@@ -161,7 +212,11 @@ fn hung_from(scene: &Scene, crane: usize) -> (Option<usize>, Vec<usize>) {
     let mut loads = Vec::new();
     for rope in &scene.ropes {
         let [from, to] = rope.bodies;
-        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
+        let hung = if holds(from) {
+            to
+        } else {
+            from.filter(|_| holds(to))
+        };
         loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
     }
     (trolley, loads)
@@ -175,38 +230,60 @@ fn check_approach(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) {
-    let span =
-        (mean_lateral_position(scene, crane, rails[0]) - mean_lateral_position(scene, crane, rails[1])).abs();
+    let span = (mean_lateral_position(scene, crane, rails[0])
+        - mean_lateral_position(scene, crane, rails[1]))
+    .abs();
     if approach > span {
         let at = root.key("practice");
         let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
-        check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
+        check.faults.add(
+            fault
+                .got(approach)
+                .hint(format!("its rails are {span} apart")),
+        );
     }
 }
 
 /// The only body that carries structures or, if there is none, the only body on rails.
 fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
-    let mut found: Vec<usize> =
-        scene.structures.iter().filter_map(|structure| Some(structure.carrier?.body)).collect();
+    let mut found: Vec<usize> = scene
+        .structures
+        .iter()
+        .filter_map(|structure| Some(structure.carrier?.body))
+        .collect();
     if found.is_empty() {
-        found = scene.trucks.iter().map(|truck| root_body(scene, truck.body).0).collect();
+        found = scene
+            .trucks
+            .iter()
+            .map(|truck| root_body(scene, truck.body).0)
+            .collect();
     }
     found.sort_unstable();
     found.dedup();
     match found[..] {
         [crane] => Some(crane),
         _ => {
-            let names: Vec<String> =
-                found.iter().map(|body| format!("\"{}\"", scene.bodies[*body].name)).collect();
+            let names: Vec<String> = found
+                .iter()
+                .map(|body| format!("\"{}\"", scene.bodies[*body].name))
+                .collect();
             let fault = Fault::new(at, "missing key `crane`");
-            check.faults.add(fault.hint(format!("name the body that is the crane: {}", names.join(", "))));
+            check.faults.add(fault.hint(format!(
+                "name the body that is the crane: {}",
+                names.join(", ")
+            )));
             None
         }
     }
 }
 
 /// The two rails of a crane, in the order of the scene.
-fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) -> Option<[usize; 2]> {
+fn rails_of(
+    scene: &Scene,
+    crane: usize,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<[usize; 2]> {
     let mut rails: Vec<usize> = scene
         .trucks
         .iter()
@@ -217,14 +294,18 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
     rails.dedup();
     match rails[..] {
         [one, other]
-            if mean_lateral_position(scene, crane, one) != mean_lateral_position(scene, crane, other) =>
+            if mean_lateral_position(scene, crane, one)
+                != mean_lateral_position(scene, crane, other) =>
         {
             Some([one, other])
         }
         _ => {
             let found = match rails.len() {
                 2 => {
-                    format!("trucks on both at z = {}", number(mean_lateral_position(scene, crane, rails[0])))
+                    format!(
+                        "trucks on both at z = {}",
+                        number(mean_lateral_position(scene, crane, rails[0]))
+                    )
                 }
                 count => count.to_string(),
             };

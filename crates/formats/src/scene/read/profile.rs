@@ -17,11 +17,16 @@ pub(super) fn profile(
     files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Option<Vec<[f64; 2]>> {
-    let scale = check.number(raw.scale.unwrap_or(1.0), &at.key("scale"), Dimension::NUMBER);
+    let scale = check.number(
+        raw.scale.unwrap_or(1.0),
+        &at.key("scale"),
+        Dimension::NUMBER,
+    );
     let (rows, place) = match (&raw.rows, &raw.file) {
         (Some(rows), None) => {
             if let Some(columns) = &raw.columns {
-                let fault = Fault::new(&at.key("columns"), "needs a `file`").got(columns.join(", "));
+                let fault =
+                    Fault::new(&at.key("columns"), "needs a `file`").got(columns.join(", "));
                 check.faults.add(fault.at_key());
             }
             (check_rows(rows, &at.key("rows"), check), at.key("rows"))
@@ -30,7 +35,9 @@ pub(super) fn profile(
         (rows, _) => {
             let found = if rows.is_some() { "both" } else { "neither" };
             let fault = Fault::new(at, "must have either `rows` or `file`").got(found);
-            check.faults.add(fault.hint("rows [x, height], or a file with such columns"));
+            check
+                .faults
+                .add(fault.hint("rows [x, height], or a file with such columns"));
             return None;
         }
     };
@@ -39,8 +46,15 @@ pub(super) fn profile(
     let rows: Vec<[f64; 2]> = rows.into_iter().map(scaled).collect();
     check.items(rows.len(), &ROWS, &place);
     let [_, largest] = MAGNITUDES;
-    if rows.iter().flatten().any(|number| number.is_nan() || number.abs() > largest) {
-        let expected = format!("must have numbers of at most {} after `scale`", number(largest));
+    if rows
+        .iter()
+        .flatten()
+        .any(|number| number.is_nan() || number.abs() > largest)
+    {
+        let expected = format!(
+            "must have numbers of at most {} after `scale`",
+            number(largest)
+        );
         check.faults.add(Fault::new(&place, expected));
     }
     Some(rows)
@@ -48,11 +62,15 @@ pub(super) fn profile(
 
 fn check_rows(rows: &[[f64; 2]], at: &Place<'_>, check: &mut Check<'_>) -> Vec<[f64; 2]> {
     if rows.is_empty() {
-        check.faults.add(Fault::new(at, "must have at least one row [x, value]"));
+        check
+            .faults
+            .add(Fault::new(at, "must have at least one row [x, value]"));
     }
     for index in 0..rows.len() {
         if let Some(why) = disorder(&rows[..=index]) {
-            check.faults.add(Fault::new(&at.index(index), why).got(number(rows[index][0])));
+            check
+                .faults
+                .add(Fault::new(&at.index(index), why).got(number(rows[index][0])));
         }
     }
     rows.to_vec()
@@ -68,7 +86,9 @@ fn read_file(
     let rows = files.read(file, &at.key("file"), check, |input, check| {
         let source = input.source().map_err(|error| vec![*error])?;
         let columns = CsvColumns::of(&source).map_err(|error| vec![*error])?;
-        select_columns(raw, &columns, at, check).map(|picked| columns.rows(picked)).transpose()
+        select_columns(raw, &columns, at, check)
+            .map(|picked| columns.rows(picked))
+            .transpose()
     });
     rows.flatten()
 }
@@ -80,7 +100,9 @@ fn select_columns(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<[usize; 2]> {
-    let Some(wanted) = &raw.columns else { return Some([0, 1]) };
+    let Some(wanted) = &raw.columns else {
+        return Some([0, 1]);
+    };
     let known: Vec<&str> = columns.names().iter().map(String::as_str).collect();
     let mut find = |k: usize| {
         let found = known.iter().position(|name| *name == wanted[k]);
@@ -91,9 +113,14 @@ fn select_columns(
             } else {
                 format!("known: {}", known.join(", "))
             };
-            let fault = Fault::new(&at.key("columns").index(k), "must be the name of a column of the file");
+            let fault = Fault::new(
+                &at.key("columns").index(k),
+                "must be the name of a column of the file",
+            );
             let hint = format!("{}{list}", near.unwrap_or_default());
-            check.faults.add(fault.got(format!("\"{}\"", wanted[k])).hint(hint));
+            check
+                .faults
+                .add(fault.got(format!("\"{}\"", wanted[k])).hint(hint));
         }
         found
     };

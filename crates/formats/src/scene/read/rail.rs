@@ -29,8 +29,11 @@ pub(super) fn rail_among(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<usize> {
-    let words: Vec<(&str, usize)> =
-        rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
+    let words: Vec<(&str, usize)> = rails
+        .iter()
+        .enumerate()
+        .map(|(index, rail)| (rail.name.as_str(), index))
+        .collect();
     match (given, rails.len()) {
         (Some(rail), _) => check.faults.one_of(rail, &at.key("rail"), &words),
         (None, 1) => Some(0),

@@ -11,20 +11,28 @@ use crate::text::place::Place;
 use crate::units::Dimension;
 
 /// Reads the ropes.
-pub(super) fn read_all(raw: &[RawRope], bodies: &[Body], end: f64, check: &mut Check<'_>) -> Vec<Rope> {
+pub(super) fn read_all(
+    raw: &[RawRope],
+    bodies: &[Body],
+    end: f64,
+    check: &mut Check<'_>,
+) -> Vec<Rope> {
     let root = Place::root();
     let list = root.key("ropes");
     let mut ropes: Vec<Rope> = Vec::new();
     for (index, raw) in raw.iter().enumerate() {
         let at = list.index(index);
-        let Some(rope) = read(raw, index + 1, bodies, end, &at, check) else { continue };
+        let Some(rope) = read(raw, index + 1, bodies, end, &at, check) else {
+            continue;
+        };
         if ropes.iter().any(|other| other.name == rope.name)
             || bodies.iter().any(|body| body.name == rope.name)
         {
             let expected = format!("the name \"{}\" is already used", rope.name);
-            check
-                .faults
-                .add(Fault::new(&at, expected).hint("names of ropes and bodies are also names of columns"));
+            check.faults.add(
+                Fault::new(&at, expected)
+                    .hint("names of ropes and bodies are also names of columns"),
+            );
         }
         ropes.push(rope);
     }
@@ -45,26 +53,61 @@ fn read(
     let from = from.and_then(|end| read_end(end, bodies, &at.key("from"), check));
     let to = check.faults.require(&raw.to, at, "to");
     let to = to.and_then(|end| read_end(end, bodies, &at.key("to"), check));
-    let stiffness =
-        check.required_positive(raw.stiffness, at, "EA", Dimension::FORCE, "a force: modulus times area");
-    let length =
-        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "unstretched length at time 0");
-    let damping = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "");
+    let stiffness = check.required_positive(
+        raw.stiffness,
+        at,
+        "EA",
+        Dimension::FORCE,
+        "a force: modulus times area",
+    );
+    let length = check.required_positive(
+        raw.length,
+        at,
+        "length",
+        Dimension::LENGTH,
+        "unstretched length at time 0",
+    );
+    let damping = check.not_negative(
+        raw.c.unwrap_or_default(),
+        &at.key("c"),
+        Dimension::DAMPING,
+        "",
+    );
     let place = at.key("speed");
     let still = vec![[0.0, 0.0]];
     let table = raw.speed.as_ref().unwrap_or(&still);
     let speed = read_schedule(table, &place, Dimension::SPEED, check)?;
-    let turns = speed.turns().chain(speed.breaks()).chain([end]).filter(|t| (0.0..=end).contains(t));
-    if turns.map(|t| length - speed.integral(t)).any(|left| left <= 0.0) && length > 0.0 {
+    let turns = speed
+        .turns()
+        .chain(speed.breaks())
+        .chain([end])
+        .filter(|t| (0.0..=end).contains(t));
+    if turns
+        .map(|t| length - speed.integral(t))
+        .any(|left| left <= 0.0)
+        && length > 0.0
+    {
         let fault = Fault::new(&place, "hoists more rope than its length before the end");
-        check.faults.add(fault.hint("positive speeds shorten the rope"));
+        check
+            .faults
+            .add(fault.hint("positive speeds shorten the rope"));
     }
     let (from, to) = (from?, to?);
     if from.0 == to.0 {
         let fault = Fault::new(at, "must join two bodies, or a body and a point in space");
-        check.faults.add(fault.hint("an end without `body` is a point in space"));
+        check
+            .faults
+            .add(fault.hint("an end without `body` is a point in space"));
     }
-    Some(Rope { name, bodies: [from.0, to.0], at: [from.1, to.1], stiffness, damping, length, speed })
+    Some(Rope {
+        name,
+        bodies: [from.0, to.0],
+        at: [from.1, to.1],
+        stiffness,
+        damping,
+        length,
+        speed,
+    })
 }
 
 fn read_end(
@@ -76,7 +119,10 @@ fn read_end(
     let point = check.vector(raw.at.unwrap_or_default(), &at.key("at"), Dimension::LENGTH);
     let Some(name) = &raw.body else {
         if raw.at.is_none() {
-            check.faults.add(Fault::new(at, "must have `body`, or `at` for a point in space"));
+            check.faults.add(Fault::new(
+                at,
+                "must have `body`, or `at` for a point in space",
+            ));
         }
         return Some((None, point));
     };

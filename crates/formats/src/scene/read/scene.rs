@@ -3,8 +3,8 @@
 use super::files::Files;
 use super::rail::rail_named;
 use super::{
-    actuator, body, event, inertia, method, mount, output, pin, practice, rope, spin, stop, structure, truck,
-    truck_spacing, wheel,
+    actuator, body, event, inertia, method, mount, output, pin, practice, rope, spin, stop,
+    structure, truck, truck_spacing, wheel,
 };
 use crate::check::Check;
 use crate::limits::{BODIES, HISTORY_BYTES, ROW_NUMBERS, WHEELS};
@@ -40,7 +40,13 @@ pub(in crate::scene) fn read(
     crate::spec::format(&raw.format, FORMAT, &root, faults);
     let units = Units::read(&raw.units, &root, faults);
     let known = units.unwrap_or(Units::SI);
-    let mut check = Check { faults, scale: Scale { from: known, to: known } };
+    let mut check = Check {
+        faults,
+        scale: Scale {
+            from: known,
+            to: known,
+        },
+    };
     let check = &mut check;
     let name = raw.name.clone().unwrap_or_else(|| crate::spec::stem(file));
     if raw.name.is_some() {
@@ -57,7 +63,9 @@ pub(in crate::scene) fn read(
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let wheels = read_wheels(raw, &root, check);
     let end = match check.faults.require(&raw.end, &root, "end") {
-        Some(end) => check.required_positive(end.time, &root.key("end"), "time", Dimension::TIME, ""),
+        Some(end) => {
+            check.required_positive(end.time, &root.key("end"), "time", Dimension::TIME, "")
+        }
         None => 1.0,
     };
     let ropes = rope::read_all(&raw.ropes, &bodies, end, check);
@@ -107,7 +115,9 @@ fn read_bodies(
     let mut bodies = Vec::new();
     let place = root.key("bodies");
     if raw.bodies.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one body in `bodies`").of_value());
+        check
+            .faults
+            .add(Fault::new(root, "must have at least one body in `bodies`").of_value());
     }
     check.items(raw.bodies.0.len(), &BODIES, &place);
     for (name, raw) in &raw.bodies.0 {
@@ -117,7 +127,8 @@ fn read_bodies(
         if let Some(rails) = rails {
             let track = at.key("track");
             for (index, rail) in raw.track.iter().flatten().enumerate() {
-                body.track.extend(rail_named(rail, rails, &track.index(index), check.faults));
+                body.track
+                    .extend(rail_named(rail, rails, &track.index(index), check.faults));
             }
         }
         bodies.push(body);
@@ -163,7 +174,9 @@ fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut
     if is_right(&["motions"]) {
         inertia::check(raw, scene, root, check.faults);
     }
-    if is_right(&["wheels", "motions", "stepper", "step", "analysis", "ropes", "stops", "loads", "events"]) {
+    if is_right(&[
+        "wheels", "motions", "stepper", "step", "analysis", "ropes", "stops", "loads", "events",
+    ]) {
         method::suits(scene, root, check.faults);
     }
 }
@@ -176,7 +189,9 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
         }
         None => {
             let fault = Fault::new(root, "missing key `gravity`").of_value();
-            check.faults.add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, or 0"));
+            check
+                .faults
+                .add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, or 0"));
             None
         }
     }
@@ -190,7 +205,9 @@ fn read_structures(
     check: &mut Check<'_>,
 ) -> Vec<Structure> {
     if raw.structures.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one structure in `structures`").of_value());
+        check
+            .faults
+            .add(Fault::new(root, "must have at least one structure in `structures`").of_value());
     }
     let place = root.key("structures");
     let mut structures = Vec::new();
@@ -198,9 +215,14 @@ fn read_structures(
     for (name, raw) in all {
         let at = place.key(name);
         check_name(name, &at, check.faults);
-        let others: Vec<&str> =
-            all.iter().map(|(other, _)| other.as_str()).filter(|other| other != name).collect();
-        structures.extend(structure::read(name, &others, raw, &at, files, gravity, check));
+        let others: Vec<&str> = all
+            .iter()
+            .map(|(other, _)| other.as_str())
+            .filter(|other| other != name)
+            .collect();
+        structures.extend(structure::read(
+            name, &others, raw, &at, files, gravity, check,
+        ));
     }
     structures
 }
@@ -210,30 +232,52 @@ fn rails_of(structures: &[Structure]) -> Vec<SceneRail> {
     for (index, structure) in structures.iter().enumerate() {
         for (rail, outline) in structure.rails.iter().enumerate() {
             let name = format!("{}.{}", structure.name, outline.name);
-            rails.push(SceneRail { name, structure: index, rail, range: outline.range });
+            rails.push(SceneRail {
+                name,
+                structure: index,
+                rail,
+                range: outline.range,
+            });
         }
     }
     rails
 }
 
 fn read_analysis(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Analysis {
-    let words = [("dynamic", Analysis::Dynamic), ("quasi-static", Analysis::QuasiStatic)];
+    let words = [
+        ("dynamic", Analysis::Dynamic),
+        ("quasi-static", Analysis::QuasiStatic),
+    ];
     match &raw.analysis {
-        Some(word) => check.faults.one_of(word, &root.key("analysis"), &words).unwrap_or(Analysis::Dynamic),
+        Some(word) => check
+            .faults
+            .one_of(word, &root.key("analysis"), &words)
+            .unwrap_or(Analysis::Dynamic),
         None => Analysis::Dynamic,
     }
 }
 
 fn read_interval(raw: &RawScene, end: f64, root: &Place<'_>, check: &mut Check<'_>) -> f64 {
-    let Some(dt) = raw.output.as_ref().and_then(|output| output.dt) else { return end / ROWS };
+    let Some(dt) = raw.output.as_ref().and_then(|output| output.dt) else {
+        return end / ROWS;
+    };
     let output = root.key("output");
     let place = output.key("dt");
-    check.positive(dt, &place, Dimension::TIME, "time between two rows of the history")
+    check.positive(
+        dt,
+        &place,
+        Dimension::TIME,
+        "time between two rows of the history",
+    )
 }
 
 /// Checks the memory that the rows of the history need.
 fn check_rows(scene: &Scene, root: &Place<'_>, check: &mut Check<'_>) {
-    let wheels: usize = scene.trucks.iter().map(|truck| truck.wheel_offsets().len()).sum();
+    let wheels: usize = scene
+        .trucks
+        .iter()
+        .map(|truck| truck.wheel_offsets().len())
+        .sum();
     let [own, body, wheel] = ROW_NUMBERS;
     let numbers = own + body * scene.bodies.len() as f64 + wheel * wheels as f64;
     let most = HISTORY_BYTES / (8.0 * numbers);
@@ -266,7 +310,10 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     }
     let wheels: usize = raw.trucks.iter().map(truck::count).sum();
     if wheels > WHEELS.most {
-        let fault = Fault::new(&place, format!("must have at most {} wheels in all", WHEELS.most));
+        let fault = Fault::new(
+            &place,
+            format!("must have at most {} wheels in all", WHEELS.most),
+        );
         check.faults.add(fault.got(wheels).hint(WHEELS.reason));
         return;
     }
@@ -282,25 +329,39 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
             counts[owner] += 1;
             counts[owner]
         });
-        let Some(truck) = truck::read(raw, number, &at, &scene.bodies, &scene.rails, &scene.wheels, check)
-        else {
+        let Some(truck) = truck::read(
+            raw,
+            number,
+            &at,
+            &scene.bodies,
+            &scene.rails,
+            &scene.wheels,
+            check,
+        ) else {
             continue;
         };
         if trucks.iter().any(|other| other.name == truck.name) {
-            let expected = format!("the name \"{}\" is already used by another truck", truck.name);
+            let expected = format!(
+                "the name \"{}\" is already used by another truck",
+                truck.name
+            );
             check.faults.add(Fault::new(&at.key("name"), expected));
         }
         trucks.push(truck);
     }
     let place = root.key("bodies");
     let owned: usize = counts.iter().sum();
-    let carried: Vec<bool> = (0..scene.bodies.len()).map(|b| is_carried(&scene.bodies, b, &counts)).collect();
+    let carried: Vec<bool> = (0..scene.bodies.len())
+        .map(|b| is_carried(&scene.bodies, b, &counts))
+        .collect();
     for (index, body) in scene.bodies.iter_mut().enumerate() {
         let dof = raw.bodies.0[index].1.dof.iter().flatten();
         let in_space = dof.into_iter().any(|word| SPACE.contains(&word.as_str()));
         if !carried[index] && owned == raw.trucks.len() && owned > 0 && !in_space {
             let fault = Fault::new(&place.key(&body.name), "no truck carries this body").at_key();
-            check.faults.add(fault.hint(format!("add a truck with \"body\": \"{}\"", body.name)));
+            check
+                .faults
+                .add(fault.hint(format!("add a truck with \"body\": \"{}\"", body.name)));
         }
         if body.track.is_empty() {
             for truck in trucks.iter().filter(|truck| truck.body == index) {
@@ -314,7 +375,9 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
                 &place.key(&body.name),
                 "in a quasi-static analysis every x must be prescribed or fixed",
             );
-            check.faults.add(fault.hint("prescribe a motion of x, or take \"x\" out of `dof`"));
+            check
+                .faults
+                .add(fault.hint("prescribe a motion of x, or take \"x\" out of `dof`"));
         }
     }
     scene.trucks = trucks;
@@ -326,20 +389,39 @@ fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Fa
     let motions = root.key("motions");
     let bodies = root.key("bodies");
     for (index, truck) in scene.trucks.iter().enumerate() {
-        let Some((owner, ahead)) = root_of(&scene.bodies, truck.body) else { continue };
+        let Some((owner, ahead)) = root_of(&scene.bodies, truck.body) else {
+            continue;
+        };
         let body = &scene.bodies[owner];
         let rail = &scene.rails[truck.rail];
         let at = trucks.index(index);
-        let left = truck.wheel_offsets().into_iter().enumerate().filter_map(|(index, offset)| {
-            let offset = ahead + offset;
-            let (time, x) = leaves(body, [rail.range[0] - offset, rail.range[1] - offset], scene.end)?;
-            Some((index + 1, time, x + offset))
-        });
-        let Some((wheel, time, x)) = left.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        let left = truck
+            .wheel_offsets()
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, offset)| {
+                let offset = ahead + offset;
+                let (time, x) = leaves(
+                    body,
+                    [rail.range[0] - offset, rail.range[1] - offset],
+                    scene.end,
+                )?;
+                Some((index + 1, time, x + offset))
+            });
+        let Some((wheel, time, x)) = left.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+            continue;
+        };
         let own = bodies.key(&body.name);
         let (x0, tree) = (own.key("x0"), at.key("tree"));
-        let motion = raw.motions.iter().position(|motion| motion.body.as_ref() == Some(&body.name));
-        let given = raw.bodies.0.get(owner).is_some_and(|(_, raw)| raw.x0.is_some());
+        let motion = raw
+            .motions
+            .iter()
+            .position(|motion| motion.body.as_ref() == Some(&body.name));
+        let given = raw
+            .bodies
+            .0
+            .get(owner)
+            .is_some_and(|(_, raw)| raw.x0.is_some());
         let place = match motion.map(|motion| motions.index(motion)) {
             Some(place) if time > 0.0 => place,
             _ if given => x0,
@@ -354,12 +436,20 @@ fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Fa
             number(rail.range[1])
         );
         let found = if time > 0.0 {
-            let end = if x < rail.range[0] { rail.range[0] } else { rail.range[1] };
+            let end = if x < rail.range[0] {
+                rail.range[0]
+            } else {
+                rail.range[1]
+            };
             format!("x beyond {} from t = {time:.4}", number(end))
         } else {
             format!("x = {} at the start", number(x))
         };
-        faults.add(Fault::new(&place, expected).got(found).hint("check x0, the motion and end.time"));
+        faults.add(
+            Fault::new(&place, expected)
+                .got(found)
+                .hint("check x0, the motion and end.time"),
+        );
     }
 }
 

@@ -17,7 +17,9 @@ pub(super) fn read_schedule(
     check: &mut Check<'_>,
 ) -> Option<Schedule> {
     let rows = read_rows(table, place, unit, check)?;
-    Schedule::new(&rows).map_err(|error| check.faults.add(Fault::new(place, error.to_string()))).ok()
+    Schedule::new(&rows)
+        .map_err(|error| check.faults.add(Fault::new(place, error.to_string())))
+        .ok()
 }
 
 /// Reads rows (time, value) in the units of the scene; none if the times do not increase.
@@ -29,7 +31,9 @@ pub(super) fn read_rows(
 ) -> Option<Vec<[f64; 2]>> {
     if table.is_empty() {
         check.faults.add(
-            Fault::new(place, "must have at least one row [time, value]").got("an empty list").of_value(),
+            Fault::new(place, "must have at least one row [time, value]")
+                .got("an empty list")
+                .of_value(),
         );
         return None;
     }
@@ -47,13 +51,22 @@ pub(super) fn read_rows(
 /// Whether increasing times are far enough apart. If not, a fault is added for the first time that is too close to
 /// the one before it.
 fn are_apart(times: &[f64], place: &Place<'_>, check: &mut Check<'_>) -> bool {
-    let largest = times.iter().fold(1.0, |largest: f64, t| largest.max(t.abs()));
+    let largest = times
+        .iter()
+        .fold(1.0, |largest: f64, t| largest.max(t.abs()));
     let least = TIME_RESOLUTION * largest;
     let close = times.windows(2).position(|pair| pair[1] - pair[0] < least);
     if let Some(first) = close {
-        let expected = format!("must be at least {} after the time before it", number(least));
-        let fault = Fault::new(&place.index(first + 1).index(0), expected).got(number(times[first + 1]));
-        let hint = format!("the time before it is {}; for a jump take a short ramp", number(times[first]));
+        let expected = format!(
+            "must be at least {} after the time before it",
+            number(least)
+        );
+        let fault =
+            Fault::new(&place.index(first + 1).index(0), expected).got(number(times[first + 1]));
+        let hint = format!(
+            "the time before it is {}; for a jump take a short ramp",
+            number(times[first])
+        );
         check.faults.add(fault.hint(hint));
     }
     close.is_none()
@@ -63,14 +76,23 @@ fn are_apart(times: &[f64], place: &Place<'_>, check: &mut Check<'_>) -> bool {
 pub(super) type MotionTable<'r> = (&'static str, MotionKind, &'r Vec<[f64; 2]>, Dimension);
 
 /// The tables that a motion has. `dimensions` are those of position, speed and acceleration.
-pub(super) fn motion_tables(motion: &RawMotion, dimensions: [Dimension; 3]) -> Vec<MotionTable<'_>> {
+pub(super) fn motion_tables(
+    motion: &RawMotion,
+    dimensions: [Dimension; 3],
+) -> Vec<MotionTable<'_>> {
     let tables = [
         ("position", MotionKind::Position, &motion.position),
         ("speed", MotionKind::Speed, &motion.speed),
-        ("acceleration", MotionKind::Acceleration, &motion.acceleration),
+        (
+            "acceleration",
+            MotionKind::Acceleration,
+            &motion.acceleration,
+        ),
     ];
     let given = tables.into_iter().zip(dimensions);
-    given.filter_map(|((key, kind, table), unit)| Some((key, kind, table.as_ref()?, unit))).collect()
+    given
+        .filter_map(|((key, kind, table), unit)| Some((key, kind, table.as_ref()?, unit)))
+        .collect()
 }
 
 /// The prescribed motion of the only one of `tables`, from the position and the speed `start`; a fault if there is no
@@ -82,12 +104,19 @@ pub(super) fn read_profile(
     check: &mut Check<'_>,
 ) -> Option<Profile> {
     let &[(key, kind, table, unit)] = tables else {
-        let fault = Fault::new(at, "must have one table: `position`, `speed` or `acceleration`");
-        check.faults.add(fault.got(if tables.is_empty() { "none" } else { "several" }));
+        let fault = Fault::new(
+            at,
+            "must have one table: `position`, `speed` or `acceleration`",
+        );
+        check
+            .faults
+            .add(fault.got(if tables.is_empty() { "none" } else { "several" }));
         return None;
     };
     let place = at.key(key);
     let rows = read_rows(table, &place, unit, check)?;
     let profile = Profile::new(kind, &rows, start[0], start[1]);
-    profile.map_err(|error| check.faults.add(Fault::new(&place, error.to_string()))).ok()
+    profile
+        .map_err(|error| check.faults.add(Fault::new(&place, error.to_string())))
+        .ok()
 }

@@ -11,7 +11,8 @@ use crate::check::Check;
 use crate::limits::{ELEMENTS as MOST_ELEMENTS, MODES as MOST_MODES, PARTS};
 use crate::scene::raw::{RawStructure, RawTables};
 use crate::scene::values::structure::{
-    DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE, TableInterpolation,
+    DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE,
+    TableInterpolation,
 };
 use crate::spec::ties::Ties;
 use crate::spec::{RailOutline, Spec, SpecPreload};
@@ -57,30 +58,53 @@ pub(super) fn read(
     let (origin, preload) = read_preload(origin, raw, gravity, at, check);
     let foundation = match word {
         FoundationWord::Rigid => Foundation::Rigid,
-        FoundationWord::Parts => Foundation::Parts { count, handover, damping },
+        FoundationWord::Parts => Foundation::Parts {
+            count,
+            handover,
+            damping,
+        },
         FoundationWord::Influence | FoundationWord::Auto => Foundation::Influence,
-        FoundationWord::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
+        FoundationWord::Modal => Foundation::Modal {
+            modes: raw.modes.unwrap_or(MODES),
+            damping,
+        },
         FoundationWord::Ties => ties::foundation(raw, ties.as_ref(), damping, at, check),
-        FoundationWord::Full => Foundation::Full { elements: raw.elements.unwrap_or(ELEMENTS), damping },
+        FoundationWord::Full => Foundation::Full {
+            elements: raw.elements.unwrap_or(ELEMENTS),
+            damping,
+        },
     };
     let origin = origin?;
     if let (FoundationWord::Parts, Origin::Spec { spec, .. }) = (word, &origin)
         && spec.girder().is_none()
     {
         let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
-        check.faults.add(fault.hint("the short form of a spec, with `girder`"));
+        check
+            .faults
+            .add(fault.hint("the short form of a spec, with `girder`"));
     }
-    if let (Foundation::Parts { count, handover, .. }, Origin::Spec { spec, .. }) = (foundation, &origin)
+    if let (
+        Foundation::Parts {
+            count, handover, ..
+        },
+        Origin::Spec { spec, .. },
+    ) = (foundation, &origin)
         && let Some(girder) = spec.girder()
     {
         windows_fit(girder, count, handover, at, check);
     }
-    if let (FoundationWord::Modal | FoundationWord::Full, Origin::Spec { spec, .. }) = (word, &origin)
+    if let (FoundationWord::Modal | FoundationWord::Full, Origin::Spec { spec, .. }) =
+        (word, &origin)
         && !spec.has_mass()
     {
-        let expected = format!("\"{}\" needs mass, and the spec has none", foundation.word());
+        let expected = format!(
+            "\"{}\" needs mass, and the spec has none",
+            foundation.word()
+        );
         let fault = Fault::new(&at.key("foundation"), expected);
-        check.faults.add(fault.hint("give its materials a density, or the girder `mass_per_length`"));
+        check
+            .faults
+            .add(fault.hint("give its materials a density, or the girder `mass_per_length`"));
     }
     let rails = origin.rails();
     if interpolation != TableInterpolation::Exact {
@@ -139,7 +163,9 @@ fn read_origin(
         (None, None) => {
             let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
             let meant = nearest(name, others).map(|near| format!("did you mean \"{near}\"? "));
-            check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
+            check
+                .faults
+                .add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
             None
         }
     }
@@ -167,7 +193,11 @@ fn read_preload(
             (Some(Origin::Spec { file, spec }), asked)
         }
         Some(tables @ Origin::Tables { .. }) if asked => {
-            let fault = Fault::new(&at.key("preload"), "needs a `spec`: tables hold for one state").at_key();
+            let fault = Fault::new(
+                &at.key("preload"),
+                "needs a `spec`: tables hold for one state",
+            )
+            .at_key();
             check.faults.add(fault);
             (Some(tables), false)
         }
@@ -179,13 +209,25 @@ fn read_preload(
 fn read_count(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> usize {
     let count = raw.count.unwrap_or(DEFAULT_PARTS);
     if count < 2 {
-        let fault = Fault::new(&at.key("count"), "must be at least 2").got(count).of_value();
-        check.faults.add(fault.hint("number of rigid parts of the chain"));
+        let fault = Fault::new(&at.key("count"), "must be at least 2")
+            .got(count)
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("number of rigid parts of the chain"));
     }
-    if check.count(count, &PARTS, &at.key("count")) { count } else { DEFAULT_PARTS }
+    if check.count(count, &PARTS, &at.key("count")) {
+        count
+    } else {
+        DEFAULT_PARTS
+    }
 }
 
-fn read_interpolation(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> TableInterpolation {
+fn read_interpolation(
+    raw: &RawStructure,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> TableInterpolation {
     let word = raw.reading.as_ref();
     let known = &TableInterpolation::WORDS;
     let word = word.and_then(|word| check.faults.one_of(word, &at.key("reading"), known));
@@ -194,7 +236,11 @@ fn read_interpolation(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>)
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> FoundationWord {
     let Some(word) = &raw.foundation else {
-        return if raw.ties.is_some() { FoundationWord::Ties } else { FoundationWord::Auto };
+        return if raw.ties.is_some() {
+            FoundationWord::Ties
+        } else {
+            FoundationWord::Auto
+        };
     };
     let place = at.key("foundation");
     let words = [
@@ -206,12 +252,18 @@ fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) ->
         ("ties", FoundationWord::Ties),
         ("auto", FoundationWord::Auto),
     ];
-    check.faults.one_of(word, &place, &words).unwrap_or(FoundationWord::Auto)
+    check
+        .faults
+        .one_of(word, &place, &words)
+        .unwrap_or(FoundationWord::Auto)
 }
 
 /// Keywords of the couplings that are taken into account.
-const COUPLINGS: [(&str, Couplings); 3] =
-    [("all", Couplings::All), ("within rails", Couplings::WithinRails), ("none", Couplings::None)];
+const COUPLINGS: [(&str, Couplings); 3] = [
+    ("all", Couplings::All),
+    ("within rails", Couplings::WithinRails),
+    ("none", Couplings::None),
+];
 
 /// Reads the couplings. They can be neglected only if a structure has no degrees of freedom of its own, because
 /// natural modes move all rails together.
@@ -221,15 +273,27 @@ fn read_couplings(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Couplings {
-    let Some(given) = &raw.couplings else { return Couplings::All };
+    let Some(given) = &raw.couplings else {
+        return Couplings::All;
+    };
     let place = at.key("couplings");
-    let couplings = check.faults.one_of(given, &place, &COUPLINGS).unwrap_or_default();
-    if couplings != Couplings::All && !matches!(word, FoundationWord::Influence | FoundationWord::Rigid) {
-        let fault =
-            Fault::new(&place, "couplings can be left out only with the foundation \"influence\"").at_key();
-        check
-            .faults
-            .add(fault.hint("modes and parts couple all rails of the structure; \"rigid\" has no couplings"));
+    let couplings = check
+        .faults
+        .one_of(given, &place, &COUPLINGS)
+        .unwrap_or_default();
+    if couplings != Couplings::All
+        && !matches!(word, FoundationWord::Influence | FoundationWord::Rigid)
+    {
+        let fault = Fault::new(
+            &place,
+            "couplings can be left out only with the foundation \"influence\"",
+        )
+        .at_key();
+        check.faults.add(
+            fault.hint(
+                "modes and parts couple all rails of the structure; \"rigid\" has no couplings",
+            ),
+        );
     }
     couplings
 }
@@ -245,14 +309,21 @@ fn read_longitudinal(
     let place = at.key("longitudinal");
     if longitudinal && raw.tables.is_some() {
         let fault = Fault::new(&place, "needs a `spec`").at_key();
-        check.faults.add(fault.hint("tables contain only the vertical and the lateral compliance"));
+        check
+            .faults
+            .add(fault.hint("tables contain only the vertical and the lateral compliance"));
     }
     if longitudinal && raw.on.is_some() {
-        check.faults.unavailable(&place, "compliance along the rails of a structure on a body");
+        check.faults.unavailable(
+            &place,
+            "compliance along the rails of a structure on a body",
+        );
     }
     if longitudinal && matches!(word, FoundationWord::Parts) {
         let fault = Fault::new(&place, "\"parts\" have no compliance along the rail").at_key();
-        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
+        check
+            .faults
+            .add(fault.hint("use \"influence\" or \"modal\""));
     }
     longitudinal
 }
@@ -260,36 +331,63 @@ fn read_longitudinal(
 /// Reads the relative error permitted for the choice of a foundation.
 fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
-    let tolerance = check.positive(given, &place, Dimension::NUMBER, "a relative error, such as 1e-3");
+    let tolerance = check.positive(
+        given,
+        &place,
+        Dimension::NUMBER,
+        "a relative error, such as 1e-3",
+    );
     if given > 0.0 && !(SMALLEST_TOLERANCE..1.0).contains(&given) {
-        let fault = Fault::new(&place, "must be at least 1e-7 and below 1").got(given).of_value();
-        check.faults.add(fault.hint("a relative error, such as 1e-3"));
+        let fault = Fault::new(&place, "must be at least 1e-7 and below 1")
+            .got(given)
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("a relative error, such as 1e-3"));
     }
     tolerance
 }
 
 /// Reads the measure of that error.
 fn read_measure(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> sim::Measure {
-    let words = [("extremes", sim::Measure::Extremes), ("history", sim::Measure::History)];
+    let words = [
+        ("extremes", sim::Measure::Extremes),
+        ("history", sim::Measure::History),
+    ];
     let word = raw.measure.as_ref();
-    word.and_then(|word| check.faults.one_of(word, &at.key("measure"), &words)).unwrap_or_default()
+    word.and_then(|word| check.faults.one_of(word, &at.key("measure"), &words))
+        .unwrap_or_default()
 }
 
 /// Reads the damping ratio of the natural modes. The numbers of modes and elements must not be 0.
 fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
-    for (key, count, limit) in [("modes", raw.modes, &MOST_MODES), ("elements", raw.elements, &MOST_ELEMENTS)]
-    {
+    for (key, count, limit) in [
+        ("modes", raw.modes, &MOST_MODES),
+        ("elements", raw.elements, &MOST_ELEMENTS),
+    ] {
         if count == Some(0) {
-            check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0).of_value());
+            check.faults.add(
+                Fault::new(&at.key(key), "must be at least 1")
+                    .got(0)
+                    .of_value(),
+            );
         }
         check.count(count.unwrap_or(0), limit, &at.key(key));
     }
     let (place, given) = (at.key("damping"), raw.damping.unwrap_or(0.0));
-    let damping =
-        check.not_negative(given, &place, Dimension::NUMBER, "a fraction of critical damping, such as 0.01");
+    let damping = check.not_negative(
+        given,
+        &place,
+        Dimension::NUMBER,
+        "a fraction of critical damping, such as 0.01",
+    );
     if damping >= 1.0 {
-        let fault = Fault::new(&place, "must be below 1").got(damping).of_value();
-        check.faults.add(fault.hint("a fraction of critical damping, such as 0.01"));
+        let fault = Fault::new(&place, "must be below 1")
+            .got(damping)
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("a fraction of critical damping, such as 0.01"));
     }
     damping
 }
@@ -297,12 +395,19 @@ fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f6
 fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {
     let words = [("blend", false), ("per-part", true)];
     let per_part = match &raw.handover {
-        Some(word) => check.faults.one_of(word, &at.key("handover"), &words).unwrap_or(false),
+        Some(word) => check
+            .faults
+            .one_of(word, &at.key("handover"), &words)
+            .unwrap_or(false),
         None => false,
     };
     let hint = "length over which a wheel passes from one part to the next";
     let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
-    if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
+    if per_part {
+        Handover::PerPart { length }
+    } else {
+        Handover::Blend { length }
+    }
 }
 
 /// Checks that the windows in which wheels pass from part to part do not overlap.
@@ -313,25 +418,47 @@ fn windows_fit(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) {
-    let (Handover::Blend { length: Some(length) } | Handover::PerPart { length: Some(length) }) = handover
+    let (Handover::Blend {
+        length: Some(length),
+    }
+    | Handover::PerPart {
+        length: Some(length),
+    }) = handover
     else {
         return;
     };
-    let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
-    let ends: Vec<f64> = (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect();
+    let (from, to) = (
+        -girder.overhangs[0],
+        girder.spans.iter().sum::<f64>() + girder.overhangs[1],
+    );
+    let ends: Vec<f64> = (0..=count)
+        .map(|j| from + (to - from) * j as f64 / count as f64)
+        .collect();
     if check.faults.0.is_empty() && PartChain::new(ends, 0, Some(length)).is_none() {
-        let expected =
-            format!("must be at most {}, the length of a part", number((to - from) / count as f64));
+        let expected = format!(
+            "must be at most {}, the length of a part",
+            number((to - from) / count as f64)
+        );
         let fault = Fault::new(&at.key("blend"), expected).got(number(length));
-        check.faults.add(fault.hint("the windows about neighbouring joints must not overlap"));
+        check
+            .faults
+            .add(fault.hint("the windows about neighbouring joints must not overlap"));
     }
 }
 
-fn read_spec(file: &str, at: &Place<'_>, files: &mut Files<'_>, check: &mut Check<'_>) -> Option<Origin> {
+fn read_spec(
+    file: &str,
+    at: &Place<'_>,
+    files: &mut Files<'_>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
     files.read(file, at, check, |input, check| {
         let source = input.source().map_err(|error| vec![*error])?;
         let spec = Spec::read(&source, Some(check.scale.to))?;
-        Ok(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) })
+        Ok(Origin::Spec {
+            file: file.to_owned(),
+            spec: Arc::new(spec),
+        })
     })
 }
 
@@ -352,10 +479,14 @@ fn read_tables(
     }
     if raw.vertical.is_none() && raw.lateral.is_none() {
         let fault = Fault::new(at, "must name a table as `vertical`, `lateral` or both");
-        check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
+        check
+            .faults
+            .add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
     }
     let file = check.faults.require(&raw.file, at, "file")?;
-    let read = files.read(file, &at.key("file"), check, |input, check| tables::read(raw, input, at, check));
+    let read = files.read(file, &at.key("file"), check, |input, check| {
+        tables::read(raw, input, at, check)
+    });
     read.flatten()
 }
 
@@ -366,11 +497,17 @@ fn enough_stations(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) {
-    let least = if reading == TableInterpolation::Natural { 2 } else { 4 };
+    let least = if reading == TableInterpolation::Natural {
+        2
+    } else {
+        4
+    };
     for rail in rails {
         if rail.stations.len() < least {
             let expected = format!("needs at least {least} stations on rail {}", rail.name);
-            check.faults.add(Fault::new(&at.key("reading"), expected).got(rail.stations.len()));
+            check
+                .faults
+                .add(Fault::new(&at.key("reading"), expected).got(rail.stations.len()));
         }
     }
 }

@@ -24,7 +24,13 @@ pub(super) fn read(
     let named = names(bodies, |body| &body.name);
     let body = named_or_only(&raw.body, &named, "body", ("body", at), check.faults);
     let kinds = names(wheels, |wheel| &wheel.name);
-    let wheel = named_or_only(&raw.wheel, &kinds, "wheel type", ("wheel", at), check.faults);
+    let wheel = named_or_only(
+        &raw.wheel,
+        &kinds,
+        "wheel type",
+        ("wheel", at),
+        check.faults,
+    );
     let rail = read_rail(raw, at, body.map(|body| &bodies[body]), rails, check);
     let place = at.key("at");
     let position = check.vector(raw.at.unwrap_or_default(), &place, Dimension::LENGTH);
@@ -33,8 +39,18 @@ pub(super) fn read(
         check_name(name, &at.key("name"), check.faults);
     }
     let body = body?;
-    let name = raw.name.clone().unwrap_or_else(|| format!("{}.truck{number}", bodies[body].name));
-    Some(Truck { name, body, rail: rail?, wheel: wheel?, at: position, tree })
+    let name = raw
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("{}.truck{number}", bodies[body].name));
+    Some(Truck {
+        name,
+        body,
+        rail: rail?,
+        wheel: wheel?,
+        at: position,
+        tree,
+    })
 }
 
 /// Number of wheels of a truck as written.
@@ -45,7 +61,9 @@ pub(super) fn count(raw: &RawTruck) -> usize {
             RawNode::Equaliser(ends) => ends.iter().map(below).sum(),
         }
     }
-    raw.tree.as_ref().map_or(1, |tree| tree.iter().map(below).sum())
+    raw.tree
+        .as_ref()
+        .map_or(1, |tree| tree.iter().map(below).sum())
 }
 
 /// Index of the item that the truck names under a key or, if it names none, of the only existing item.
@@ -81,17 +99,25 @@ fn read_rail(
         (None, ..) => {
             let known: Vec<&str> = rails.iter().map(|rail| rail.name.as_str()).collect();
             let fault = Fault::new(at, "missing key `rail`");
-            check.faults.add(fault.hint(format!("the scene has several: {}", known.join(", "))));
+            check
+                .faults
+                .add(fault.hint(format!("the scene has several: {}", known.join(", "))));
             None
         }
     }
 }
 
 fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node> {
-    let Some(tree) = &raw.tree else { return vec![Node::Wheel(0.0)] };
+    let Some(tree) = &raw.tree else {
+        return vec![Node::Wheel(0.0)];
+    };
     let place = at.key("tree");
     if tree.is_empty() {
-        check.faults.add(Fault::new(&place, "must have at least one wheel").got("an empty list").of_value());
+        check.faults.add(
+            Fault::new(&place, "must have at least one wheel")
+                .got("an empty list")
+                .of_value(),
+        );
     }
     let nodes = tree.iter().enumerate().map(|(index, node)| {
         let at = place.index(index);
@@ -110,7 +136,11 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
 
 /// Fractions of the load of an equaliser that its wheels carry.
 fn fractions(below: &[(f64, f64)]) -> String {
-    below.iter().map(|(_, fraction)| format!("1/{}", number(1.0 / fraction))).collect::<Vec<_>>().join(", ")
+    below
+        .iter()
+        .map(|(_, fraction)| format!("1/{}", number(1.0 / fraction)))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
@@ -124,18 +154,20 @@ fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
             match <[Node; 2]>::try_from(nodes) {
                 Ok(ends) => {
                     if ends[0].offset() == ends[1].offset() {
-                        let fault =
-                            Fault::new(at, "the two ends of an equaliser must have different offsets")
-                                .got(number(ends[0].offset()));
+                        let fault = Fault::new(
+                            at,
+                            "the two ends of an equaliser must have different offsets",
+                        )
+                        .got(number(ends[0].offset()));
                         check.faults.add(fault);
                     }
                     Node::Equaliser(Box::new(ends))
                 }
                 Err(nodes) => {
                     let fault = Fault::new(at, "an equaliser must have two ends").got(nodes.len());
-                    check.faults.add(
-                        fault.hint("numbers are wheels; nest lists in pairs, such as [[-6, -2], [2, 6]]"),
-                    );
+                    check.faults.add(fault.hint(
+                        "numbers are wheels; nest lists in pairs, such as [[-6, -2], [2, 6]]",
+                    ));
                     Node::Wheel(0.0)
                 }
             }

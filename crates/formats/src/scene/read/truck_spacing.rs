@@ -26,15 +26,20 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
     let list = root.key("trucks");
     let mut first: Vec<Option<usize>> = vec![None; scene.bodies.len()];
     for (index, truck) in scene.trucks.iter().enumerate() {
-        let Some((body, arm)) = seat_of(&scene.bodies, truck.body) else { continue };
+        let Some((body, arm)) = seat_of(&scene.bodies, truck.body) else {
+            continue;
+        };
         let [.., roll, yaw, _] = scene.bodies[body].free;
         let Some(other) = first[body] else {
             first[body] = Some(index);
             continue;
         };
         let reference = &scene.trucks[other];
-        let Some((_, reference_arm)) = seat_of(&scene.bodies, reference.body) else { continue };
-        let Some(rails) = rail_distance(scene, reference.rail, truck.rail).filter(|_| roll || yaw) else {
+        let Some((_, reference_arm)) = seat_of(&scene.bodies, reference.body) else {
+            continue;
+        };
+        let Some(rails) = rail_distance(scene, reference.rail, truck.rail).filter(|_| roll || yaw)
+        else {
             continue;
         };
         let own = truck.at[2] + arm[2];
@@ -48,7 +53,11 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
             "must be above its rail: {here} is {} to the {side} of {there}, seen along the rails",
             number(rails.abs())
         );
-        let found = format!("{} to the right of truck \"{}\"", number(wheels), reference.name);
+        let found = format!(
+            "{} to the right of truck \"{}\"",
+            number(wheels),
+            reference.name
+        );
         let hint = format!(
             "z of `at` points to the right; for a body midway between the rails it is {} here and {} there",
             number(0.5 * rails),
@@ -65,7 +74,9 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
 fn rail_distance(scene: &Scene, one: usize, other: usize) -> Option<f64> {
     let [first, second] = [one, other].map(|rail| &scene.rails[rail]);
     let structure = &scene.structures[first.structure];
-    let Origin::Spec { spec, .. } = &structure.origin else { return None };
+    let Origin::Spec { spec, .. } = &structure.origin else {
+        return None;
+    };
     if one == other || first.structure != second.structure {
         return None;
     }

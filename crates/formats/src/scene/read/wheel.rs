@@ -22,8 +22,14 @@ pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check
             bilateral: false,
         },
     };
-    let lateral = raw.lateral.as_ref().map(|lateral| read_lateral(lateral, &at.key("lateral"), check));
-    let friction = raw.friction.as_ref().map(|friction| read_friction(friction, &at.key("friction"), check));
+    let lateral = raw
+        .lateral
+        .as_ref()
+        .map(|lateral| read_lateral(lateral, &at.key("lateral"), check));
+    let friction = raw
+        .friction
+        .as_ref()
+        .map(|friction| read_friction(friction, &at.key("friction"), check));
     let spin_inertia = check.optional_positive(
         raw.spin_inertia,
         &at.key("spin_inertia"),
@@ -44,15 +50,24 @@ pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check
 
 fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> TreadContact {
     let impact = match &raw.law {
-        Some(word) => {
-            check.faults.one_of(word, &at.key("law"), &[("linear", false), ("impact", true)]).unwrap_or(false)
-        }
+        Some(word) => check
+            .faults
+            .one_of(word, &at.key("law"), &[("linear", false), ("impact", true)])
+            .unwrap_or(false),
         None => false,
     };
-    let exponent = if impact { raw.exponent.unwrap_or(DEFAULT_IMPACT_EXPONENT) } else { 1.0 };
+    let exponent = if impact {
+        raw.exponent.unwrap_or(DEFAULT_IMPACT_EXPONENT)
+    } else {
+        1.0
+    };
     if impact && exponent < 1.0 {
-        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent)).of_value();
-        check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
+        let fault = Fault::new(&at.key("exponent"), "must be at least 1")
+            .got(number(exponent))
+            .of_value();
+        check
+            .faults
+            .add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
     }
     let k = match check.faults.require(&raw.k, at, "k") {
         Some(k) => {
@@ -63,7 +78,12 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Tr
         }
         None => 1.0,
     };
-    let c = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "0 for none");
+    let c = check.not_negative(
+        raw.c.unwrap_or_default(),
+        &at.key("c"),
+        Dimension::DAMPING,
+        "0 for none",
+    );
     let law = if impact {
         let depth = match raw.depth {
             None if c == 0.0 => 1.0,
@@ -77,28 +97,52 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Tr
         };
         NormalForceLaw::Impact { exponent, depth }
     } else {
-        for (key, given) in [("exponent", raw.exponent.is_some()), ("depth", raw.depth.is_some())] {
+        for (key, given) in [
+            ("exponent", raw.exponent.is_some()),
+            ("depth", raw.depth.is_some()),
+        ] {
             if given {
-                let fault =
-                    Fault::new(&at.key(key), format!("`{key}` is only available with the law \"impact\""))
-                        .at_key();
-                check.faults.add(fault.hint("set \"law\": \"impact\" or leave it out"));
+                let fault = Fault::new(
+                    &at.key(key),
+                    format!("`{key}` is only available with the law \"impact\""),
+                )
+                .at_key();
+                check
+                    .faults
+                    .add(fault.hint("set \"law\": \"impact\" or leave it out"));
             }
         }
         NormalForceLaw::Linear
     };
-    let dampers = [("rail", DamperVelocity::Rail), ("ground", DamperVelocity::Ground)];
+    let dampers = [
+        ("rail", DamperVelocity::Rail),
+        ("ground", DamperVelocity::Ground),
+    ];
     let damper = match &raw.damper {
-        Some(word) => check.faults.one_of(word, &at.key("damper"), &dampers).unwrap_or(DamperVelocity::Rail),
+        Some(word) => check
+            .faults
+            .one_of(word, &at.key("damper"), &dampers)
+            .unwrap_or(DamperVelocity::Rail),
         None => DamperVelocity::Rail,
     };
-    TreadContact { law, k, c, damper, bilateral: raw.bilateral.unwrap_or_default() }
+    TreadContact {
+        law,
+        k,
+        c,
+        damper,
+        bilateral: raw.bilateral.unwrap_or_default(),
+    }
 }
 
 fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> FlangeContact {
     let k = check.required_positive(raw.k, at, "k", Dimension::STIFFNESS, "");
     let clearance = raw.clearance.unwrap_or_default();
-    let clearance = check.not_negative(clearance, &at.key("clearance"), Dimension::LENGTH, "0 for none");
+    let clearance = check.not_negative(
+        clearance,
+        &at.key("clearance"),
+        Dimension::LENGTH,
+        "0 for none",
+    );
     let place = at.key("release");
     let release = raw.release.map(|heights| {
         check.faults.increasing(&heights, &place);
@@ -109,16 +153,32 @@ fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Flan
         }
         converted
     });
-    FlangeContact { k, clearance, release }
+    FlangeContact {
+        k,
+        clearance,
+        release,
+    }
 }
 
 fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Friction {
-    let laws = [("step", FrictionLaw::Step), ("coulomb", FrictionLaw::Coulomb)];
-    let given = raw.law.as_ref().and_then(|word| check.faults.one_of(word, &at.key("law"), &laws));
+    let laws = [
+        ("step", FrictionLaw::Step),
+        ("coulomb", FrictionLaw::Coulomb),
+    ];
+    let given = raw
+        .law
+        .as_ref()
+        .and_then(|word| check.faults.one_of(word, &at.key("law"), &laws));
     let law = given.unwrap_or(FrictionLaw::Step);
     Friction {
         law,
-        mu: check.required_positive(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
+        mu: check.required_positive(
+            raw.mu,
+            at,
+            "mu",
+            Dimension::NUMBER,
+            "leave `friction` out for none",
+        ),
         slip: check.required_positive(
             raw.slip,
             at,

@@ -88,7 +88,9 @@ pub(in crate::scene) fn root_of(bodies: &[Body], b: usize) -> Option<(usize, f64
 pub(in crate::scene) fn seat_of(bodies: &[Body], b: usize) -> Option<(usize, [f64; 3])> {
     let (mut root, mut arm) = (b, [0.0; 3]);
     for _ in 0..=bodies.len() {
-        let Some((to, pin)) = bodies[root].pinned else { return Some((root, arm)) };
+        let Some((to, pin)) = bodies[root].pinned else {
+            return Some((root, arm));
+        };
         root = to;
         arm.iter_mut().zip(pin).for_each(|(arm, at)| *arm += at);
     }
@@ -98,11 +100,13 @@ pub(in crate::scene) fn seat_of(bodies: &[Body], b: usize) -> Option<(usize, [f6
 /// Whether body `b`, or a body that is pinned to it directly or indirectly, has trucks. `trucks` are the numbers of
 /// trucks of the bodies.
 pub(in crate::scene) fn is_carried(bodies: &[Body], b: usize, trucks: &[usize]) -> bool {
-    (0..bodies.len()).filter(|&other| trucks[other] > 0).any(|other| {
-        let mut at = other;
-        while let (true, Some((to, _))) = (at != b, bodies[at].pinned) {
-            at = to;
-        }
-        at == b
-    })
+    (0..bodies.len())
+        .filter(|&other| trucks[other] > 0)
+        .any(|other| {
+            let mut at = other;
+            while let (true, Some((to, _))) = (at != b, bodies[at].pinned) {
+                at = to;
+            }
+            at == b
+        })
 }

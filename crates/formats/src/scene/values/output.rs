@@ -32,7 +32,8 @@ impl ColumnSelection {
 
 /// Whether `name` is `own`, or `own` followed by a dot and a suffix.
 pub(in crate::scene) fn belongs(name: &str, own: &str) -> bool {
-    name.strip_prefix(own).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    name.strip_prefix(own)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// Output of a run in addition to the motion.
@@ -67,6 +68,11 @@ pub struct Fatigue {
 
 impl Default for Fatigue {
     fn default() -> Fatigue {
-        Fatigue { loads: 1.0, material: 1.0, history: Repetition::Once, crossings: None }
+        Fatigue {
+            loads: 1.0,
+            material: 1.0,
+            history: Repetition::Once,
+            crossings: None,
+        }
     }
 }

@@ -102,7 +102,9 @@ impl Scene {
     /// Whether some wheel has flanges, which load its rail laterally.
     #[must_use]
     pub fn has_flanges(&self) -> bool {
-        self.trucks.iter().any(|truck| self.wheels[truck.wheel].lateral.is_some())
+        self.trucks
+            .iter()
+            .any(|truck| self.wheels[truck.wheel].lateral.is_some())
     }
 }
 
@@ -110,7 +112,11 @@ impl Scene {
 pub fn end_stops<'s>(scene: &'s Scene, practice: &'s Practice) -> impl Iterator<Item = &'s Stop> {
     scene.stops.iter().filter(|stop| {
         let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
-        is_rail && stop.points.iter().any(|meeting| meeting.body == practice.crane)
+        is_rail
+            && stop
+                .points
+                .iter()
+                .any(|meeting| meeting.body == practice.crane)
     })
 }
 
@@ -125,10 +131,14 @@ pub fn root_body(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
 /// there are none.
 #[must_use]
 pub fn mean_lateral_position(scene: &Scene, body: usize, rail: usize) -> f64 {
-    let places = scene.trucks.iter().filter(|truck| truck.rail == rail).filter_map(|truck| {
-        let (root, arm) = root_body(scene, truck.body);
-        (root == body).then_some(truck.at[2] + arm[2])
-    });
+    let places = scene
+        .trucks
+        .iter()
+        .filter(|truck| truck.rail == rail)
+        .filter_map(|truck| {
+            let (root, arm) = root_body(scene, truck.body);
+            (root == body).then_some(truck.at[2] + arm[2])
+        });
     let (sum, count) = places.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }
 }
@@ -147,5 +157,8 @@ pub const STEPPERS: [(&str, Method); 7] = [
 /// Keyword of a method of integration.
 #[must_use]
 pub fn stepper_word(method: Method) -> &'static str {
-    STEPPERS.iter().find(|(_, known)| *known == method).map_or("", |(word, _)| *word)
+    STEPPERS
+        .iter()
+        .find(|(_, known)| *known == method)
+        .map_or("", |(word, _)| *word)
 }

@@ -80,7 +80,11 @@ impl Origin {
                 let stations = tables.stations.clone();
                 let ends = stations.first().zip(stations.last());
                 let range = ends.map_or([0.0; 2], |(first, last)| [*first, *last]);
-                vec![RailOutline { name: GIRDER_RAIL.to_owned(), range, stations }]
+                vec![RailOutline {
+                    name: GIRDER_RAIL.to_owned(),
+                    range,
+                    stations,
+                }]
             }
         }
     }
@@ -180,7 +184,10 @@ impl TableInterpolation {
     /// Its keyword in scenes.
     #[must_use]
     pub fn word(self) -> &'static str {
-        TableInterpolation::WORDS.iter().find(|(_, reading)| *reading == self).map_or("", |(word, _)| *word)
+        TableInterpolation::WORDS
+            .iter()
+            .find(|(_, reading)| *reading == self)
+            .map_or("", |(word, _)| *word)
     }
 }
 

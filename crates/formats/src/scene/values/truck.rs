@@ -43,7 +43,9 @@ impl Node {
             Node::Wheel(offset) => vec![(*offset, 1.0)],
             Node::Equaliser(ends) => {
                 let below = ends.iter().flat_map(Node::wheels);
-                below.map(|(offset, fraction)| (offset, fraction / 2.0)).collect()
+                below
+                    .map(|(offset, fraction)| (offset, fraction / 2.0))
+                    .collect()
             }
         }
     }
@@ -53,6 +55,10 @@ impl Truck {
     /// Longitudinal offsets of all wheels from the origin of the body, in the order of the file.
     #[must_use]
     pub fn wheel_offsets(&self) -> Vec<f64> {
-        self.tree.iter().flat_map(Node::wheels).map(|(offset, _)| self.at[0] + offset).collect()
+        self.tree
+            .iter()
+            .flat_map(Node::wheels)
+            .map(|(offset, _)| self.at[0] + offset)
+            .collect()
     }
 }

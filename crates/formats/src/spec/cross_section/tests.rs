@@ -7,7 +7,10 @@ fn of(shape: &str, d: &[f64]) -> Properties {
 }
 
 fn close(found: f64, expected: f64, what: &str) {
-    assert!((found / expected - 1.0).abs() < 1e-12, "{what}: {found} {expected}");
+    assert!(
+        (found / expected - 1.0).abs() < 1e-12,
+        "{what}: {found} {expected}"
+    );
 }
 
 #[test]
@@ -18,7 +21,8 @@ fn boxes_are_outer_less_inner_rectangles() {
     close(found.i2, (10.0 * 216.0 - 9.0 * 5.5f64.powi(3)) / 12.0, "I2");
     // Roark, rectangular tube of two wall thicknesses
     let (b, h, t1, t2) = (6.0f64, 10.0f64, 0.5f64, 0.25f64);
-    let roark = 2.0 * t1 * t2 * (b - t2).powi(2) * (h - t1).powi(2) / (b * t2 + h * t1 - t2 * t2 - t1 * t1);
+    let roark =
+        2.0 * t1 * t2 * (b - t2).powi(2) * (h - t1).powi(2) / (b * t2 + h * t1 - t2 * t2 - t1 * t1);
     close(found.j, roark, "J");
     assert_eq!(found, of("BOX1", &[6.0, 10.0, 0.5, 0.5, 0.25, 0.25]));
 }
@@ -32,7 +36,12 @@ fn flanged_shapes_are_a_rectangle_less_its_sides() {
     close(found.j, (2.0 * 4.0 * 0.125 + 9.5 * 0.027) / 3.0, "J");
     close(found.k1 * found.area, 2.7, "k1 A");
     let other = of("I1", &[3.7, 0.3, 9.0, 10.0]);
-    for (a, b) in [(found.area, other.area), (found.i1, other.i1), (found.i2, other.i2), (found.j, other.j)] {
+    for (a, b) in [
+        (found.area, other.area),
+        (found.i1, other.i1),
+        (found.i2, other.i2),
+        (found.j, other.j),
+    ] {
         close(a, b, "I1 is I by other dimensions");
     }
     let turned = of("H", &[9.0, 1.0, 4.0, 0.3]);
@@ -45,17 +54,30 @@ fn flanged_shapes_are_a_rectangle_less_its_sides() {
 fn channels_agree_in_their_three_descriptions() {
     let found = of("CHAN", &[3.0, 8.0, 0.25, 0.5]);
     // about the centroid, by the rule A (z^2) moved from the back of the web
-    let (area, first) = (8.0 * 0.25 + 2.0 * 2.75 * 0.5, 8.0 * 0.25 * 0.125 + 2.75 * (0.25 + 1.375));
+    let (area, first) = (
+        8.0 * 0.25 + 2.0 * 2.75 * 0.5,
+        8.0 * 0.25 * 0.125 + 2.75 * (0.25 + 1.375),
+    );
     let second = 8.0 * 0.25f64.powi(3) / 3.0 + (3.0f64.powi(3) - 0.25f64.powi(3)) / 3.0;
     close(found.area, area, "A");
     close(found.i1, (3.0 * 512.0 - 2.75 * 343.0) / 12.0, "I1");
     close(found.i2, second - first * first / area, "I2");
     let same = of("CHAN1", &[2.75, 0.25, 7.0, 8.0]);
     let turned = of("CHAN2", &[0.5, 0.25, 3.0, 8.0]);
-    for (a, b) in [(found.i1, same.i1), (found.i2, same.i2), (found.j, same.j), (found.k1, same.k1)] {
+    for (a, b) in [
+        (found.i1, same.i1),
+        (found.i2, same.i2),
+        (found.j, same.j),
+        (found.k1, same.k1),
+    ] {
         close(a, b, "CHAN1");
     }
-    for (a, b) in [(found.i1, turned.i2), (found.i2, turned.i1), (found.j, turned.j), (found.k2, turned.k1)] {
+    for (a, b) in [
+        (found.i1, turned.i2),
+        (found.i2, turned.i1),
+        (found.j, turned.j),
+        (found.k2, turned.k1),
+    ] {
         close(a, b, "CHAN2");
     }
 }
@@ -74,7 +96,11 @@ fn tees_and_crosses_move_to_their_centroid() {
     let cross = of("CROSS", &[3.0, 0.5, 5.0, 0.25]);
     close(cross.area, 2.5 + 0.75, "A");
     close(cross.i1, (0.5 * 125.0 + 3.0 * 0.25f64.powi(3)) / 12.0, "I1");
-    close(cross.i2, (0.25 * 3.5f64.powi(3) + 4.75 * 0.125) / 12.0, "I2");
+    close(
+        cross.i2,
+        (0.25 * 3.5f64.powi(3) + 4.75 * 0.125) / 12.0,
+        "I2",
+    );
 }
 
 #[test]
@@ -109,9 +135,16 @@ fn dimensions_that_do_not_fit_are_refused() {
         ("BAR", &[1e200, 1e200]),
     ];
     for (shape, d) in wrong {
-        assert_eq!(section_properties(shape, d), Err(ShapeError::Dimensions), "{shape} {d:?}");
+        assert_eq!(
+            section_properties(shape, d),
+            Err(ShapeError::Dimensions),
+            "{shape} {d:?}"
+        );
     }
-    assert_eq!(section_properties("HEXA", &[1.0; 3]), Err(ShapeError::Unknown));
+    assert_eq!(
+        section_properties("HEXA", &[1.0; 3]),
+        Err(ShapeError::Unknown)
+    );
 }
 
 #[test]
@@ -144,7 +177,8 @@ fn hats_are_a_rectangle_less_its_hollow_with_brims() {
     close(found.area, 15.0 * 20.0 - 11.0 * 18.0 + 2.0 * 5.0 * 2.0, "A");
     close(
         found.i2,
-        (20.0 * 15.0f64.powi(3) - 18.0 * 11.0f64.powi(3)) / 12.0 + 2.0 * (2.0 * 125.0 / 12.0 + 10.0 * 100.0),
+        (20.0 * 15.0f64.powi(3) - 18.0 * 11.0f64.powi(3)) / 12.0
+            + 2.0 * (2.0 * 125.0 / 12.0 + 10.0 * 100.0),
         "I2",
     );
     let first = 15.0 * 20.0 * 10.0 - 11.0 * 18.0 * 9.0 + 20.0;

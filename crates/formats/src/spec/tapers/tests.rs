@@ -20,14 +20,28 @@ fn cantilever(root: &str, tip: &str, theory: &str, parts: usize) -> Spec {
         "supports": [{{"point": 0, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"]}}],
         "rails": {{"r": {{"axis": [1, 0, 0], "segments": [{{"cell": [0, 0]}}], "stations": [{LENGTH}]}}}}}}"#
     );
-    Spec::read(&Source { name: "taper.json".to_owned(), text }, None).expect("a spec without faults")
+    Spec::read(
+        &Source {
+            name: "taper.json".to_owned(),
+            text,
+        },
+        None,
+    )
+    .expect("a spec without faults")
 }
 
 /// Displacement of the tip under a unit force along the same axis.
 fn tip(spec: &Spec, axis: Axis) -> f64 {
     let (model, rails) = spec.model().expect("usable numbers");
     let frame = FactoredFrame::new(&model, &rails).expect("a stable structure");
-    frame.grid(&[Probe { rail: 0, x: LENGTH, axis }]).expect("on the rail").value[(0, 0)]
+    frame
+        .grid(&[Probe {
+            rail: 0,
+            x: LENGTH,
+            axis,
+        }])
+        .expect("on the rail")
+        .value[(0, 0)]
 }
 
 /// Integral over the length by Simpson's rule in 20,000 intervals; f takes the fraction of the length.
@@ -52,9 +66,14 @@ fn assert_second_order(exact: f64, tip: impl Fn(usize) -> f64) -> f64 {
 
 #[test]
 fn tapered_bars_converge_to_the_quadrature_of_m_squared_over_ei() {
-    let sections = [2.0, 1.0].map(|h| format!(r#""shape": {{"kind": "bar", "height": {h}, "width": 0.5}}"#));
-    let tip_of =
-        |parts| tip(&cantilever(&sections[0], &sections[1], "euler-bernoulli", parts), Axis::Vertical);
+    let sections =
+        [2.0, 1.0].map(|h| format!(r#""shape": {{"kind": "bar", "height": {h}, "width": 0.5}}"#));
+    let tip_of = |parts| {
+        tip(
+            &cantilever(&sections[0], &sections[1], "euler-bernoulli", parts),
+            Axis::Vertical,
+        )
+    };
     let exact = integral(|s| (LENGTH * (1.0 - s)).powi(2) / (E * 0.5 * (2.0 - s).powi(3) / 12.0));
     assert!((exact / 3.0288e-6 - 1.0).abs() < 1e-4);
     let error = assert_second_order(exact, tip_of);
@@ -81,7 +100,10 @@ fn tapered_boxes_in_other_units_converge_in_both_planes_with_shear() {
     });
     for (axis, exact) in [(Axis::Vertical, vertical), (Axis::Lateral, lateral)] {
         let error = assert_second_order(exact, |parts| {
-            tip(&cantilever(&sections[0], &sections[1], "timoshenko", parts), axis)
+            tip(
+                &cantilever(&sections[0], &sections[1], "timoshenko", parts),
+                axis,
+            )
         });
         assert!(error < 1e-3, "{axis:?}: {error:e}");
     }
@@ -89,8 +111,14 @@ fn tapered_boxes_in_other_units_converge_in_both_planes_with_shear() {
         let [h, b] = [36.0 - 18.0 * s, 18.0 - 6.0 * s];
         144.0 / (E * (b * h - (b - 1.0) * (h - 2.0)))
     });
-    let found = tip(&cantilever(&sections[0], &sections[1], "timoshenko", 3), Axis::Longitudinal);
-    assert!((found / exact - 1.0).abs() < 1e-12, "elongation is exact in any number of parts");
+    let found = tip(
+        &cantilever(&sections[0], &sections[1], "timoshenko", 3),
+        Axis::Longitudinal,
+    );
+    assert!(
+        (found / exact - 1.0).abs() < 1e-12,
+        "elongation is exact in any number of parts"
+    );
 }
 
 #[test]
@@ -99,10 +127,14 @@ fn mass_of_a_tapered_shape_is_that_of_its_volume_in_any_number_of_parts() {
         .map(|[h, b]| format!(r#""shape": {{"kind": "bar", "height": {h}, "width": {b}}}"#));
     let volume = integral(|s| (2.0 - s) * (0.5 - 0.3 * s));
     for parts in [1, 5] {
-        let (model, _) =
-            cantilever(&sections[0], &sections[1], "timoshenko", parts).model().expect("usable numbers");
+        let (model, _) = cantilever(&sections[0], &sections[1], "timoshenko", parts)
+            .model()
+            .expect("usable numbers");
         let mass = fea::rigid_mass(&model).expect("usable numbers")[0][0];
-        assert!((mass / (15.2 * volume) - 1.0).abs() < 1e-12, "{parts} parts: {mass}");
+        assert!(
+            (mass / (15.2 * volume) - 1.0).abs() < 1e-12,
+            "{parts} parts: {mass}"
+        );
     }
 }
 
@@ -115,9 +147,21 @@ fn stated_properties_of_tapered_shapes_vary_linearly_as_before() {
     };
     let both = |h: f64| format!("{}, {}", numbers(h), shape(h));
     let model = |root: String, tip: String| {
-        cantilever(&root, &tip, "timoshenko", 7).model().expect("usable numbers").0.sections
+        cantilever(&root, &tip, "timoshenko", 7)
+            .model()
+            .expect("usable numbers")
+            .0
+            .sections
     };
     let plain = model(numbers(2.0), numbers(1.0));
-    assert_eq!(plain, model(both(2.0), both(1.0)), "numbers beside a shape take precedence");
-    assert_eq!(plain, model(both(2.0), numbers(1.0)), "one end has no shape");
+    assert_eq!(
+        plain,
+        model(both(2.0), both(1.0)),
+        "numbers beside a shape take precedence"
+    );
+    assert_eq!(
+        plain,
+        model(both(2.0), numbers(1.0)),
+        "one end has no shape"
+    );
 }

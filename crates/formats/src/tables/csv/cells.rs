@@ -26,10 +26,18 @@ impl<'s> Sheet<'s> {
     /// first row; if none occurs, cells are separated by blanks. A row that begins with `#`, `%` or `!` is a comment.
     /// Cells may be enclosed in double quotes.
     pub fn of(source: &'s Source) -> Result<Sheet<'s>, Box<Diagnostic>> {
-        let text = source.text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+        let text = source
+            .text
+            .trim_start_matches('\u{feff}')
+            .replace("\r\n", "\n")
+            .replace('\r', "\n");
         let mut separator = None;
-        let mut sheet =
-            Sheet { name: &source.name, rows: Vec::new(), comments: String::new(), decimal_comma: false };
+        let mut sheet = Sheet {
+            name: &source.name,
+            rows: Vec::new(),
+            comments: String::new(),
+            decimal_comma: false,
+        };
         for (k, line) in text.lines().enumerate() {
             let trimmed = line.trim();
             if let Some(comment) = trimmed.strip_prefix(['#', '%', '!']) {
@@ -40,8 +48,11 @@ impl<'s> Sheet<'s> {
             if trimmed.is_empty() || trimmed.chars().all(|c| ",;\t".contains(c)) {
                 continue;
             }
-            let mark = *separator
-                .get_or_insert_with(|| [';', '\t', ','].into_iter().find(|&mark| line.contains(mark)));
+            let mark = *separator.get_or_insert_with(|| {
+                [';', '\t', ',']
+                    .into_iter()
+                    .find(|&mark| line.contains(mark))
+            });
             sheet.rows.push(cells(line, mark, k + 1).map_err(|cell| {
                 let fault = sheet.fault(&cell, "a quotation mark is not closed");
                 Box::new(fault.hint("a cell cannot go over several lines"))
@@ -49,7 +60,10 @@ impl<'s> Sheet<'s> {
         }
         sheet.decimal_comma = matches!(separator.flatten(), Some(';' | '\t'));
         if sheet.rows.is_empty() {
-            return Err(Box::new(Diagnostic::of_file(&source.name, "the file has no rows")));
+            return Err(Box::new(Diagnostic::of_file(
+                &source.name,
+                "the file has no rows",
+            )));
         }
         Ok(sheet)
     }
@@ -67,15 +81,19 @@ impl<'s> Sheet<'s> {
     pub fn number(&self, cell: &Cell) -> Result<f64, Box<Diagnostic>> {
         self.maybe_number(cell).ok_or_else(|| {
             let mut fault = self.fault(cell, "must be a finite number");
-            fault.found =
-                Some(if cell.text.is_empty() { "nothing".to_owned() } else { format!("\"{}\"", cell.text) });
+            fault.found = Some(if cell.text.is_empty() {
+                "nothing".to_owned()
+            } else {
+                format!("\"{}\"", cell.text)
+            });
             Box::new(fault)
         })
     }
 
     /// The finite number of a cell; `None` if the cell is not a finite number.
     pub fn maybe_number(&self, cell: &Cell) -> Option<f64> {
-        let comma = self.decimal_comma && cell.text.matches(',').count() == 1 && !cell.text.contains('.');
+        let comma =
+            self.decimal_comma && cell.text.matches(',').count() == 1 && !cell.text.contains('.');
         if comma {
             adams::number::read(&cell.text.replace(',', "."))
         } else {
@@ -89,11 +107,20 @@ fn cells(line: &str, separator: Option<char>, number: usize) -> Result<Vec<Cell>
     let mut out = Vec::new();
     let mut chars = line.chars().zip(1..).peekable();
     loop {
-        while chars.peek().is_some_and(|(c, _)| c.is_whitespace() && Some(*c) != separator) {
+        while chars
+            .peek()
+            .is_some_and(|(c, _)| c.is_whitespace() && Some(*c) != separator)
+        {
             chars.next();
         }
-        let Some(&(first, column)) = chars.peek() else { break };
-        let mut cell = Cell { line: number, column, text: String::new() };
+        let Some(&(first, column)) = chars.peek() else {
+            break;
+        };
+        let mut cell = Cell {
+            line: number,
+            column,
+            text: String::new(),
+        };
         if first == '"' {
             chars.next();
             loop {
@@ -117,7 +144,11 @@ fn cells(line: &str, separator: Option<char>, number: usize) -> Result<Vec<Cell>
         let after = column + 1;
         out.push(cell);
         if marked && chars.peek().is_none() {
-            out.push(Cell { line: number, column: after, text: String::new() });
+            out.push(Cell {
+                line: number,
+                column: after,
+                text: String::new(),
+            });
         }
     }
     while out.len() > 1 && out.last().is_some_and(|cell| cell.text.is_empty()) {

@@ -22,8 +22,16 @@ impl<'s> CsvColumns<'s> {
         let sheet = Sheet::of(source)?;
         let head = &sheet.rows[0];
         let named = head.iter().any(|cell| sheet.maybe_number(cell).is_none());
-        let names = if named { head.iter().map(|cell| cell.text.clone()).collect() } else { Vec::new() };
-        Ok(CsvColumns { sheet, names, first: usize::from(named) })
+        let names = if named {
+            head.iter().map(|cell| cell.text.clone()).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(CsvColumns {
+            sheet,
+            names,
+            first: usize::from(named),
+        })
     }
 
     /// Names of the columns; empty if the file has no header.
@@ -51,9 +59,16 @@ impl<'s> CsvColumns<'s> {
             }
         }
         if self.sheet.rows.len() == self.first {
-            faults.push(Diagnostic::of_file(self.sheet.name, "the file has no rows below its header"));
+            faults.push(Diagnostic::of_file(
+                self.sheet.name,
+                "the file has no rows below its header",
+            ));
         }
-        if faults.is_empty() { Ok(rows) } else { Err(faults) }
+        if faults.is_empty() {
+            Ok(rows)
+        } else {
+            Err(faults)
+        }
     }
 
     /// The number in one column of a row.
@@ -76,10 +91,15 @@ mod tests {
     use crate::text::source::Source;
 
     fn rows(text: &str, columns: [usize; 2]) -> Result<Vec<[f64; 2]>, String> {
-        let source =
-            Source::from_bytes("t.csv".to_owned(), text.as_bytes().to_vec()).map_err(|e| e.to_string())?;
+        let source = Source::from_bytes("t.csv".to_owned(), text.as_bytes().to_vec())
+            .map_err(|e| e.to_string())?;
         let table = CsvColumns::of(&source).map_err(|e| e.to_string())?;
-        table.rows(columns).map_err(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        table.rows(columns).map_err(|all| {
+            all.iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join("\n")
+        })
     }
 
     #[test]
@@ -99,7 +119,10 @@ mod tests {
             faults,
             "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not decrease: the row before is at 0\nt.csv:5:1: the row must have 2 cells at least, got 1"
         );
-        assert_eq!(rows("x,y\n", [0, 1]), Err("t.csv: the file has no rows below its header".to_owned()));
+        assert_eq!(
+            rows("x,y\n", [0, 1]),
+            Err("t.csv: the file has no rows below its header".to_owned())
+        );
         assert!(rows("0 0\n0 1\n0 2\n", [0, 1]).is_err());
     }
 }

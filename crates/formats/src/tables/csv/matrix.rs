@@ -17,8 +17,12 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
     };
     let cornerless = head.len() + 1 == first.len() && sheet.maybe_number(&head[0]).is_some();
     let heads = if cornerless { &head[..] } else { &head[1..] };
-    let numbers =
-        |cells: &[Cell]| cells.iter().map(|cell| sheet.number(cell)).collect::<Result<Vec<f64>, _>>();
+    let numbers = |cells: &[Cell]| {
+        cells
+            .iter()
+            .map(|cell| sheet.number(cell))
+            .collect::<Result<Vec<f64>, _>>()
+    };
     let x = numbers(heads).map_err(one)?;
     let mut z = Vec::new();
     let mut values = Vec::new();
@@ -27,7 +31,11 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
         values.push(numbers(&row[1..]).map_err(one)?);
     }
     // a different number in the corner may be the first value of a matrix without x and z
-    let corner = if cornerless { None } else { sheet.maybe_number(&head[0]) };
+    let corner = if cornerless {
+        None
+    } else {
+        sheet.maybe_number(&head[0])
+    };
     if corner.is_some_and(|corner| corner != 0.0 || x != z) {
         let mut fault = sheet.fault(&head[0], "the corner must be empty or text");
         fault.found = Some(head[0].text.clone());
@@ -41,7 +49,11 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
             Part::Xs | Part::Values => None,
         };
         let fault = sheet.fault(cell.unwrap_or(&head[0]), defect.expected);
-        vec![Diagnostic { found: defect.found, hint: defect.hint.map(str::to_owned), ..fault }]
+        vec![Diagnostic {
+            found: defect.found,
+            hint: defect.hint.map(str::to_owned),
+            ..fault
+        }]
     })?;
     Ok(Draft::of(curves))
 }

@@ -24,14 +24,28 @@ pub(super) fn write(set: &TableSet) -> String {
     let mut writer = WriterBuilder::new().from_writer(Vec::new());
     let length = set.units.label(Dimension::LENGTH);
     let value = set.units.label(Dimension::FLEXIBILITY);
-    let value = if set.products.is_empty() { value } else { format!("({value})^0.5") };
-    let header =
-        ["id", "name", &format!("z [{length}]"), &format!("x [{length}]"), &format!("value [{value}]")];
+    let value = if set.products.is_empty() {
+        value
+    } else {
+        format!("({value})^0.5")
+    };
+    let header = [
+        "id",
+        "name",
+        &format!("z [{length}]"),
+        &format!("x [{length}]"),
+        &format!("value [{value}]"),
+    ];
     // writing to memory cannot fail
     let _ = writer.write_record(header);
     for table in &set.tables {
         for (i, row) in table.curves.y().iter().enumerate() {
-            let z = table.curves.z().get(i).map(|z| json!(z).to_string()).unwrap_or_default();
+            let z = table
+                .curves
+                .z()
+                .get(i)
+                .map(|z| json!(z).to_string())
+                .unwrap_or_default();
             for (x, value) in table.curves.x().iter().zip(row) {
                 let cells = [
                     &table.id.to_string(),
@@ -45,7 +59,10 @@ pub(super) fn write(set: &TableSet) -> String {
         }
     }
     let body = writer.into_inner().unwrap_or_default();
-    let comments: String = remarks(set).iter().map(|line| format!("# {line}\n")).collect();
+    let comments: String = remarks(set)
+        .iter()
+        .map(|line| format!("# {line}\n"))
+        .collect();
     comments + &String::from_utf8_lossy(&body)
 }
 
@@ -60,7 +77,10 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     Ok(Parsed {
         name: stem(&source.name),
         units: given.or_else(|| units_in(&sheet.comments)),
-        missing_units: ["states no units", "such as a comment line: # units: ft, lbf, s"],
+        missing_units: [
+            "states no units",
+            "such as a comment line: # units: ft, lbf, s",
+        ],
         drafts,
         comments: sheet.comments,
         products: Vec::new(),
@@ -70,5 +90,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
 
 /// The units in a comment `units: ft, lbf, s`.
 fn units_in(comments: &str) -> Option<Units> {
-    comments.lines().find_map(|line| Units::parse(line.trim().strip_prefix("units:")?))
+    comments
+        .lines()
+        .find_map(|line| Units::parse(line.trim().strip_prefix("units:")?))
 }

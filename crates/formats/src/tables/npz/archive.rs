@@ -29,9 +29,14 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
         }
         let full = member.name().map_err(refuse)?.into_owned();
         let name = full.strip_suffix(".npy").unwrap_or(&full).to_owned();
-        let at = |expected: String| Diagnostic { path: name.clone(), ..Diagnostic::of_file(file, expected) };
+        let at = |expected: String| Diagnostic {
+            path: name.clone(),
+            ..Diagnostic::of_file(file, expected)
+        };
         let mut data = Vec::new();
-        let size = (&mut member).take(left.saturating_add(1)).read_to_end(&mut data);
+        let size = (&mut member)
+            .take(left.saturating_add(1))
+            .read_to_end(&mut data);
         let size = size.map_err(|error| {
             let mut fault = at("cannot be unpacked".to_owned());
             fault.found = Some(error.to_string());
@@ -42,7 +47,9 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
             None => return Err(at(format!("the arrays have more than {MAX_BYTES} bytes")).into()),
         }
         let array = Array::read(&data).map_err(|refusal| match refusal {
-            Refusal::NoArray => at("must be an .npy array".to_owned()).hint("numpy.savez writes them"),
+            Refusal::NoArray => {
+                at("must be an .npy array".to_owned()).hint("numpy.savez writes them")
+            }
             Refusal::Kind(descr) => {
                 let mut fault = at("must be real numbers or words".to_owned());
                 fault.found = Some(format!("the type {descr}"));

@@ -30,12 +30,18 @@ pub(super) enum Refusal {
 impl Array {
     /// A one-dimensional array of strings.
     pub fn words(list: &[String]) -> Array {
-        Array { shape: vec![list.len()], data: Data::Words(list.to_vec()) }
+        Array {
+            shape: vec![list.len()],
+            data: Data::Words(list.to_vec()),
+        }
     }
 
     /// A one-dimensional array of numbers.
     pub fn line(list: &[f64]) -> Array {
-        Array { shape: vec![list.len()], data: Data::Numbers(list.to_vec()) }
+        Array {
+            shape: vec![list.len()],
+            data: Data::Numbers(list.to_vec()),
+        }
     }
 
     /// The array of the bytes of an `.npy` file.
@@ -43,18 +49,33 @@ impl Array {
         let (header, data) = header::split(bytes).ok_or(Refusal::NoArray)?;
         let kind = Kind::of(&header.descr).ok_or_else(|| Refusal::Kind(header.descr.clone()))?;
         let size = kind.size();
-        let count = header.shape.iter().try_fold(1_usize, |all, &one| all.checked_mul(one));
-        let expected = count.and_then(|count| count.checked_mul(size)).unwrap_or(usize::MAX);
+        let count = header
+            .shape
+            .iter()
+            .try_fold(1_usize, |all, &one| all.checked_mul(one));
+        let expected = count
+            .and_then(|count| count.checked_mul(size))
+            .unwrap_or(usize::MAX);
         if data.len() != expected {
-            return Err(Refusal::Size { expected, found: data.len() });
+            return Err(Refusal::Size {
+                expected,
+                found: data.len(),
+            });
         }
-        let items: Vec<&[u8]> =
-            if size == 0 { vec![&[]; count.unwrap_or(0).min(1)] } else { data.chunks(size).collect() };
+        let items: Vec<&[u8]> = if size == 0 {
+            vec![&[]; count.unwrap_or(0).min(1)]
+        } else {
+            data.chunks(size).collect()
+        };
         let data = match kind {
             Kind::Words { .. } => Data::Words(items.iter().map(|item| kind.word(item)).collect()),
             _ => Data::Numbers(items.iter().map(|item| kind.number(item)).collect()),
         };
-        Ok(Array { data, shape: header.shape.clone() }.c_order(&header))
+        Ok(Array {
+            data,
+            shape: header.shape.clone(),
+        }
+        .c_order(&header))
     }
 
     /// Converts an array whose items are in the order of its header to C order.
@@ -85,10 +106,19 @@ impl Array {
                 out
             }
             Data::Words(list) => {
-                let width = list.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1);
+                let width = list
+                    .iter()
+                    .map(|word| word.chars().count())
+                    .max()
+                    .unwrap_or(0)
+                    .max(1);
                 let mut out = header::bytes(&format!("<U{width}"), &self.shape);
                 for word in list {
-                    let letters = word.chars().map(u32::from).chain(std::iter::repeat(0)).take(width);
+                    let letters = word
+                        .chars()
+                        .map(u32::from)
+                        .chain(std::iter::repeat(0))
+                        .take(width);
                     out.extend(letters.flat_map(u32::to_le_bytes));
                 }
                 out
@@ -155,8 +185,16 @@ impl Kind {
             ('f', 4 | 8) => Some(Kind::Float { size, big }),
             ('i', 1 | 2 | 4 | 8) => Some(Kind::Signed { size, big }),
             ('u', 1 | 2 | 4 | 8) => Some(Kind::Unsigned { size, big }),
-            ('U', _) if size <= 1 << 20 => Some(Kind::Words { count: size, big, wide: true }),
-            ('S', _) if size <= 1 << 20 => Some(Kind::Words { count: size, big, wide: false }),
+            ('U', _) if size <= 1 << 20 => Some(Kind::Words {
+                count: size,
+                big,
+                wide: true,
+            }),
+            ('S', _) if size <= 1 << 20 => Some(Kind::Words {
+                count: size,
+                big,
+                wide: false,
+            }),
             _ => None,
         }
     }
@@ -164,7 +202,9 @@ impl Kind {
     /// Size of an item in bytes.
     fn size(self) -> usize {
         match self {
-            Kind::Float { size, .. } | Kind::Signed { size, .. } | Kind::Unsigned { size, .. } => size,
+            Kind::Float { size, .. } | Kind::Signed { size, .. } | Kind::Unsigned { size, .. } => {
+                size
+            }
             Kind::Words { count, wide, .. } => count * if wide { 4 } else { 1 },
         }
     }
@@ -172,7 +212,11 @@ impl Kind {
     fn number(self, item: &[u8]) -> f64 {
         let whole = |big: bool| {
             let add = |sum: u64, byte: &u8| (sum << 8) | u64::from(*byte);
-            if big { item.iter().fold(0, add) } else { item.iter().rev().fold(0, add) }
+            if big {
+                item.iter().fold(0, add)
+            } else {
+                item.iter().rev().fold(0, add)
+            }
         };
         match self {
             Kind::Float { size: 4, big } => f64::from(f32::from_bits(whole(big) as u32)),
@@ -187,11 +231,17 @@ impl Kind {
     }
 
     fn word(self, item: &[u8]) -> String {
-        let Kind::Words { big, wide, .. } = self else { return String::new() };
+        let Kind::Words { big, wide, .. } = self else {
+            return String::new();
+        };
         let text: String = if wide {
             let letter = |four: &[u8]| {
                 let four: [u8; 4] = four.try_into().unwrap_or_default();
-                let code = if big { u32::from_be_bytes(four) } else { u32::from_le_bytes(four) };
+                let code = if big {
+                    u32::from_be_bytes(four)
+                } else {
+                    u32::from_le_bytes(four)
+                };
                 char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER)
             };
             item.chunks(4).map(letter).collect()
@@ -222,13 +272,21 @@ mod tests {
         }
         for descr in ["|O", "<c16", "<f2", "|b1", "", "<f", "<M8[ns]"] {
             let array = header::bytes(descr, &[0]);
-            assert_eq!(Array::read(&array), Err(Refusal::Kind(descr.to_owned())), "{descr}");
+            assert_eq!(
+                Array::read(&array),
+                Err(Refusal::Kind(descr.to_owned())),
+                "{descr}"
+            );
         }
     }
 
     #[test]
     fn words_and_numbers_read_back() {
-        let words = Array::words(&["ft".to_owned(), "\u{e9}lan \u{1f680}".to_owned(), String::new()]);
+        let words = Array::words(&[
+            "ft".to_owned(),
+            "\u{e9}lan \u{1f680}".to_owned(),
+            String::new(),
+        ]);
         assert_eq!(Array::read(&words.bytes(false)), Ok(words));
         let numbers = Array::line(&[-3.0, 0.0, 7.0]);
         assert_eq!(Array::read(&numbers.bytes(true)), Ok(numbers.clone()));
@@ -243,8 +301,17 @@ mod tests {
     #[test]
     fn a_shape_that_promises_too_much_is_refused() {
         let huge = header::bytes("<f8", &[usize::MAX, 2]);
-        assert!(matches!(Array::read(&huge), Err(Refusal::Size { found: 0, .. })));
+        assert!(matches!(
+            Array::read(&huge),
+            Err(Refusal::Size { found: 0, .. })
+        ));
         let short = [header::bytes("<f8", &[2]), vec![0; 15]].concat();
-        assert_eq!(Array::read(&short), Err(Refusal::Size { expected: 16, found: 15 }));
+        assert_eq!(
+            Array::read(&short),
+            Err(Refusal::Size {
+                expected: 16,
+                found: 15
+            })
+        );
     }
 }

@@ -43,13 +43,20 @@ fn parse(text: &str) -> Option<Header> {
                 after
             }
             "fortran_order" => {
-                let (word, is) = if value.starts_with("True") { ("True", true) } else { ("False", false) };
+                let (word, is) = if value.starts_with("True") {
+                    ("True", true)
+                } else {
+                    ("False", false)
+                };
                 fortran = Some(is);
                 value.strip_prefix(word)?
             }
             "shape" => {
                 let (inside, after) = value.strip_prefix('(')?.split_once(')')?;
-                let items = inside.split(',').map(str::trim).filter(|item| !item.is_empty());
+                let items = inside
+                    .split(',')
+                    .map(str::trim)
+                    .filter(|item| !item.is_empty());
                 let sizes = items.map(|item| item.trim_end_matches('L').parse().ok());
                 shape = Some(sizes.collect::<Option<Vec<usize>>>()?);
                 after
@@ -59,7 +66,11 @@ fn parse(text: &str) -> Option<Header> {
         rest = after.trim_start();
         rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
     }
-    Some(Header { descr: descr?, fortran: fortran?, shape: shape? })
+    Some(Header {
+        descr: descr?,
+        fortran: fortran?,
+        shape: shape?,
+    })
 }
 
 /// A string in quotation marks at the beginning of the text, and the remaining text.
@@ -73,8 +84,10 @@ fn quoted(text: &str) -> Option<(&str, &str)> {
 pub(super) fn bytes(descr: &str, shape: &[usize]) -> Vec<u8> {
     let sizes: Vec<String> = shape.iter().map(usize::to_string).collect();
     let comma = if sizes.len() == 1 { "," } else { "" };
-    let mut text =
-        format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}{comma}), }}", sizes.join(", "));
+    let mut text = format!(
+        "{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}{comma}), }}",
+        sizes.join(", ")
+    );
     let fixed = 10;
     while (fixed + text.len() + 1) % 64 != 0 {
         text.push(' ');
@@ -94,17 +107,36 @@ mod tests {
     #[test]
     fn headers_are_read_as_every_numpy_writes_them() {
         for (text, shape) in [
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (7, 7), }", vec![7, 7]),
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (7,), }  \n", vec![7]),
-            ("{\"shape\": (), 'fortran_order': False, 'descr': '<f8'}", vec![]),
-            ("{'descr': '<f8', 'fortran_order': False, 'shape': (7L, 7L)}", vec![7, 7]),
+            (
+                "{'descr': '<f8', 'fortran_order': False, 'shape': (7, 7), }",
+                vec![7, 7],
+            ),
+            (
+                "{'descr': '<f8', 'fortran_order': False, 'shape': (7,), }  \n",
+                vec![7],
+            ),
+            (
+                "{\"shape\": (), 'fortran_order': False, 'descr': '<f8'}",
+                vec![],
+            ),
+            (
+                "{'descr': '<f8', 'fortran_order': False, 'shape': (7L, 7L)}",
+                vec![7, 7],
+            ),
         ] {
-            let expected = Header { descr: "<f8".to_owned(), fortran: false, shape };
+            let expected = Header {
+                descr: "<f8".to_owned(),
+                fortran: false,
+                shape,
+            };
             assert_eq!(parse(text), Some(expected), "{text}");
         }
-        for text in
-            ["", "{", "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': ()}", "{'shape': (-1,)}"]
-        {
+        for text in [
+            "",
+            "{",
+            "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': ()}",
+            "{'shape': (-1,)}",
+        ] {
             assert_eq!(parse(text), None, "{text}");
         }
     }

@@ -42,7 +42,8 @@ impl Keys {
 /// Whether the name of an array of one key would equal the other key or the name of one of its arrays.
 fn clash(a: &str, b: &str) -> bool {
     let belongs = |a: &str, b: &str| {
-        b.strip_prefix(a).is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
+        b.strip_prefix(a)
+            .is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
     };
     belongs(a, b) || belongs(b, a)
 }

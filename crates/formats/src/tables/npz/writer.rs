@@ -12,15 +12,32 @@ use crate::tables::set::{Product, Table, TableSet};
 pub(in crate::tables) fn write(set: &TableSet) -> Result<Vec<u8>, ZipError> {
     let mut out = Out(Vec::new());
     let mut keys = Keys::default();
-    out.add("name", &Array { shape: Vec::new(), data: Data::Words(vec![set.name.clone()]) });
+    out.add(
+        "name",
+        &Array {
+            shape: Vec::new(),
+            data: Data::Words(vec![set.name.clone()]),
+        },
+    );
     out.add(
         "units",
         &Array::words(&[set.units.length.word(), set.units.force.word(), "s"].map(str::to_owned)),
     );
-    let (curves, tables): (Vec<&Table>, Vec<&Table>) =
-        set.tables.iter().partition(|table| table.curves.z().is_empty());
-    let rails = set.tables.iter().filter_map(|table| table.rails.as_ref()).flatten();
-    let rails = rails.chain(set.products.iter().filter_map(|product| product.rails.as_ref()).flatten());
+    let (curves, tables): (Vec<&Table>, Vec<&Table>) = set
+        .tables
+        .iter()
+        .partition(|table| table.curves.z().is_empty());
+    let rails = set
+        .tables
+        .iter()
+        .filter_map(|table| table.rails.as_ref())
+        .flatten();
+    let rails = rails.chain(
+        set.products
+            .iter()
+            .filter_map(|product| product.rails.as_ref())
+            .flatten(),
+    );
     let mut known: Vec<&String> = rails.collect();
     known.sort();
     known.dedup();
@@ -41,7 +58,14 @@ impl Out {
 
     /// Adds numbers as 64-bit integers.
     fn whole(&mut self, name: &str, shape: Vec<usize>, list: Vec<f64>) {
-        self.0.push((name.to_owned(), Array { shape, data: Data::Numbers(list) }.bytes(true)));
+        self.0.push((
+            name.to_owned(),
+            Array {
+                shape,
+                data: Data::Numbers(list),
+            }
+            .bytes(true),
+        ));
     }
 
     fn ids(&mut self, name: &str, ids: impl Iterator<Item = u32>) {
@@ -56,15 +80,19 @@ impl Out {
         all: impl Iterator<Item = (Option<GridBlock>, &'t Option<[String; 2]>)> + Clone,
     ) {
         if all.clone().any(|(quantity, _)| quantity.is_some()) {
-            let quantity = |one: Option<GridBlock>| one.map(|one| one.to_string()).unwrap_or_default();
+            let quantity =
+                |one: Option<GridBlock>| one.map(|one| one.to_string()).unwrap_or_default();
             let words: Vec<String> = all.clone().map(|(one, _)| quantity(one)).collect();
             self.add(&format!("{before}quantity"), &Array::words(&words));
         }
         if all.clone().any(|(_, rails)| rails.is_some()) {
             for (index, name) in ["rail", "load_rail"].into_iter().enumerate() {
-                let rail = |rails: &Option<[String; 2]>| rails.as_ref().map(|two| two[index].clone());
-                let words: Vec<String> =
-                    all.clone().map(|(_, rails)| rail(rails).unwrap_or_default()).collect();
+                let rail =
+                    |rails: &Option<[String; 2]>| rails.as_ref().map(|two| two[index].clone());
+                let words: Vec<String> = all
+                    .clone()
+                    .map(|(_, rails)| rail(rails).unwrap_or_default())
+                    .collect();
                 self.add(&format!("{before}{name}"), &Array::words(&words));
             }
         }
@@ -76,15 +104,36 @@ fn plain_tables(out: &mut Out, keys: &mut Keys, tables: &[&Table], one_rail: boo
     let Some(first) = tables.first() else { return };
     let names: Vec<String> = tables
         .iter()
-        .map(|table| keys.take(&preferred(&table.name, table.quantity, &table.rails, one_rail)))
+        .map(|table| {
+            keys.take(&preferred(
+                &table.name,
+                table.quantity,
+                &table.rails,
+                one_rail,
+            ))
+        })
         .collect();
     out.add("tables", &Array::words(&names));
     out.ids("ids", tables.iter().map(|table| table.id));
-    out.add("names", &Array::words(&tables.iter().map(|table| table.name.clone()).collect::<Vec<_>>()));
-    out.relations("", tables.iter().map(|table| (table.quantity, &table.rails)));
+    out.add(
+        "names",
+        &Array::words(
+            &tables
+                .iter()
+                .map(|table| table.name.clone())
+                .collect::<Vec<_>>(),
+        ),
+    );
+    out.relations(
+        "",
+        tables.iter().map(|table| (table.quantity, &table.rails)),
+    );
     let stations = first.curves.x();
-    let same =
-        |table: &&Table| [table.curves.x(), table.curves.z()].iter().all(|list| same_bits(list, stations));
+    let same = |table: &&Table| {
+        [table.curves.x(), table.curves.z()]
+            .iter()
+            .all(|list| same_bits(list, stations))
+    };
     let common = tables.iter().all(same);
     if common {
         out.add("stations", &Array::line(stations));
@@ -97,7 +146,10 @@ fn plain_tables(out: &mut Out, keys: &mut Keys, tables: &[&Table], one_rail: boo
         }
         out.add(
             key,
-            &Array { shape: vec![z.len(), x.len()], data: Data::Numbers(table.curves.y().concat()) },
+            &Array {
+                shape: vec![z.len(), x.len()],
+                data: Data::Numbers(table.curves.y().concat()),
+            },
         );
     }
 }
@@ -122,7 +174,12 @@ fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
     };
     let names: Vec<String> = groups.iter().copied().map(name).collect();
     out.add("curves", &Array::words(&names));
-    out.relations("curves_", groups.iter().map(|group| (group[0].quantity, &group[0].rails)));
+    out.relations(
+        "curves_",
+        groups
+            .iter()
+            .map(|group| (group[0].quantity, &group[0].rails)),
+    );
     for (key, group) in names.iter().zip(&groups) {
         let x = group[0].curves.x();
         out.add(&format!("{key}_x"), &Array::line(x));
@@ -131,7 +188,13 @@ fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
         out.add(&format!("{key}_names"), &Array::words(&titles));
         let value = |k: usize| group[k % group.len()].curves.y()[0][k / group.len()];
         let values = (0..x.len() * group.len()).map(value).collect();
-        out.add(key, &Array { shape: vec![x.len(), group.len()], data: Data::Numbers(values) });
+        out.add(
+            key,
+            &Array {
+                shape: vec![x.len(), group.len()],
+                data: Data::Numbers(values),
+            },
+        );
     }
 }
 
@@ -142,16 +205,36 @@ fn products(out: &mut Out, keys: &mut Keys, products: &[Product], one_rail: bool
     }
     let names: Vec<String> = products
         .iter()
-        .map(|product| keys.take(&preferred(&product.name, product.quantity, &product.rails, one_rail)))
+        .map(|product| {
+            keys.take(&preferred(
+                &product.name,
+                product.quantity,
+                &product.rails,
+                one_rail,
+            ))
+        })
         .collect();
     out.add("products", &Array::words(&names));
-    let titles: Vec<String> = products.iter().map(|product| product.name.clone()).collect();
+    let titles: Vec<String> = products
+        .iter()
+        .map(|product| product.name.clone())
+        .collect();
     out.add("products_names", &Array::words(&titles));
-    out.relations("products_", products.iter().map(|product| (product.quantity, &product.rails)));
+    out.relations(
+        "products_",
+        products
+            .iter()
+            .map(|product| (product.quantity, &product.rails)),
+    );
     let expressions: Vec<String> = products.iter().map(Product::expression).collect();
     out.add("expressions", &Array::words(&expressions));
     for (key, product) in names.iter().zip(products) {
-        let terms: Vec<f64> = product.terms.iter().flatten().map(|&id| f64::from(id)).collect();
+        let terms: Vec<f64> = product
+            .terms
+            .iter()
+            .flatten()
+            .map(|&id| f64::from(id))
+            .collect();
         out.whole(&format!("{key}_terms"), vec![product.terms.len(), 2], terms);
     }
 }

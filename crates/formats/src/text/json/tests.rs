@@ -12,9 +12,10 @@ fn plain(node: &TreeNode<'_>) -> serde_json::Value {
         Value::Float(value) => (*value).into(),
         Value::Text(text) => text.as_ref().into(),
         Value::List(items) => items.iter().map(plain).collect(),
-        Value::Object(members) => {
-            members.iter().map(|member| (member.key.clone().into_owned(), plain(&member.value))).collect()
-        }
+        Value::Object(members) => members
+            .iter()
+            .map(|member| (member.key.clone().into_owned(), plain(&member.value)))
+            .collect(),
     }
 }
 
@@ -26,13 +27,19 @@ fn peer(text: &str) -> Result<serde_json::Value, (String, usize)> {
         let lines = text.split_inclusive('\n').take(error.line() - 1);
         let start = lines.map(str::len).sum::<usize>();
         let offset = (start + error.column().saturating_sub(1)).min(text.len());
-        (message.strip_suffix(&tail).unwrap_or(&message).to_owned(), offset)
+        (
+            message.strip_suffix(&tail).unwrap_or(&message).to_owned(),
+            offset,
+        )
     })
 }
 
 fn own(text: &str) -> Result<serde_json::Value, (String, usize)> {
     let Reading { root, error } = read(text);
-    error.map_or_else(|| Ok(plain(&root)), |error| Err((error.message, error.offset)))
+    error.map_or_else(
+        || Ok(plain(&root)),
+        |error| Err((error.message, error.offset)),
+    )
 }
 
 fn agree(text: &str) {
@@ -71,7 +78,9 @@ fn texts_are_taken_or_refused_as_serde_json_does_it_wherever_they_are_damaged() 
         "\\u12",
         "1e99999999999",
     ];
-    let ends: Vec<usize> = (0..=GOOD.len()).filter(|&at| GOOD.is_char_boundary(at)).collect();
+    let ends: Vec<usize> = (0..=GOOD.len())
+        .filter(|&at| GOOD.is_char_boundary(at))
+        .collect();
     for pair in ends.windows(2) {
         let [at, after] = [pair[0], pair[1]];
         agree(&GOOD[..at]);
@@ -132,7 +141,11 @@ fn numbers_are_those_of_serde_json_to_the_last_bit() {
         let value = f64::from_bits(random.u64(..));
         if value.is_finite() {
             let text = format!("{value:e}");
-            assert_eq!(own(&text).ok().and_then(|value| value.as_f64()), Some(value), "{text}");
+            assert_eq!(
+                own(&text).ok().and_then(|value| value.as_f64()),
+                Some(value),
+                "{text}"
+            );
         }
     }
 }
@@ -141,7 +154,11 @@ fn numbers_are_those_of_serde_json_to_the_last_bit() {
 fn values_are_nested_127_deep_and_no_deeper() {
     for depth in [126, 127, 128, 200] {
         agree(&format!("{}1{}", "[".repeat(depth), "]".repeat(depth)));
-        agree(&format!("{}1{}", "{\"a\":".repeat(depth), "}".repeat(depth)));
+        agree(&format!(
+            "{}1{}",
+            "{\"a\":".repeat(depth),
+            "}".repeat(depth)
+        ));
     }
 }
 
@@ -154,7 +171,11 @@ fn an_error_keeps_the_path_of_the_value_that_breaks_off() {
         ("{\"a\": 1} 2", ""),
     ] {
         let Reading { root, error } = read(text);
-        assert_eq!(error.map(|error| error.path.to_string()).as_deref(), Some(path), "{text}");
+        assert_eq!(
+            error.map(|error| error.path.to_string()).as_deref(),
+            Some(path),
+            "{text}"
+        );
         assert!(matches!(root.value, Value::Object(_)), "{text}");
     }
 }
@@ -164,5 +185,8 @@ fn a_text_of_too_many_values_is_refused_before_it_is_read() {
     let text = "[1, 2, [3, 4], 5]";
     assert!(read_up_to(text, 4).error.is_none());
     let error = read_up_to(text, 3).error.expect("a fourth comma");
-    assert_eq!((error.message.as_str(), error.offset), (TOO_MANY_VALUES, 13));
+    assert_eq!(
+        (error.message.as_str(), error.offset),
+        (TOO_MANY_VALUES, 13)
+    );
 }

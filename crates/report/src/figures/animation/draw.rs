@@ -24,7 +24,11 @@ pub(super) struct PlanDrawing {
 
 impl PlanDrawing {
     pub fn new() -> PlanDrawing {
-        PlanDrawing { body: String::new(), tracks: Vec::new(), elements: 0 }
+        PlanDrawing {
+            body: String::new(),
+            tracks: Vec::new(),
+            elements: 0,
+        }
     }
 
     fn add(&mut self, text: &str) {
@@ -36,15 +40,23 @@ impl PlanDrawing {
     fn element(&mut self, tracks: impl IntoIterator<Item = AnimationTrack>) -> String {
         let element = self.elements;
         self.elements += 1;
-        self.tracks.extend(tracks.into_iter().map(|track| (element, track)));
+        self.tracks
+            .extend(tracks.into_iter().map(|track| (element, track)));
         format!("data-m=\"{element}\"")
     }
 
     /// Adds elements by `draw` that move along `places`; they are drawn at the frame `still`.
-    pub fn moving(&mut self, places: Vec<[f64; 2]>, still: usize, draw: impl FnOnce(&mut PlanDrawing)) {
+    pub fn moving(
+        &mut self,
+        places: Vec<[f64; 2]>,
+        still: usize,
+        draw: impl FnOnce(&mut PlanDrawing),
+    ) {
         let [x, y] = places.get(still).copied().unwrap_or_default();
         let mark = self.element([AnimationTrack::Displacement(places)]);
-        self.add(&format!("<g {mark} transform=\"translate({x:.2} {y:.2})\">"));
+        self.add(&format!(
+            "<g {mark} transform=\"translate({x:.2} {y:.2})\">"
+        ));
         draw(self);
         self.add("</g>");
     }
@@ -65,7 +77,10 @@ impl PlanDrawing {
     }
 
     pub fn shape(&mut self, points: &[[f64; 2]], fill: &str) {
-        let all: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+        let all: Vec<String> = points
+            .iter()
+            .map(|[x, y]| format!("{x:.2},{y:.2}"))
+            .collect();
         self.add(&format!(
             "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>",
             all.join(" ")
@@ -100,10 +115,19 @@ impl PlanDrawing {
 
     /// Adds a polyline through fixed abscissas whose ordinates vary; `places[k]` are the ordinates of point k in each
     /// frame.
-    pub fn curve(&mut self, x: Vec<f64>, places: Vec<Vec<f64>>, still: usize, (colour, width): (&str, f64)) {
+    pub fn curve(
+        &mut self,
+        x: Vec<f64>,
+        places: Vec<Vec<f64>>,
+        still: usize,
+        (colour, width): (&str, f64),
+    ) {
         let now = |values: &Vec<f64>| values.get(still).copied().unwrap_or_default();
-        let points: Vec<String> =
-            x.iter().zip(&places).map(|(x, values)| format!("{x:.1},{:.1}", now(values))).collect();
+        let points: Vec<String> = x
+            .iter()
+            .zip(&places)
+            .map(|(x, values)| format!("{x:.1},{:.1}", now(values)))
+            .collect();
         let mark = self.element([AnimationTrack::Curve(x, places)]);
         self.add(&format!(
             "<polyline {mark} points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>",
@@ -116,15 +140,26 @@ impl PlanDrawing {
     pub fn scale_bar(&mut self, [x, y]: [f64; 2], room: f64, scale: f64, unit: &str) {
         let length = round_length(0.2 * room / scale);
         let end = x + length * scale;
-        for line in [[[x, y], [end, y]], [[x, y - 4.0], [x, y + 4.0]], [[end, y - 4.0], [end, y + 4.0]]] {
+        for line in [
+            [[x, y], [end, y]],
+            [[x, y - 4.0], [x, y + 4.0]],
+            [[end, y - 4.0], [end, y + 4.0]],
+        ] {
             self.line(line, INK, 1.2);
         }
-        self.text([end + 6.0, y + 4.0], &format!("{length} {unit}"), (INK, 11.0), "start");
+        self.text(
+            [end + 6.0, y + 4.0],
+            &format!("{length} {unit}"),
+            (INK, 11.0),
+            "start",
+        );
     }
 
     /// Adds a line whose ends both move.
     pub fn rope(&mut self, ends: [Vec<[f64; 2]>; 2], still: usize) {
-        let now = ends.each_ref().map(|end| end.get(still).copied().unwrap_or_default());
+        let now = ends
+            .each_ref()
+            .map(|end| end.get(still).copied().unwrap_or_default());
         let part = |end: usize, k: usize| ends[end].iter().map(|place| place[k]).collect();
         let tracks = [
             AnimationTrack::Attribute("x1", part(0, 0)),
@@ -175,8 +210,11 @@ impl PlanDrawing {
 
     /// The finished picture with its tracks.
     pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, AnimationTrack)>) {
-        let svg =
-            Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
+        let svg = Svg::new(
+            width,
+            height.round(),
+            format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body),
+        );
         (svg, self.tracks)
     }
 }
@@ -184,11 +222,20 @@ impl PlanDrawing {
 /// The largest of 1, 2 and 5 times a power of ten that is not above `length`.
 fn round_length(length: f64) -> f64 {
     let power = 10f64.powi(length.log10().floor() as i32);
-    let factor = [5.0, 2.0].into_iter().find(|factor| factor * power <= length).unwrap_or(1.0);
+    let factor = [5.0, 2.0]
+        .into_iter()
+        .find(|factor| factor * power <= length)
+        .unwrap_or(1.0);
     // powers below one are inexact
-    if power < 1.0 { factor / (1.0 / power).round() } else { factor * power }
+    if power < 1.0 {
+        factor / (1.0 / power).round()
+    } else {
+        factor * power
+    }
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
 }

@@ -40,7 +40,10 @@ pub fn animation_figure(
     known: &[SolvedStructure],
 ) -> Result<Option<RunFigure>, FigureError> {
     let scene = run.scene;
-    let is_carrying = scene.structures.iter().any(|structure| structure.carrier.is_some());
+    let is_carrying = scene
+        .structures
+        .iter()
+        .any(|structure| structure.carrier.is_some());
     let has_suspended = scene.bodies.iter().any(|body| body.in_space);
     let time = run.record.values("time");
     if !(is_carrying || has_suspended) {
@@ -53,7 +56,10 @@ pub fn animation_figure(
     let rows: Vec<usize> = (0..time.len()).step_by(every).collect();
     let layout = ScenePositions::new(scene)?;
     let largest = |row: &usize| {
-        let grounded = input.wheels.iter().filter(|wheel| layout.rail_line(wheel.rail).is_none());
+        let grounded = input
+            .wheels
+            .iter()
+            .filter(|wheel| layout.rail_line(wheel.rail).is_none());
         let forces = grounded.map(|wheel| run.record.part(&wheel.name, "vertical")[*row]);
         forces.fold(0.0, f64::max)
     };
@@ -64,7 +70,15 @@ pub fn animation_figure(
         }
     }
     let force = if most > 0.0 { BAR / most } else { 0.0 };
-    let view = AnimationView { scene, input, layout, run, rows, still, force };
+    let view = AnimationView {
+        scene,
+        input,
+        layout,
+        run,
+        rows,
+        still,
+        force,
+    };
     let mut drawing = PlanDrawing::new();
     let top = plan::draw(&view, &mut drawing, 46.0);
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
@@ -80,7 +94,12 @@ pub fn animation_figure(
     );
     let times: Vec<f64> = view.rows.iter().map(|row| time[*row]).collect();
     let (svg, tracks) = drawing.finish(WIDTH, bottom);
-    let animation = Animation { svg, still_time: times[view.still], times, tracks };
+    let animation = Animation {
+        svg,
+        still_time: times[view.still],
+        times,
+        tracks,
+    };
     Ok(Some(RunFigure {
         name: "crane".to_owned(),
         caption,

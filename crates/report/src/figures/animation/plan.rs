@@ -17,12 +17,20 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
     }
     let trucks = view.trucks();
     for body in view.order() {
-        let places: Vec<[f64; 2]> = view.origins(body).into_iter().map(|at| plan.place(at)).collect();
+        let places: Vec<[f64; 2]> = view
+            .origins(body)
+            .into_iter()
+            .map(|at| plan.place(at))
+            .collect();
         if view.scene.bodies[body].in_space {
-            drawing.moving(places, view.still, |drawing| drawing.disc([0.0, 0.0], 8.0, ORANGE));
+            drawing.moving(places, view.still, |drawing| {
+                drawing.disc([0.0, 0.0], 8.0, ORANGE)
+            });
             continue;
         }
-        drawing.moving(places, view.still, |drawing| plan.draw_body(drawing, body, &trucks));
+        drawing.moving(places, view.still, |drawing| {
+            plan.draw_body(drawing, body, &trucks)
+        });
     }
     let [low, high] = plan.across;
     let bottom = plan.top + (high - low) * plan.scale + BAR + 14.0;
@@ -34,7 +42,9 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
 
 /// Least and greatest of `values`, infinities in reverse order if there are none.
 fn hull(values: &mut dyn Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+        [low.min(v), high.max(v)]
+    })
 }
 
 /// The view with its scale: both axes of the plan have the same.
@@ -55,23 +65,38 @@ impl<'p> Plan<'p> {
     /// The plan of `rails` (index, lateral coordinate) below the ordinate `top`.
     fn new(view: &'p AnimationView<'p>, rails: &[(usize, f64)], top: f64) -> Plan<'p> {
         let scene = view.scene;
-        let [mut from, mut to] = hull(&mut rails.iter().flat_map(|(rail, _)| scene.rails[*rail].range));
+        let [mut from, mut to] =
+            hull(&mut rails.iter().flat_map(|(rail, _)| scene.rails[*rail].range));
         if from >= to || !from.is_finite() || !to.is_finite() {
             (from, to) = (0.0, 1.0);
         }
         let [low, high] = hull(&mut rails.iter().map(|(_, z)| *z));
-        let [low, high] = if low.is_finite() { [low, high] } else { [0.0, 0.0] };
+        let [low, high] = if low.is_finite() {
+            [low, high]
+        } else {
+            [0.0, 0.0]
+        };
         let mut scale = (WIDTH - 2.0 * SIDE) / (to - from);
         if high > low {
             scale = scale.min(ACROSS / (high - low));
         }
         let left = 0.5 * (WIDTH - scale * (to - from));
-        Plan { view, scale, from, across: [low, high], left, top: top + BAR + 14.0 }
+        Plan {
+            view,
+            scale,
+            from,
+            across: [low, high],
+            left,
+            top: top + BAR + 14.0,
+        }
     }
 
     /// Place of a point on the picture.
     fn place(&self, [x, _, z]: [f64; 3]) -> [f64; 2] {
-        [self.left + (x - self.from) * self.scale, self.top + (z - self.across[0]) * self.scale]
+        [
+            self.left + (x - self.from) * self.scale,
+            self.top + (z - self.across[0]) * self.scale,
+        ]
     }
 
     /// Arrows of the axes, along the runway and lateral, and of north where the names of the rails tell it.
@@ -79,7 +104,12 @@ impl<'p> Plan<'p> {
         let mut arrow = |[dx, dy]: [f64; 2], from: [f64; 2], name: &str| {
             let tip = [from[0] + 26.0 * dx, from[1] + 26.0 * dy];
             drawing.line([from, tip], INK, 1.2);
-            let side = |sign: f64| [tip[0] - 7.0 * dx - 3.0 * sign * dy, tip[1] - 7.0 * dy + 3.0 * sign * dx];
+            let side = |sign: f64| {
+                [
+                    tip[0] - 7.0 * dx - 3.0 * sign * dy,
+                    tip[1] - 7.0 * dy + 3.0 * sign * dx,
+                ]
+            };
             drawing.shape(&[tip, side(1.0), side(-1.0)], INK);
             drawing.text(
                 [tip[0] + 10.0 * dx + 6.0 * dy.abs(), tip[1] + 4.0 + 4.0 * dy],
@@ -91,8 +121,12 @@ impl<'p> Plan<'p> {
         arrow([1.0, 0.0], [x, y], "x");
         arrow([0.0, 1.0], [x, y], "z");
         let named = |word: &str| {
-            let is_named =
-                |(rail, _): &&(usize, f64)| self.view.scene.rails[*rail].name.to_lowercase().contains(word);
+            let is_named = |(rail, _): &&(usize, f64)| {
+                self.view.scene.rails[*rail]
+                    .name
+                    .to_lowercase()
+                    .contains(word)
+            };
             rails.iter().find(is_named).map(|(_, z)| *z)
         };
         if let (Some(north), Some(south)) = (named("north"), named("south")) {
@@ -108,8 +142,17 @@ impl<'p> Plan<'p> {
         let own = &scene.rails[rail];
         let ends = own.range.map(|x| self.place([x, 0.0, z]));
         drawing.line(ends, INK, 2.0);
-        let side = if z > 0.5 * (low + high) || high == low { 14.0 } else { -8.0 };
-        drawing.text([ends[0][0], ends[0][1] + side], &own.name, (GREY, 11.0), "start");
+        let side = if z > 0.5 * (low + high) || high == low {
+            14.0
+        } else {
+            -8.0
+        };
+        drawing.text(
+            [ends[0][0], ends[0][1] + side],
+            &own.name,
+            (GREY, 11.0),
+            "start",
+        );
         for x in &scene.structures[own.structure].rails[own.rail].stations {
             let [x, y] = self.place([*x, 0.0, z]);
             drawing.line([[x, y - 2.0], [x, y + 2.0]], GREY, 1.0);
@@ -144,9 +187,20 @@ impl<'p> Plan<'p> {
 
     /// The frame of a body whose wheels lie within `x_range` and `y_range`: a bridge as end trucks on both rails with
     /// girders between them, another body as a rectangle.
-    fn draw_frame(&self, drawing: &mut PlanDrawing, body: usize, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) {
+    fn draw_frame(
+        &self,
+        drawing: &mut PlanDrawing,
+        body: usize,
+        [x0, x1]: [f64; 2],
+        [y0, y1]: [f64; 2],
+    ) {
         let [low, high] = self.across;
-        let carries: Vec<_> = self.view.layout.carried(body).flat_map(|mount| &mount.rails).collect();
+        let carries: Vec<_> = self
+            .view
+            .layout
+            .carried(body)
+            .flat_map(|mount| &mount.rails)
+            .collect();
         if carries.is_empty() && y1 - y0 < 0.5 * (high - low) * self.scale {
             drawing.rectangle([x0 - 4.0, y0 - 3.0, x1 - x0 + 8.0, y1 - y0 + 6.0], DARK);
             return;
@@ -154,7 +208,10 @@ impl<'p> Plan<'p> {
         for y in [y0, y1] {
             drawing.rectangle([x0 - 5.0, y - 4.0, x1 - x0 + 10.0, 8.0], STEEL);
         }
-        let mut girders: Vec<f64> = carries.iter().map(|axle| axle.origin[0] * self.scale).collect();
+        let mut girders: Vec<f64> = carries
+            .iter()
+            .map(|axle| axle.origin[0] * self.scale)
+            .collect();
         if girders.is_empty() {
             girders = vec![0.25 * (3.0 * x0 + x1), 0.25 * (x0 + 3.0 * x1)];
         }
@@ -175,15 +232,36 @@ impl<'p> Plan<'p> {
     ) {
         let view = self.view;
         let bars = |part: &str, sign: f64, end: f64| -> Vec<f64> {
-            view.wheel(wheel, part).into_iter().map(|force| end + sign * view.force * force).collect()
+            view.wheel(wheel, part)
+                .into_iter()
+                .map(|force| end + sign * view.force * force)
+                .collect()
         };
         if view.layout.track(body).is_some() {
             let outwards = if x > 0.5 * (x0 + x1) { 1.0 } else { -1.0 };
-            drawing.bar([x, y], "x2", bars("vertical", 0.5 * outwards, x), view.still, (BLUE, 3.0));
+            drawing.bar(
+                [x, y],
+                "x2",
+                bars("vertical", 0.5 * outwards, x),
+                view.still,
+                (BLUE, 3.0),
+            );
         } else {
             let outwards = if y > 0.5 * (y0 + y1) { 1.0 } else { -1.0 };
-            drawing.bar([x, y], "y2", bars("vertical", outwards, y), view.still, (INK, 3.0));
-            drawing.bar([x + 4.0, y], "y2", bars("lateral", 1.0, y), view.still, (ORANGE, 3.0));
+            drawing.bar(
+                [x, y],
+                "y2",
+                bars("vertical", outwards, y),
+                view.still,
+                (INK, 3.0),
+            );
+            drawing.bar(
+                [x + 4.0, y],
+                "y2",
+                bars("lateral", 1.0, y),
+                view.still,
+                (ORANGE, 3.0),
+            );
         }
     }
 }

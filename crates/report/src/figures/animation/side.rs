@@ -46,10 +46,14 @@ pub(super) fn side_view(
     if rails.is_empty() || time.len() < 2 {
         return Ok(None);
     }
-    let rows: Vec<usize> = (0..time.len()).step_by(time.len().div_ceil(FRAMES)).collect();
+    let rows: Vec<usize> = (0..time.len())
+        .step_by(time.len().div_ceil(FRAMES))
+        .collect();
     let on_rows = |name: &str, part: &str| -> Vec<f64> {
         let values = run.record.part(name, part);
-        rows.iter().map(|row| values.get(*row).copied().unwrap_or_default()).collect()
+        rows.iter()
+            .map(|row| values.get(*row).copied().unwrap_or_default())
+            .collect()
     };
     let wheels: Vec<[Vec<f64>; 3]> = input
         .wheels
@@ -60,10 +64,16 @@ pub(super) fn side_view(
     for rail in &rails {
         shapes.push(deflected(run, input, known, *rail, &wheels)?);
     }
-    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, v| most.max(v.abs()));
-    let deepest =
-        most(&mut shapes.iter().flat_map(|shape| shape.iter().flat_map(|(_, w)| w.iter().copied())));
-    let deepest = deepest.max(most(&mut wheels.iter().flat_map(|wheel| wheel[1].iter().copied())));
+    let most =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, v| most.max(v.abs()));
+    let deepest = most(
+        &mut shapes
+            .iter()
+            .flat_map(|shape| shape.iter().flat_map(|(_, w)| w.iter().copied())),
+    );
+    let deepest = deepest.max(most(
+        &mut wheels.iter().flat_map(|wheel| wheel[1].iter().copied()),
+    ));
     let largest = most(&mut wheels.iter().flat_map(|wheel| wheel[2].iter().copied()));
     let still = (0..rows.len())
         .max_by(|a, b| {
@@ -73,8 +83,14 @@ pub(super) fn side_view(
         .unwrap_or_default();
 
     let range = |rail: usize| scene.rails[rail].range;
-    let from = rails.iter().map(|rail| range(*rail)[0]).fold(f64::INFINITY, f64::min);
-    let to = rails.iter().map(|rail| range(*rail)[1]).fold(f64::NEG_INFINITY, f64::max);
+    let from = rails
+        .iter()
+        .map(|rail| range(*rail)[0])
+        .fold(f64::INFINITY, f64::min);
+    let to = rails
+        .iter()
+        .map(|rail| range(*rail)[1])
+        .fold(f64::NEG_INFINITY, f64::max);
     if !(from.is_finite() && to > from) {
         return Ok(None);
     }
@@ -87,17 +103,35 @@ pub(super) fn side_view(
         let level = 20.0 + BAR + 26.0 + HEIGHT * k as f64;
         let ends = range(*rail).map(across);
         drawing.line([[ends[0], level], [ends[1], level]], GREY, 0.8);
-        drawing.text([ends[0], level + DEPTH + 22.0], &scene.rails[*rail].name, (GREY, 11.0), "start");
+        drawing.text(
+            [ends[0], level + DEPTH + 22.0],
+            &scene.rails[*rail].name,
+            (GREY, 11.0),
+            "start",
+        );
         let (x, w): (Vec<f64>, Vec<Vec<f64>>) = shape
             .into_iter()
-            .map(|(x, w)| (across(x), w.into_iter().map(|w| level + depth * w).collect()))
+            .map(|(x, w)| {
+                (
+                    across(x),
+                    w.into_iter().map(|w| level + depth * w).collect(),
+                )
+            })
             .unzip();
         if !x.is_empty() {
             drawing.curve(x, w, still, (INK, 3.0));
         }
-        for (wheel, [x, w, f]) in input.wheels.iter().zip(&wheels).filter(|(wheel, _)| wheel.rail == *rail) {
-            let places: Vec<[f64; 2]> =
-                x.iter().zip(w).map(|(x, w)| [across(*x), level + depth * w]).collect();
+        for (wheel, [x, w, f]) in input
+            .wheels
+            .iter()
+            .zip(&wheels)
+            .filter(|(wheel, _)| wheel.rail == *rail)
+        {
+            let places: Vec<[f64; 2]> = x
+                .iter()
+                .zip(w)
+                .map(|(x, w)| [across(*x), level + depth * w])
+                .collect();
             let is_driven = scene.wheels[wheel.kind].driven;
             drawing.moving(places, still, |drawing| {
                 drawing.disc([0.0, -WHEEL], WHEEL, if is_driven { DARK } else { STEEL });
@@ -123,9 +157,18 @@ pub(super) fn side_view(
         force_unit,
     );
     let times: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
-    let animation = Animation { svg, still_time: times[still], times, tracks };
+    let animation = Animation {
+        svg,
+        still_time: times[still],
+        times,
+        tracks,
+    };
     let picture = Picture::Animation(Box::new(animation));
-    Ok(Some(RunFigure { name: "motion".to_owned(), caption, picture }))
+    Ok(Some(RunFigure {
+        name: "motion".to_owned(),
+        caption,
+        picture,
+    }))
 }
 
 /// Deflection of a rail at points along it in each frame, under the vertical forces of all wheels on its
@@ -140,10 +183,21 @@ fn deflected(
     let scene = run.scene;
     let own = &scene.rails[rail];
     let solved = solution_of(known, &scene.structures[own.structure].origin);
-    let Some(surface) = solved.and_then(|solved| solved.surface.as_ref()) else { return Ok(Vec::new()) };
+    let Some(surface) = solved.and_then(|solved| solved.surface.as_ref()) else {
+        return Ok(Vec::new());
+    };
     let [from, to] = own.range;
-    let places: Vec<f64> = (0..POINTS).map(|i| from + (to - from) * i as f64 / (POINTS - 1) as f64).collect();
-    let at: Vec<Probe> = places.iter().map(|&x| Probe { rail: own.rail, x, axis: Axis::Vertical }).collect();
+    let places: Vec<f64> = (0..POINTS)
+        .map(|i| from + (to - from) * i as f64 / (POINTS - 1) as f64)
+        .collect();
+    let at: Vec<Probe> = places
+        .iter()
+        .map(|&x| Probe {
+            rail: own.rail,
+            x,
+            axis: Axis::Vertical,
+        })
+        .collect();
     let mut shapes: Vec<(f64, Vec<f64>)> = places.iter().map(|x| (*x, Vec::new())).collect();
     let frames = wheels.first().map_or(0, |wheel| wheel[0].len());
     let fixed = surface.at_places(&at)?;
@@ -154,7 +208,14 @@ fn deflected(
         let loads: Vec<(Probe, f64)> = on
             .map(|(wheel, [x, _, force])| {
                 let rail = scene.rails[wheel.rail].rail;
-                (Probe { rail, x: x[frame], axis: Axis::Vertical }, force[frame])
+                (
+                    Probe {
+                        rail,
+                        x: x[frame],
+                        axis: Axis::Vertical,
+                    },
+                    force[frame],
+                )
             })
             .collect();
         fixed.under(&loads, &[], &mut down)?;

@@ -26,19 +26,31 @@ impl AnimationView<'_> {
     /// A quantity of a wheel in each frame.
     pub fn wheel(&self, wheel: usize, part: &str) -> Vec<f64> {
         let values = self.run.record.part(&self.input.wheels[wheel].name, part);
-        self.rows.iter().map(|row| values.get(*row).copied().unwrap_or_default()).collect()
+        self.rows
+            .iter()
+            .map(|row| values.get(*row).copied().unwrap_or_default())
+            .collect()
     }
 
     /// Origin of a body in each frame.
     pub fn origins(&self, body: usize) -> Vec<[f64; 3]> {
-        self.rows.iter().map(|row| self.layout.origin(self.run.record, body, *row)).collect()
+        self.rows
+            .iter()
+            .map(|row| self.layout.origin(self.run.record, body, *row))
+            .collect()
     }
 
     /// Bodies in the order in which they are drawn: carried bodies after those that carry them.
     pub fn order(&self) -> Vec<usize> {
         let bodies = &self.scene.bodies;
         let mut order: Vec<usize> = (0..bodies.len()).collect();
-        order.sort_by_key(|body| (bodies[*body].in_space, self.layout.track(*body).is_some(), *body));
+        order.sort_by_key(|body| {
+            (
+                bodies[*body].in_space,
+                self.layout.track(*body).is_some(),
+                *body,
+            )
+        });
         order
     }
 
@@ -58,7 +70,11 @@ impl AnimationView<'_> {
     /// Indices of the wheels under each truck, in the order of the simulator.
     pub fn trucks(&self) -> Vec<std::ops::Range<usize>> {
         let mut next = 0;
-        let counts = self.scene.trucks.iter().map(|truck| truck.wheel_offsets().len());
+        let counts = self
+            .scene
+            .trucks
+            .iter()
+            .map(|truck| truck.wheel_offsets().len());
         counts
             .map(|count| {
                 next += count;

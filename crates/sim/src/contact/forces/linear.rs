@@ -14,20 +14,26 @@ impl Problem {
         let m = force.len();
         let Effects { w, rate, kind, .. } = &self.effects;
         self.unknown.clear();
-        self.unknown.extend((0..m).filter(|&i| active[i] && matches!(kind[i], RowKind::Memory(_))));
+        self.unknown
+            .extend((0..m).filter(|&i| active[i] && matches!(kind[i], RowKind::Memory(_))));
         let count = self.unknown.len();
         if count == 0 {
             return false;
         }
         for (row, &i) in self.unknown.iter().enumerate() {
-            let RowKind::Memory(per_step) = kind[i] else { continue };
+            let RowKind::Memory(per_step) = kind[i] else {
+                continue;
+            };
             // e - p* = g r_0.
             self.residuals.value[row] = rate[i] / per_step;
             for (column, &j) in self.unknown.iter().enumerate() {
                 self.matrix[row * count + column] = w[i * m + j];
             }
         }
-        let (matrix, held) = (&mut self.matrix[..count * count], &mut self.residuals.value[..count]);
+        let (matrix, held) = (
+            &mut self.matrix[..count * count],
+            &mut self.residuals.value[..count],
+        );
         if !solve_general(matrix, held) {
             return false;
         }
@@ -48,10 +54,17 @@ impl Problem {
         force: &mut [f64],
     ) -> bool {
         let m = force.len();
-        let Effects { w, y, approach, rate, kind } = &self.effects;
+        let Effects {
+            w,
+            y,
+            approach,
+            rate,
+            kind,
+        } = &self.effects;
         self.factors.elements.clear();
         self.unknown.clear();
-        self.unknown.extend((0..m).filter(|&i| active[i] && kind[i] != RowKind::Given));
+        self.unknown
+            .extend((0..m).filter(|&i| active[i] && kind[i] != RowKind::Given));
         let count = self.unknown.len();
         let has_given = kind.contains(&RowKind::Given);
         for (row, &i) in self.unknown.iter().enumerate() {
@@ -64,7 +77,9 @@ impl Problem {
             };
             let mut rhs = (approach[i] + ratio * rate[i]) * scale;
             let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
-            let entries = self.matrix[row * count..(row + 1) * count].iter_mut().zip(&self.unknown);
+            let entries = self.matrix[row * count..(row + 1) * count]
+                .iter_mut()
+                .zip(&self.unknown);
             if by_rate == 0.0 {
                 entries.for_each(|(entry, &j)| *entry = own_w[j]);
             } else {
@@ -74,13 +89,21 @@ impl Problem {
                 rhs -= (own_w[j] + by_rate * own_y[j]) * force[j];
             }
             let wheels = system.mechanics.groups[i].count();
-            self.matrix[row * count + row] += scale / (law.stiffness * wheels * local[i].fraction[0]);
+            self.matrix[row * count + row] +=
+                scale / (law.stiffness * wheels * local[i].fraction[0]);
             self.residuals.value[row] = rhs;
         }
-        let (matrix, rhs) = (&mut self.matrix[..count * count], &mut self.residuals.value[..count]);
-        let is_symmetric =
-            system.traits.is_symmetric && !self.unknown.iter().any(|&i| kind[i] == RowKind::Passing);
-        let is_solved = if is_symmetric { solve_spd(matrix, rhs) } else { solve_general(matrix, rhs) };
+        let (matrix, rhs) = (
+            &mut self.matrix[..count * count],
+            &mut self.residuals.value[..count],
+        );
+        let is_symmetric = system.traits.is_symmetric
+            && !self.unknown.iter().any(|&i| kind[i] == RowKind::Passing);
+        let is_solved = if is_symmetric {
+            solve_spd(matrix, rhs)
+        } else {
+            solve_general(matrix, rhs)
+        };
         for i in (0..m).filter(|&i| kind[i] != RowKind::Given) {
             force[i] = 0.0;
         }

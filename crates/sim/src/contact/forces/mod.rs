@@ -128,7 +128,9 @@ impl Effects {
 
     /// Force of element `i` that keeps the displacement of its rail, with the other forces of `force` unchanged.
     fn keeping(&self, i: usize, force: &[f64]) -> Option<f64> {
-        let RowKind::Keeps(displacement) = self.kind[i] else { return None };
+        let RowKind::Keeps(displacement) = self.kind[i] else {
+            return None;
+        };
         let own = self.w[i * force.len() + i];
         Some(force[i] + (displacement - along(&self.w, i, force)) / own)
     }
@@ -183,7 +185,12 @@ impl Problem {
     /// Lists the elements of which the problem consists, where the first `verticals` elements are vertical contacts and
     /// `force` are the forces at the start.
     pub fn seek(&mut self, verticals: usize, force: &[f64]) {
-        let Problem { candidates, idle, sought, .. } = self;
+        let Problem {
+            candidates,
+            idle,
+            sought,
+            ..
+        } = self;
         let is_sought = |i: &usize| !idle[*i] || *i < verticals || force[*i] != 0.0;
         sought.clear();
         sought.extend(candidates.list().iter().copied().filter(is_sought));
@@ -191,17 +198,30 @@ impl Problem {
 
     /// Solves for the forces of the `active` elements; `force` contains the initial guess. Returns false if the
     /// solution fails.
-    pub fn solve(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
+    pub fn solve(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
         if system.traits.has_linear_laws && system.traits.is_vertical {
             return self.solve_linear(system, local, active, force);
         }
         self.solve_newton(system, local, active, force)
-            || self.hold_penetrations(active, force) && self.solve_newton(system, local, active, force)
+            || self.hold_penetrations(active, force)
+                && self.solve_newton(system, local, active, force)
     }
 
     /// Evaluates the laws under `force` and factors their Jacobian with the W and Y of the last problem. Returns false if it is
     /// singular.
-    pub fn linearise(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> bool {
+    pub fn linearise(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        active: &[bool],
+        force: &[f64],
+    ) -> bool {
         self.evaluate(system, local, active, force, Wanted::Natural);
         self.factor()
     }
@@ -218,12 +238,16 @@ impl Problem {
         for (errors, weight) in errors {
             self.residuals.value.fill(0.0);
             for (&i, law) in self.residuals.acting.iter().zip(&self.residuals.slopes) {
-                let by_other = law.by_other.map_or(0.0, |(other, slope)| slope * errors[other][0]);
+                let by_other = law
+                    .by_other
+                    .map_or(0.0, |(other, slope)| slope * errors[other][0]);
                 self.residuals.value[i] =
                     law.by_penetration * errors[i][0] + law.by_rate * errors[i][1] + by_other;
             }
             self.take_newton_step();
-            out.iter_mut().zip(&self.residuals.value).for_each(|(out, by)| *out += weight * by.abs());
+            out.iter_mut()
+                .zip(&self.residuals.value)
+                .for_each(|(out, by)| *out += weight * by.abs());
         }
         true
     }
@@ -245,7 +269,11 @@ impl Problem {
         force: &[f64],
         holds: bool,
     ) -> Option<(&[f64], ActingLaws)> {
-        let wanted = if holds { Wanted::Factored } else { Wanted::Natural };
+        let wanted = if holds {
+            Wanted::Factored
+        } else {
+            Wanted::Natural
+        };
         self.evaluate_laws(system, local, active, force, wanted);
         let is_earlier = self.residuals.acting == self.factors.elements;
         if !(is_earlier || self.factor()) {
@@ -253,7 +281,12 @@ impl Problem {
         }
         self.take_newton_step();
         // A law that was kept acting does act where the forces found push.
-        let Residuals { held, value, reached, .. } = &self.residuals;
+        let Residuals {
+            held,
+            value,
+            reached,
+            ..
+        } = &self.residuals;
         let pushes = |&i: &usize| (force[i] - value[i]) * reached[i][0] > 0.0;
         let laws = match (is_earlier, held.iter().all(pushes)) {
             (true, true) => ActingLaws::Same,
@@ -297,5 +330,7 @@ impl Problem {
 
 /// Largest absolute entry.
 fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |max, value| max.max(value.abs()))
+    values
+        .iter()
+        .fold(0.0_f64, |max, value| max.max(value.abs()))
 }

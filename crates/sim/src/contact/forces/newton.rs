@@ -74,7 +74,9 @@ impl Problem {
             self.newton.copy_from_slice(&self.residuals.value);
             let mut damping = 1.0;
             loop {
-                for (f, (start, newton)) in force.iter_mut().zip(self.start.iter().zip(&self.newton)) {
+                for (f, (start, newton)) in
+                    force.iter_mut().zip(self.start.iter().zip(&self.newton))
+                {
                     *f = start - damping * newton;
                 }
                 let now = self.evaluate(system, local, active, force, Wanted::Natural);
@@ -146,7 +148,14 @@ impl Problem {
         wanted: Wanted,
     ) {
         let holds = wanted == Wanted::Factored;
-        let Problem { effects, idle, sought, residuals, factors, .. } = self;
+        let Problem {
+            effects,
+            idle,
+            sought,
+            residuals,
+            factors,
+            ..
+        } = self;
         residuals.clear();
         let m = force.len();
         let mut held = factors.elements.iter().peekable();
@@ -183,13 +192,24 @@ impl Problem {
                 continue;
             };
             if let Some(wanted) = keeping {
-                law = Law { force: law.force, ..Law::default() };
+                law = Law {
+                    force: law.force,
+                    ..Law::default()
+                };
                 if wanted.abs() <= law.force * wanted.signum() {
                     // The residual is (W F - displacement)/W_ii, so the row of the Jacobian is that of W/W_ii. The
                     // coupling of slope 1 cancels the diagonal entry of the identity.
                     residuals.couplings.truncate(known);
-                    residuals.couplings.push(Coupling { element: i, by: i, slope: 1.0 });
-                    law = Law { force: wanted, by_penetration: 1.0 / effects.w[i * m + i], ..Law::default() };
+                    residuals.couplings.push(Coupling {
+                        element: i,
+                        by: i,
+                        slope: 1.0,
+                    });
+                    law = Law {
+                        force: wanted,
+                        by_penetration: 1.0 / effects.w[i * m + i],
+                        ..Law::default()
+                    };
                 }
             }
             residuals.set_acting(i, force[i], law);
@@ -199,23 +219,43 @@ impl Problem {
     /// Factors the Jacobian of the acting laws: I + law_p W + law_r Y minus the slopes with respect to other forces.
     /// Returns false if it is singular.
     pub(super) fn factor(&mut self) -> bool {
-        let Problem { effects: Effects { w, y, kind, .. }, residuals, factors, .. } = self;
-        let Factors { elements, jacobian, pivots } = factors;
+        let Problem {
+            effects: Effects { w, y, kind, .. },
+            residuals,
+            factors,
+            ..
+        } = self;
+        let Factors {
+            elements,
+            jacobian,
+            pivots,
+        } = factors;
         let (m, count) = (residuals.value.len(), residuals.acting.len());
         for (row, &i) in residuals.acting.iter().enumerate() {
             let line = &mut jacobian[row * count..(row + 1) * count];
             let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
-            let Law { mut by_penetration, mut by_rate, by_other, .. } = residuals.slopes[row];
+            let Law {
+                mut by_penetration,
+                mut by_rate,
+                by_other,
+                ..
+            } = residuals.slopes[row];
             if let RowKind::Memory(per_step) = kind[i] {
                 (by_penetration, by_rate) = (by_penetration + by_rate * per_step, 0.0);
             }
-            line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry = by_penetration * own_w[j]);
+            line.iter_mut()
+                .zip(&residuals.acting)
+                .for_each(|(entry, &j)| *entry = by_penetration * own_w[j]);
             if by_rate != 0.0 {
-                line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry += by_rate * own_y[j]);
+                line.iter_mut()
+                    .zip(&residuals.acting)
+                    .for_each(|(entry, &j)| *entry += by_rate * own_y[j]);
             }
             if let Some((other, slope)) = by_other {
                 let w = &w[other * m..(other + 1) * m];
-                line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry += slope * w[j]);
+                line.iter_mut()
+                    .zip(&residuals.acting)
+                    .for_each(|(entry, &j)| *entry += slope * w[j]);
             }
             line[row] += 1.0;
         }
@@ -233,12 +273,22 @@ impl Problem {
     /// Replaces the residuals by Newton's change of the forces, using the factored Jacobian. The rows of elements
     /// that do not act are those of the identity.
     pub(super) fn take_newton_step(&mut self) {
-        let Problem { effects: Effects { w, y, .. }, residuals, factors, change, .. } = self;
+        let Problem {
+            effects: Effects { w, y, .. },
+            residuals,
+            factors,
+            change,
+            ..
+        } = self;
         let (m, count) = (residuals.value.len(), factors.elements.len());
         for (row, &i) in factors.elements.iter().enumerate() {
             change[row] = residuals.value[i];
             for &j in &residuals.released {
-                let Law { by_penetration, by_rate, .. } = residuals.slopes[row];
+                let Law {
+                    by_penetration,
+                    by_rate,
+                    ..
+                } = residuals.slopes[row];
                 let entry = by_penetration * w[i * m + j] + by_rate * y[i * m + j];
                 change[row] -= entry * residuals.value[j];
             }

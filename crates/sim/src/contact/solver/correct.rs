@@ -45,7 +45,8 @@ impl Solver<'_> {
         match self.nearness(at) {
             Nearness::Near => {}
             Nearness::Close => {
-                self.geometry.turn_forces(system, &at.q, &at.force, &self.problem.candidates);
+                self.geometry
+                    .turn_forces(system, &at.q, &at.force, &self.problem.candidates);
             }
             Nearness::Far => {
                 self.evaluate_at(at)?;
@@ -53,17 +54,34 @@ impl Solver<'_> {
             }
         }
         let rows = self.geometry.rows();
-        self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));
+        self.free
+            .improve(system, g, known, at, self.projection.columns(), |j| {
+                rows.force_row(j)
+            });
         self.reach(g, &known.p, at);
         let (local, active) = (self.geometry.local(), self.active.flags());
-        let Some((change, laws)) = self.problem.corrections(system, local, active, &at.force, holds) else {
+        let Some((change, laws)) = self
+            .problem
+            .corrections(system, local, active, &at.force, holds)
+        else {
             return Ok(None);
         };
-        let size = at.force.iter().fold(f64::MIN_POSITIVE, |max, force| force.abs().max(max));
-        let largest = change.iter().fold(0.0_f64, |max, change| change.abs().max(max));
-        at.force.iter_mut().zip(change).for_each(|(force, change)| *force -= change);
-        self.projection.add_forces(&self.free.a, 1.0, change, &mut at.a);
-        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| solver.geometry.penetration(i, at));
+        let size = at
+            .force
+            .iter()
+            .fold(f64::MIN_POSITIVE, |max, force| force.abs().max(max));
+        let largest = change
+            .iter()
+            .fold(0.0_f64, |max, change| change.abs().max(max));
+        at.force
+            .iter_mut()
+            .zip(change)
+            .for_each(|(force, change)| *force -= change);
+        self.projection
+            .add_forces(&self.free.a, 1.0, change, &mut at.a);
+        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
+            solver.geometry.penetration(i, at)
+        });
         Ok(Some(([moved, beside.max(largest / size)], laws)))
     }
 

@@ -60,15 +60,31 @@ impl Solver<'_> {
     /// are damped. For collocation W = G, and Y = G/h where the penetration is a state. Returns false if J is singular.
     /// The geometry must belong to the state.
     pub fn force_errors(&mut self, errors: &StateErrors, out: &mut [f64]) -> bool {
-        let &StateErrors { at, h, is_staged, q, v, rate, frequency, bounces, ringing } = errors;
+        let &StateErrors {
+            at,
+            h,
+            is_staged,
+            q,
+            v,
+            rate,
+            frequency,
+            bounces,
+            ringing,
+        } = errors;
         if !is_staged {
             self.fill_without_mobility(at, h);
         }
         let (system, rows, n) = (self.system, self.geometry.rows(), q.len());
-        let (least, repeated) = if is_staged { (OWN, 1.0) } else { (1.0, REPEATED) };
+        let (least, repeated) = if is_staged {
+            (OWN, 1.0)
+        } else {
+            (1.0, REPEATED)
+        };
         let add_up = |error: f64, k: usize, place: f64| {
             let Ringing { periods, amplitude } = ringing[k];
-            (repeated * periods * error).min(RINGING * (amplitude * place).abs()).max(least * error)
+            (repeated * periods * error)
+                .min(RINGING * (amplitude * place).abs())
+                .max(least * error)
         };
         let [mut now, mut later, mut own] = std::mem::take(&mut self.state_errors);
         for errors in [&mut now, &mut later, &mut own] {
@@ -78,11 +94,19 @@ impl Solver<'_> {
         for &i in &self.problem.sought {
             let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
-            let rates = &(if self.remembers(i) { &rows.approach } else { &rows.rate })[i * n..(i + 1) * n];
+            let rates = &(if self.remembers(i) {
+                &rows.approach
+            } else {
+                &rows.rate
+            })[i * n..(i + 1) * n];
             own[i][1] = rate.get(i).copied().unwrap_or(0.0);
             for k in system.row_spans[i].clone() {
                 let by = [place[k] * q[k], rates[k] * v[k]];
-                let next = if frequency[k] > 0.0 { place[k] * v[k] / frequency[k] } else { 0.0 };
+                let next = if frequency[k] > 0.0 {
+                    place[k] * v[k] / frequency[k]
+                } else {
+                    0.0
+                };
                 if system.mechanics.omegas[k].is_some() {
                     let error = add_up(by[0].abs() + next.abs(), k, place[k]);
                     let rate_error = if is_staged {
@@ -102,7 +126,9 @@ impl Solver<'_> {
         let is_factored = self.factored_for.take().is_some() && self.problem.is_factored();
         let is_current = is_staged && is_factored;
         let is_solved = (is_current || self.problem.linearise(system, local, active, &at.force))
-            && self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out);
+            && self
+                .problem
+                .add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out);
         self.state_errors = [now, later, own];
         is_solved
     }
@@ -120,7 +146,9 @@ impl Solver<'_> {
         for i in (0..system.verticals()).filter(|&i| self.active.has(i) && at.force[i] > 0.0) {
             let row = &self.geometry.rows().approach[i * n..(i + 1) * n];
             let shapes = system.mechanics.structures.iter();
-            let sunk: f64 = shapes.map(|own| dot(&row[own.clone()], &at.q.as_slice()[own.clone()])).sum();
+            let sunk: f64 = shapes
+                .map(|own| dot(&row[own.clone()], &at.q.as_slice()[own.clone()]))
+                .sum();
             let drop = (self.geometry.approach(i, &at.q) - sunk).max(at.p[i]);
             if drop <= 0.0 {
                 continue;
@@ -133,12 +161,18 @@ impl Solver<'_> {
             }
             let omega = (system.scene.gravity / drop).sqrt();
             let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
-            let share = if self.remembers(i) { (at.p[i] / drop).max(0.0) } else { 1.0 };
+            let share = if self.remembers(i) {
+                (at.p[i] / drop).max(0.0)
+            } else {
+                1.0
+            };
             let ratio = 0.5 * by_rate / by_place * omega * share;
             most = most.max((end * omega / TAU).min(1.0 + 1.0 / (TAU * ratio)));
         }
         if let Some(mass) = bodies {
-            frequency[..mass.nrows()].iter_mut().for_each(|frequency| *frequency = frequency.sqrt());
+            frequency[..mass.nrows()]
+                .iter_mut()
+                .for_each(|frequency| *frequency = frequency.sqrt());
         }
         most
     }
@@ -163,12 +197,23 @@ impl Solver<'_> {
                 // a ramped damper makes the law of a wheel that rises fall with its penetration
                 let by_place = by_place.max(0.0);
                 let share = 1.0 / (1.0 + by_place * self.geometry.own_compliance(i));
-                (row, by_place * share, if self.remembers(i) { by_rate * share * share } else { 0.0 })
+                (
+                    row,
+                    by_place * share,
+                    if self.remembers(i) {
+                        by_rate * share * share
+                    } else {
+                        0.0
+                    },
+                )
             })
             .collect();
         for (k, out) in out.iter_mut().enumerate() {
-            let Some(omega) = mechanics.omegas[k] else { continue };
-            let (mut stiffened, mut loss) = (omega * omega, 2.0 * mechanics.damping_ratios[k] * omega);
+            let Some(omega) = mechanics.omegas[k] else {
+                continue;
+            };
+            let (mut stiffened, mut loss) =
+                (omega * omega, 2.0 * mechanics.damping_ratios[k] * omega);
             for (row, stiffness, damping) in &wheels {
                 stiffened += stiffness * row[k] * row[k];
                 loss += damping * row[k] * row[k];
@@ -176,18 +221,30 @@ impl Solver<'_> {
             let together = stiffened.sqrt();
             let decay = 1.0 + 2.0 * together / (TAU * loss);
             let periods = (end * together / TAU).min(decay);
-            let squared =
-                |state: &State| (state.a[k] / (omega * omega)).powi(2) + (state.v[k] / omega).powi(2);
+            let squared = |state: &State| {
+                (state.a[k] / (omega * omega)).powi(2) + (state.v[k] / omega).powi(2)
+            };
             *out = Ringing {
-                periods: if periods > most { (most * periods).sqrt() } else { periods },
-                amplitude: if omega > 0.0 { squared(ends[0]).max(squared(at)).sqrt() } else { f64::INFINITY },
+                periods: if periods > most {
+                    (most * periods).sqrt()
+                } else {
+                    periods
+                },
+                amplitude: if omega > 0.0 {
+                    squared(ends[0]).max(squared(at)).sqrt()
+                } else {
+                    f64::INFINITY
+                },
             };
         }
     }
 
     /// Time in which the penetration of vertical contact `i` follows its force ([`delay_of`]).
     pub fn delay(&self, i: usize, at: &State) -> f64 {
-        delay_of(self.law_of(i, at.p[i], at.p_rate[i]), self.geometry.own_compliance(i))
+        delay_of(
+            self.law_of(i, at.p[i], at.p_rate[i]),
+            self.geometry.own_compliance(i),
+        )
     }
 
     /// Fills the problem with W = G, and Y = G/h in the rows of contacts whose penetration is a state.

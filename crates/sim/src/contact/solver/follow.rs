@@ -53,9 +53,15 @@ impl Followed {
     #[cfg(test)]
     pub fn of_springs(compliance: impl Fn(usize, usize) -> f64, stiffness: &[f64]) -> Followed {
         let count = stiffness.len();
-        let mut made = Followed { approach: vec![0.0; count], ..Followed::default() };
+        let mut made = Followed {
+            approach: vec![0.0; count],
+            ..Followed::default()
+        };
         let compliance = &compliance;
-        made.factor((0..count).flat_map(|r| (0..count).map(move |c| compliance(r, c))), stiffness);
+        made.factor(
+            (0..count).flat_map(|r| (0..count).map(move |c| compliance(r, c))),
+            stiffness,
+        );
         made
     }
 }
@@ -102,7 +108,13 @@ impl Solver<'_> {
     /// The rate of e contains the motion of the wheels along the rail, and the rate of G that of all wheels: dG_ij/dt = x_i'
     /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. Returns false if the matrix is singular, or if forces of
     /// other elements deflect the rails below these wheels.
-    pub fn follow(&self, at: &State, contacts: &[usize], stiffness: &[f64], out: &mut Followed) -> bool {
+    pub fn follow(
+        &self,
+        at: &State,
+        contacts: &[usize],
+        stiffness: &[f64],
+        out: &mut Followed,
+    ) -> bool {
         let m = at.force.len();
         let (rows, rails) = (self.geometry.rows(), self.geometry.rails());
         // Forces of other elements that deflect the rails below these wheels are not included.
@@ -111,11 +123,26 @@ impl Solver<'_> {
         if (0..m).filter(is_other).any(is_coupled) {
             return false;
         }
-        let compliance = contacts.iter().flat_map(|&i| contacts.iter().map(move |&j| rails.value[i * m + j]));
+        let compliance = contacts
+            .iter()
+            .flat_map(|&i| contacts.iter().map(move |&j| rails.value[i * m + j]));
         out.factor(compliance, stiffness);
-        let Followed { approach, value, rate, speed, factors, .. } = out;
-        set(speed, contacts.iter().map(|&i| self.system.contact_speed(i, at)));
-        set(approach, contacts.iter().map(|&i| self.geometry.approach(i, &at.q)));
+        let Followed {
+            approach,
+            value,
+            rate,
+            speed,
+            factors,
+            ..
+        } = out;
+        set(
+            speed,
+            contacts.iter().map(|&i| self.system.contact_speed(i, at)),
+        );
+        set(
+            approach,
+            contacts.iter().map(|&i| self.geometry.approach(i, &at.q)),
+        );
         value.clone_from(approach);
         if !factors.solve(value) {
             return false;
@@ -149,7 +176,8 @@ impl Solver<'_> {
     ) -> Result<bool, Error> {
         let (system, count) = (self.system, self.system.elements.len());
         let traits = &system.traits;
-        let is_simple = traits.has_constant_rows && traits.has_linear_laws && count == system.verticals();
+        let is_simple =
+            traits.has_constant_rows && traits.has_linear_laws && count == system.verticals();
         if !(is_simple && (0..count).all(|i| self.active.has(i))) {
             return Ok(false);
         }
@@ -161,7 +189,10 @@ impl Solver<'_> {
             }
             at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
         }
-        set(residual, (0..count).map(|i| at.p[i] - self.geometry.penetration(i, at)));
+        set(
+            residual,
+            (0..count).map(|i| at.p[i] - self.geometry.penetration(i, at)),
+        );
         if !factors.solve(residual) {
             return Ok(false);
         }
@@ -173,13 +204,15 @@ impl Solver<'_> {
             }
         }
         self.update_rail_slope(at);
-        self.free.accelerate(system, at, &self.geometry.rows().force)?;
+        self.free
+            .accelerate(system, at, &self.geometry.rows().force)?;
         Ok(true)
     }
 
     /// Whether a damper acts between the wheel of active vertical contact `i` and a rail with mass, or a rigid one.
     fn is_damped_by_mass(&self, i: usize) -> bool {
-        let structure = self.system.scene.contacts[self.system.mechanics.groups[i].contact].structure;
+        let structure =
+            self.system.scene.contacts[self.system.mechanics.groups[i].contact].structure;
         let has_mass = self.system.foundations[structure].structure.is_some();
         self.remembers(i) && (has_mass || self.is_on_rigid_rail(i))
     }
@@ -209,7 +242,11 @@ impl Solver<'_> {
         if !LuFactors::new(&matrix).solve(rates.as_mut_slice()) {
             return false;
         }
-        for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
+        for (&i, rate) in contacts
+            .iter()
+            .zip(rates.iter())
+            .filter(|(i, _)| self.is_damped_by_mass(**i))
+        {
             at.p_rate[i] = *rate;
         }
         true

@@ -69,7 +69,11 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// A mass that is not positive definite.
     pub fn new(system: &'a System<'a>, rail_memory: RailMemory) -> Result<Self, Error> {
-        let begin = system.elements.iter().map(|element| element.begins_active()).collect();
+        let begin = system
+            .elements
+            .iter()
+            .map(|element| element.begins_active())
+            .collect();
         Ok(Solver {
             system,
             geometry: Geometry::new(system),
@@ -123,7 +127,8 @@ impl<'a> Solver<'a> {
 
     /// Updates the slopes of the deflected rails for the forces of `at`; the positions of the wheels are unchanged.
     pub fn update_rail_slope(&mut self, at: &State) {
-        self.geometry.update_rail_slope(self.system, &at.q, &at.force);
+        self.geometry
+            .update_rail_slope(self.system, &at.q, &at.force);
     }
 
     /// Sets the heights of all wheels to their radii.
@@ -199,7 +204,10 @@ impl<'a> Solver<'a> {
     pub fn settle_springs(&mut self, at: &State) {
         for &i in self.system.springs() {
             let spring = &self.geometry.local()[i].spring;
-            let margin = spring.margin(self.geometry.approach(i, &at.q), self.geometry.rate(i, &at.v));
+            let margin = spring.margin(
+                self.geometry.approach(i, &at.q),
+                self.geometry.rate(i, &at.v),
+            );
             let is_released = self.system.elements[i].is_released(self.geometry.switches());
             self.active.set(i, !is_released && margin > 0.0);
         }
@@ -212,14 +220,18 @@ impl<'a> Solver<'a> {
 
     /// Whether active vertical contact `i` must open.
     pub fn opens(&self, i: usize, at: &State) -> bool {
-        self.system.vertical(i).opens(at.force[i], self.geometry.fraction(i))
+        self.system
+            .vertical(i)
+            .opens(at.force[i], self.geometry.fraction(i))
     }
 
     /// Force of one wheel that open contact `i` would have if it closed now. A positive value means that it must
     /// close.
     pub fn closing(&self, i: usize, at: &State) -> f64 {
         let rate = || self.geometry.rate(i, &at.v);
-        self.system.vertical(i).closing(i, self.geometry.fraction(i), &self.active, at, rate)
+        self.system
+            .vertical(i)
+            .closing(i, self.geometry.fraction(i), &self.active, at, rate)
     }
 
     /// The scene at `at`; the geometry must belong to `at`.
@@ -238,7 +250,9 @@ impl<'a> Solver<'a> {
     pub fn next_switch(&self, first: usize, at: &State) -> Option<(usize, f64)> {
         let frame = self.frame(at);
         (first..self.system.elements.len()).find_map(|i| {
-            let excess = self.switch_guard(i, &frame).filter(|excess| *excess > 0.0)?;
+            let excess = self
+                .switch_guard(i, &frame)
+                .filter(|excess| *excess > 0.0)?;
             Some((i, excess))
         })
     }
@@ -246,7 +260,8 @@ impl<'a> Solver<'a> {
     /// The force by which vertical contact `i` has exceeded its limit of opening or closing at `frame`, beyond rounding.
     pub fn excess(&self, i: usize, frame: &Frame) -> f64 {
         let noise = frame.at(i).local().spring.noise;
-        self.switch_guard(i, frame).map_or(f64::NEG_INFINITY, |excess| excess - noise)
+        self.switch_guard(i, frame)
+            .map_or(f64::NEG_INFINITY, |excess| excess - noise)
     }
 
     /// Whether the rail below vertical contact `i` is rigid relative to the wheel.
@@ -297,7 +312,11 @@ impl<'a> Solver<'a> {
     /// Elements for which the longitudinal displacement of the rail is a state, with its index in the state.
     fn sliding(&self) -> impl Iterator<Item = (usize, usize)> + use<'a> {
         let (probes, first) = (&self.system.probes, self.system.verticals());
-        probes.sliding.iter().enumerate().map(move |(k, &i)| (i, first + k))
+        probes
+            .sliding
+            .iter()
+            .enumerate()
+            .map(move |(k, &i)| (i, first + k))
     }
 
     /// Solves for the forces, penetrations and accelerations at (t, q, v) with the present active set.
@@ -329,7 +348,11 @@ impl<'a> Solver<'a> {
     ///
     /// # Errors
     /// Errors of the rail models.
-    pub fn instant_here(&mut self, at: &mut State, [slack, height_slack]: [f64; 2]) -> Result<bool, Error> {
+    pub fn instant_here(
+        &mut self,
+        at: &mut State,
+        [slack, height_slack]: [f64; 2],
+    ) -> Result<bool, Error> {
         let system = self.system;
         self.problem.seek_all();
         self.factored_for = None;
@@ -347,13 +370,15 @@ impl<'a> Solver<'a> {
                 }
             }
             let change = self.geometry.update_heights(system, at);
-            self.geometry.update_in_place(system, (at.t, &at.q), &at.force)?;
+            self.geometry
+                .update_in_place(system, (at.t, &at.q), &at.force)?;
             if change < height_slack.max(1e-13) {
                 break;
             }
         }
         self.update_rail_slope(at);
-        self.free.accelerate(system, at, &self.geometry.rows().force)?;
+        self.free
+            .accelerate(system, at, &self.geometry.rows().force)?;
         Ok(true)
     }
 
@@ -371,7 +396,9 @@ impl<'a> Solver<'a> {
             } else if remembers {
                 effects.kind[i] = RowKind::Given;
                 let (local, reached) = (self.geometry.local(), [at.p[i], at.p_rate[i]]);
-                at.force[i] = self.problem.force_at(self.system, local, i, reached, &at.force);
+                at.force[i] = self
+                    .problem
+                    .force_at(self.system, local, i, reached, &at.force);
             }
         }
         let effects = &mut self.problem.effects;
@@ -393,7 +420,11 @@ impl<'a> Solver<'a> {
 
     /// Largest normal stiffness of all wheels.
     fn stiffest(&self) -> f64 {
-        self.system.scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max))
+        self.system
+            .scene
+            .wheels
+            .iter()
+            .fold(0.0, |max, wheel| wheel.normal.stiffness.max(max))
     }
 
     /// Subtracts x' dG/dx from row `i` of Y: the rate due to the motion of the wheels along the deflected rail.
@@ -421,7 +452,13 @@ impl<'a> Solver<'a> {
     ) -> Result<(), Error> {
         at.interpolate(from, to, fraction);
         self.geometry.update_heights(self.system, at);
-        self.charts.interpolate(self.system, self.geometry.switches(), [from, to], fraction, at);
+        self.charts.interpolate(
+            self.system,
+            self.geometry.switches(),
+            [from, to],
+            fraction,
+            at,
+        );
         self.stretch_ropes(to.t - from.t, at)
     }
 
@@ -435,7 +472,10 @@ impl<'a> Solver<'a> {
         of: impl Fn(usize) -> [f64; 2],
         mut each: impl FnMut(usize, [f64; 2]),
     ) {
-        (0..at.q.len()).filter(|&k| !self.charts.has(k)).for_each(|k| each(k, of(k)));
-        self.charts.errors(self.system, self.geometry.switches(), at, of, each);
+        (0..at.q.len())
+            .filter(|&k| !self.charts.has(k))
+            .for_each(|k| each(k, of(k)));
+        self.charts
+            .errors(self.system, self.geometry.switches(), at, of, each);
     }
 }

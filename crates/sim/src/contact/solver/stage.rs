@@ -53,13 +53,15 @@ impl Solver<'_> {
     pub fn begin_step(&mut self, from: &State, h: f64, takes_all: bool) {
         let (system, geometry) = (self.system, &self.geometry);
         let frame = geometry.frame(system, from);
-        let may_act =
-            |i: usize| takes_all || from.force[i] != 0.0 || system.elements[i].may_act(&frame.at(i), h);
+        let may_act = |i: usize| {
+            takes_all || from.force[i] != 0.0 || system.elements[i].may_act(&frame.at(i), h)
+        };
         self.problem.candidates.choose(may_act);
         if !self.system.springs().is_empty() {
             let (system, active) = (self.system, &self.active);
             let is_taut = |rope: usize| system.rope(rope).is_some_and(|(i, _)| active.has(i));
-            self.charts.begin(system, self.geometry.switches(), is_taut, from);
+            self.charts
+                .begin(system, self.geometry.switches(), is_taut, from);
         }
         self.convergence.begin_step();
         self.factored_for = None;
@@ -78,7 +80,11 @@ impl Solver<'_> {
     /// How well the geometry that was evaluated last in the present stage serves at `at`.
     pub(super) fn nearness(&self, at: &State) -> Nearness {
         let Evaluated { q, is_valid, .. } = &self.evaluated;
-        if *is_valid { self.geometry.nearness(self.system, q, &at.q) } else { Nearness::Far }
+        if *is_valid {
+            self.geometry.nearness(self.system, q, &at.q)
+        } else {
+            Nearness::Far
+        }
     }
 
     /// Updates the geometry of the elements that may act in the step to `at`, in a stage; in its last stage that of all.
@@ -86,10 +92,18 @@ impl Solver<'_> {
     /// # Errors
     /// Errors of the rail models.
     pub(super) fn evaluate_at(&mut self, at: &State) -> Result<(), Error> {
-        self.evaluated.q.as_mut_slice().copy_from_slice(at.q.as_slice());
+        self.evaluated
+            .q
+            .as_mut_slice()
+            .copy_from_slice(at.q.as_slice());
         self.evaluated.is_valid = true;
-        let elements = if self.evaluated.ends_step { &self.system.all } else { &self.problem.candidates };
-        self.geometry.update_some(self.system, (at.t, &at.q), &at.force, elements)
+        let elements = if self.evaluated.ends_step {
+            &self.system.all
+        } else {
+            &self.problem.candidates
+        };
+        self.geometry
+            .update_some(self.system, (at.t, &at.q), &at.force, elements)
     }
 
     /// Replaces the constant terms of hanging bodies by their local coordinates and rates at the start of the step.
@@ -105,7 +119,8 @@ impl Solver<'_> {
     /// Writes speeds and accelerations of the stage that ended at `at` into `rates`; those of hanging bodies in local
     /// coordinates.
     pub fn end_stage(&mut self, at: &State, rates: [&mut DVector<f64>; 2]) {
-        self.charts.set_rates(self.system, self.geometry.switches(), at, rates);
+        self.charts
+            .set_rates(self.system, self.geometry.switches(), at, rates);
     }
 
     /// Solves the stage with coefficient `g` at `at.t` with the present active set; `at` contains the previous
@@ -133,7 +148,8 @@ impl Solver<'_> {
         }
         let hangs = !self.charts.is_empty();
         if hangs {
-            self.charts.guess(system, self.geometry.switches(), g, known, at);
+            self.charts
+                .guess(system, self.geometry.switches(), g, known, at);
         }
         let slack = SLACK[usize::from(!iterates || self.convergence.knows_ratio())];
         self.problem.slack = slack * self.allowed_error();
@@ -141,7 +157,8 @@ impl Solver<'_> {
         (self.evaluated.is_valid, self.evaluated.ends_step) = (false, ends_step);
         for pass in 0..PASSES {
             if hangs {
-                self.charts.linearise(system, self.geometry.switches(), g, known, at);
+                self.charts
+                    .linearise(system, self.geometry.switches(), g, known, at);
             }
             let mut corrected = None;
             if self.may_correct(g) {
@@ -160,7 +177,11 @@ impl Solver<'_> {
             };
             // Changes before and after a change of the set of acting laws say nothing of how the iteration contracts.
             let is_same = laws == ActingLaws::Same;
-            let compared = if laws == ActingLaws::Changed { f64::INFINITY } else { last };
+            let compared = if laws == ActingLaws::Changed {
+                f64::INFINITY
+            } else {
+                last
+            };
             let verdict = self.convergence.judge(change, compared, is_correction);
             // In the first pass of a free motion, a small change of positions does not imply accurate speeds.
             let is_sure = pass > 0 || !system.mechanics.moves_freely;
@@ -189,7 +210,13 @@ impl Solver<'_> {
 
     /// One pass of a stage: forms all matrices at the positions of `at` and solves for the forces. `begins` is true
     /// if only the guess in `at` is available for this stage.
-    fn pass(&mut self, g: f64, known: &mut Known, at: &mut State, begins: bool) -> Result<Pass, Error> {
+    fn pass(
+        &mut self,
+        g: f64,
+        known: &mut Known,
+        at: &mut State,
+        begins: bool,
+    ) -> Result<Pass, Error> {
         let system = self.system;
         let changes_mass = !system.mechanics.carried.is_empty();
         if begins || changes_mass || !self.charts.is_empty() || self.factored_for.is_none() {
@@ -204,7 +231,8 @@ impl Solver<'_> {
         }
         self.problem.seek(system.verticals(), &at.force);
         let elements = (&self.problem.sought[..], &self.problem.idle[..]);
-        self.projection.fill(system, self.geometry.rows(), self.free.mobility(), elements);
+        self.projection
+            .fill(system, self.geometry.rows(), self.free.mobility(), elements);
         for k in 0..self.problem.sought.len() {
             let i = self.problem.sought[k];
             self.fill_row(i, g, &known.p);
@@ -220,8 +248,11 @@ impl Solver<'_> {
             return Ok(Pass::Failed);
         }
         self.factored_for = Some(g);
-        self.projection.add_forces(&self.free.a, -1.0, &at.force, &mut at.a);
-        let changes = self.arrive(g, known, at, |solver, i, at| solver.solved_penetration(i, &at.force));
+        self.projection
+            .add_forces(&self.free.a, -1.0, &at.force, &mut at.a);
+        let changes = self.arrive(g, known, at, |solver, i, at| {
+            solver.solved_penetration(i, &at.force)
+        });
         Ok(Pass::Moved(changes))
     }
 
@@ -238,8 +269,14 @@ impl Solver<'_> {
     /// Removes the idle mark of elements that touch at `at`; returns whether there are any.
     fn find_touching(&mut self, at: &State) -> bool {
         let mut is_found = false;
-        let Problem { candidates, idle, .. } = &mut self.problem;
-        for &i in candidates.list().iter().filter(|&&i| self.system.fixed[i].is_followed) {
+        let Problem {
+            candidates, idle, ..
+        } = &mut self.problem;
+        for &i in candidates
+            .list()
+            .iter()
+            .filter(|&&i| self.system.fixed[i].is_followed)
+        {
             if idle[i] && self.system.elements[i].touches(self.geometry.penetration(i, at)) {
                 idle[i] = false;
                 is_found = true;
@@ -256,7 +293,12 @@ impl Solver<'_> {
         let effects = &mut self.problem.effects;
         let (w, y) = (&mut effects.w[span.clone()], &mut effects.y[span.clone()]);
         w.copy_from_slice(&self.geometry.rails().value[span]);
-        for (&j, mobile) in self.projection.columns().iter().zip(self.projection.approach_row(i)) {
+        for (&j, mobile) in self
+            .projection
+            .columns()
+            .iter()
+            .zip(self.projection.approach_row(i))
+        {
             w[j] += g * g * mobile;
         }
         y.fill(0.0);
@@ -269,7 +311,12 @@ impl Solver<'_> {
             effects.rate[i] = (approach - known[i]) / g;
             effects.kind[i] = RowKind::Memory(1.0 / g);
         } else if self.system.fixed[i].feels_rates {
-            for (&j, mobile) in self.projection.columns().iter().zip(self.projection.rate_row(i)) {
+            for (&j, mobile) in self
+                .projection
+                .columns()
+                .iter()
+                .zip(self.projection.rate_row(i))
+            {
                 y[j] = g * mobile;
             }
             effects.rate[i] = self.geometry.rate(i, &self.free.v);
@@ -334,8 +381,11 @@ impl Solver<'_> {
         self.geometry.drift_to(self.system, &at.q, &at.force);
         for i in 0..self.system.verticals() {
             at.p[i] = penetration(self, i, at) + self.geometry.drift(i);
-            at.p_rate[i] =
-                if self.follows_motion(i) { self.approach_rate(i, at) } else { (at.p[i] - known.p[i]) / g };
+            at.p_rate[i] = if self.follows_motion(i) {
+                self.approach_rate(i, at)
+            } else {
+                (at.p[i] - known.p[i]) / g
+            };
         }
         for (i, slot) in self.sliding() {
             let moved = self.geometry.deflection(i, &at.force) - self.geometry.drift(i);
@@ -353,12 +403,18 @@ impl Solver<'_> {
         let accelerations = at.a.as_slice().iter();
         let known = known.q.as_slice().iter().zip(known.v.as_slice());
         let motion = at.q.as_mut_slice().iter_mut().zip(at.v.as_mut_slice());
-        for (k, ((a, (known_q, known_v)), (q, v))) in accelerations.zip(known).zip(motion).enumerate() {
+        for (k, ((a, (known_q, known_v)), (q, v))) in
+            accelerations.zip(known).zip(motion).enumerate()
+        {
             let next_v = known_v + g * a;
             let next_q = known_q + g * next_v;
             let change = (next_q - *q).abs();
             moved = moved.max(change / (1.0 + next_q.abs()));
-            beside = beside.max(self.convergence.weigh(k, [change, (next_v - *v).abs()], [next_q, next_v]));
+            beside = beside.max(self.convergence.weigh(
+                k,
+                [change, (next_v - *v).abs()],
+                [next_q, next_v],
+            ));
             (*q, *v) = (next_q, next_v);
         }
         [moved, beside]

@@ -47,11 +47,15 @@ impl Open {
     /// The same, from one mode on and by the estimate in phase, for a run that only checks influence functions; where there is
     /// none, the smallest number that is no worse.
     pub fn checking_count(&self, limit: f64) -> Option<usize> {
-        self.count_with(1, |tail| tail.in_phase <= limit).or_else(|| self.no_worse_count(1))
+        self.count_with(1, |tail| tail.in_phase <= limit)
+            .or_else(|| self.no_worse_count(1))
     }
 
     fn count_with(&self, least: usize, suffices: impl Fn(&TailError) -> bool) -> Option<usize> {
-        let found = self.tails.iter().find(|tail| tail.kept >= least && suffices(tail));
+        let found = self
+            .tails
+            .iter()
+            .find(|tail| tail.kept >= least && suffices(tail));
         let whole = Some(self.known()).filter(|_| self.basis.is_whole);
         found.map(|tail| tail.kept).or(whole)
     }
@@ -63,7 +67,11 @@ impl Open {
     pub fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
         let within = || {
             let count = self.sufficient_count(SAFE / factor * self.tolerance, least)?;
-            let more = self.tails.iter().map(|tail| tail.kept).find(|kept| *kept >= spare * count);
+            let more = self
+                .tails
+                .iter()
+                .map(|tail| tail.kept)
+                .find(|kept| *kept >= spare * count);
             Some(more.unwrap_or(count))
         };
         let most = || {
@@ -74,7 +82,9 @@ impl Open {
                 Some(last.kept)
             }
         };
-        self.sufficient_count(limit, least).or_else(within).or_else(most)
+        self.sufficient_count(limit, least)
+            .or_else(within)
+            .or_else(most)
     }
 
     /// Smallest number of modes, at least `least`, whose estimate is that for the largest number or less, but for the factor
@@ -95,20 +105,34 @@ impl Open {
         let many = START_MODES.1.max(START_MODES.0 * count).min(most);
         let suffices = |tail: &&TailError| tail.error <= START_RATIO[0] * own || tail.kept >= many;
         let least = (START_TIMES * count).min(START_MODES.1).max(count + 1);
-        let found = self.tails.iter().filter(|tail| tail.kept >= least).find(suffices);
-        let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
+        let found = self
+            .tails
+            .iter()
+            .filter(|tail| tail.kept >= least)
+            .find(suffices);
+        let (more, error) = found.map_or((known, self.tail(known).error), |tail| {
+            (tail.kept, tail.error)
+        });
         Some((more, (error / own).min(START_RATIO[1])))
     }
 
     /// The number of modes of a repetition of a run with `count` modes that a run may keep.
     pub fn kept_beyond(&self, count: usize) -> usize {
         let most = self.tails.last().map_or(count, |last| last.kept);
-        self.beyond(count).map_or(count, |(more, _)| more.min(most)).max(count)
+        self.beyond(count)
+            .map_or(count, |(more, _)| more.min(most))
+            .max(count)
     }
 
     /// Number of known modes with frequencies below `omega`.
     pub fn modes_below(&self, omega: f64) -> usize {
-        self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
+        self.basis
+            .structure
+            .dynamics
+            .frequencies()
+            .iter()
+            .filter(|own| **own < omega)
+            .count()
     }
 
     /// The estimate for `kept` modes; for all known ones it is that of the largest number that has one.
@@ -126,7 +150,10 @@ pub(super) fn is_unreachable(error: f64, tolerance: f64) -> bool {
 
 /// Largest one of the errors `of` the structures with these numbers of modes.
 pub(super) fn largest(open: &[Open], counts: &[usize], of: impl Fn(&TailError) -> f64) -> f64 {
-    open.iter().zip(counts).map(|(own, count)| of(&own.tail(*count))).fold(0.0, f64::max)
+    open.iter()
+        .zip(counts)
+        .map(|(own, count)| of(&own.tail(*count)))
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -149,24 +176,49 @@ mod tests {
     /// where none is, the fewest that are as good as the most, by their errors.
     #[test]
     fn a_checking_run_counts_modes_by_phase() {
-        let dynamics = Dynamics::Modes { omega: vec![1.0; 24], ratio: vec![0.0; 24] };
-        let structure = Structure { dynamics, shapes: Box::new(Unseen) };
-        let tail = |(kept, error, in_phase)| TailError { error, in_phase, ..TailError::none(kept) };
+        let dynamics = Dynamics::Modes {
+            omega: vec![1.0; 24],
+            ratio: vec![0.0; 24],
+        };
+        let structure = Structure {
+            dynamics,
+            shapes: Box::new(Unseen),
+        };
+        let tail = |(kept, error, in_phase)| TailError {
+            error,
+            in_phase,
+            ..TailError::none(kept)
+        };
         let open = Open {
             structure: 0,
             tolerance: 1.0,
             aims: [0.2, 0.4],
-            basis: ModalBasis { structure, coupling: Vec::new(), effects: Vec::new(), is_whole: false },
-            tails: [(0, 1.0, 0.1), (1, 0.9, 0.5), (4, 0.6, 0.2), (8, 0.3, 0.15), (16, 0.25, 0.1)]
-                .map(tail)
-                .to_vec(),
+            basis: ModalBasis {
+                structure,
+                coupling: Vec::new(),
+                effects: Vec::new(),
+                is_whole: false,
+            },
+            tails: [
+                (0, 1.0, 0.1),
+                (1, 0.9, 0.5),
+                (4, 0.6, 0.2),
+                (8, 0.3, 0.15),
+                (16, 0.25, 0.1),
+            ]
+            .map(tail)
+            .to_vec(),
             tails_of: None,
             choice: 0,
         };
         assert_eq!(open.checking_count(0.5), Some(1));
         assert_eq!(open.checking_count(0.2), Some(4));
         assert_eq!(open.checking_count(0.1), Some(16));
-        assert_eq!(open.checking_count(0.01), Some(8), "0.3 is not 1.5 times 0.25");
+        assert_eq!(
+            open.checking_count(0.01),
+            Some(8),
+            "0.3 is not 1.5 times 0.25"
+        );
         assert_eq!(open.sufficient_count(0.5, 1), Some(8));
     }
 }

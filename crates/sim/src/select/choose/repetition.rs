@@ -8,9 +8,20 @@ use crate::select::replay::TailError;
 use crate::select::selection::{FidelityTrial, FoundationProvider, Tolerance, TrialCheck};
 
 /// The repetition of the start of a run with more modes and finer steps, and its least number of output steps.
-const START: (Repetition, usize) = (Repetition { share: 0.125, accuracy: 0.1, by_steps: 0.2 }, 2);
+const START: (Repetition, usize) = (
+    Repetition {
+        share: 0.125,
+        accuracy: 0.1,
+        by_steps: 0.2,
+    },
+    2,
+);
 /// The repetition of a whole run with more modes, whose steps are long enough to cost little.
-const WHOLE: Repetition = Repetition { share: 1.0, accuracy: 25.0, by_steps: 0.0 };
+const WHOLE: Repetition = Repetition {
+    share: 1.0,
+    accuracy: 25.0,
+    by_steps: 0.0,
+};
 /// Share of the error at the start, or of the tolerance, by the steps from which a run is repeated with finer ones.
 const BY_STEPS: f64 = 0.5;
 /// Largest number of repetitions of a run with finer steps.
@@ -45,23 +56,38 @@ impl<L: FoundationProvider> Search<'_, L> {
         let start = self.error_by_repetition(START.0, open, counts, &higher, tolerance, bounces);
         if let Some(start) = start.as_ref().filter(|start| start.error > tolerance.value) {
             let same = vec![0; open.len()];
-            let by_steps = self.error_by_repetition(START.0, open, &same, &higher, tolerance, bounces);
+            let by_steps =
+                self.error_by_repetition(START.0, open, &same, &higher, tolerance, bounces);
             if by_steps.is_some_and(|by_steps| by_steps.error > BY_STEPS * start.error) {
                 self.accuracy *= START.0.accuracy;
                 let finer = self.trial(&higher.fidelities, self.accuracy, true)?;
                 let error = START.0.by_steps * start.error;
-                return Ok((finer, Some(TailError { error, ..start.clone() })));
+                return Ok((
+                    finer,
+                    Some(TailError {
+                        error,
+                        ..start.clone()
+                    }),
+                ));
             }
             return Ok((higher, Some(start.clone())));
         }
         let remembered = bounces.remembered.min(REMEMBERED[1]);
-        let of_tails = open.iter().zip(counts).map(|(own, count)| factor * own.tail(*count).of_motion);
-        let of_motion = of_tails.chain(start.as_ref().map(|start| start.of_motion)).fold(0.0, f64::max);
+        let of_tails = open
+            .iter()
+            .zip(counts)
+            .map(|(own, count)| factor * own.tail(*count).of_motion);
+        let of_motion = of_tails
+            .chain(start.as_ref().map(|start| start.of_motion))
+            .fold(0.0, f64::max);
         if remembered < REMEMBERED[0] || of_motion * remembered <= SAFE * tolerance.value {
             return Ok((higher, start));
         }
         let whole = self.error_by_repetition(WHOLE, open, counts, &higher, tolerance, bounces);
-        let found = start.into_iter().chain(whole).max_by(|a, b| a.error.total_cmp(&b.error));
+        let found = start
+            .into_iter()
+            .chain(whole)
+            .max_by(|a, b| a.error.total_cmp(&b.error));
         Ok((higher, found))
     }
 
@@ -92,7 +118,9 @@ impl<L: FoundationProvider> Search<'_, L> {
         if is_whole && kept.is_empty() {
             return None;
         }
-        let steps = (repetition.share * higher.record.time.len() as f64).ceil().max(START.1 as f64);
+        let steps = (repetition.share * higher.record.time.len() as f64)
+            .ceil()
+            .max(START.1 as f64);
         let (end, reached) = (self.scene.end, steps * self.scene.output_dt);
         if !is_whole && reached >= end {
             return None;
@@ -100,27 +128,57 @@ impl<L: FoundationProvider> Search<'_, L> {
         // its forces do not act on the modes: the times of the record suffice
         let parts = std::mem::replace(&mut self.scene.output_parts, 1);
         self.scene.end = reached.min(end);
-        let finer = self.checking_trial(&fidelities, &kept, repetition.accuracy * higher.accuracy, true).ok();
+        let finer = self
+            .checking_trial(
+                &fidelities,
+                &kept,
+                repetition.accuracy * higher.accuracy,
+                true,
+            )
+            .ok();
         let finer = finer.filter(|finer| is_comparable(finer, higher));
         let apart = finer.as_ref().and_then(|finer| {
             if is_whole {
-                return self.difference_of_motions(finer, higher, (1.0 - ratio) * value, (measure, bounces));
+                return self.difference_of_motions(
+                    finer,
+                    higher,
+                    (1.0 - ratio) * value,
+                    (measure, bounces),
+                );
             }
-            let replaced = higher.record.with_start_of(&finer.record, finer.record.time.len());
+            let replaced = higher
+                .record
+                .with_start_of(&finer.record, finer.record.time.len());
             let apart = difference(&replaced, &higher.record, measure, bounces);
             let times = [reached, remembered_time(&self.scene)];
             let drift = drift(&replaced, &higher.record, measure, bounces, times);
             let is_growing = drift.largest > apart.largest;
-            Some(if is_growing { drift } else { Difference { of_motion: drift.of_motion, ..apart } })
+            Some(if is_growing {
+                drift
+            } else {
+                Difference {
+                    of_motion: drift.of_motion,
+                    ..apart
+                }
+            })
         });
         (self.scene.end, self.scene.output_parts) = (end, parts);
         let (finer, apart) = (finer?, apart?);
         let [error, of_motion] = [apart.largest, apart.of_motion].map(|own| own / (1.0 - ratio));
-        let error = TailError { error, quantity: apart.quantity, of_motion, ..TailError::none(0) };
+        let error = TailError {
+            error,
+            quantity: apart.quantity,
+            of_motion,
+            ..TailError::none(0)
+        };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
             if fidelity != Fidelity::Influence {
-                let against = if is_whole { TrialCheck::Whole(against) } else { TrialCheck::Start(against) };
+                let against = if is_whole {
+                    TrialCheck::Whole(against)
+                } else {
+                    TrialCheck::Start(against)
+                };
                 self.choices[own.choice].tried.push(FidelityTrial {
                     fidelity,
                     estimate: error.error,
@@ -148,8 +206,13 @@ impl<L: FoundationProvider> Search<'_, L> {
         if apart.largest <= limit {
             return Some(apart);
         }
-        let same = self.checking_trial(&higher.fidelities, &[], finer.accuracy, true).ok();
-        let same = same.filter(|same| is_comparable(same, higher))?.record.motion();
+        let same = self
+            .checking_trial(&higher.fidelities, &[], finer.accuracy, true)
+            .ok();
+        let same = same
+            .filter(|same| is_comparable(same, higher))?
+            .record
+            .motion();
         let by_steps = difference(&same, &own, measure, bounces).largest;
         Some(difference(&others, &same, measure, bounces))
             .filter(|apart| by_steps <= BY_STEPS * apart.largest)
@@ -157,7 +220,12 @@ impl<L: FoundationProvider> Search<'_, L> {
 
     /// A trial, repeated with the accuracy of the result if it was made with a coarser one. Where that changes its quantities
     /// by more than [`BY_STEPS`] of the tolerance, it is repeated with finer steps, at most [`REPETITIONS`] times.
-    pub fn repeated(&mut self, open: &[Open], mut trial: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
+    pub fn repeated(
+        &mut self,
+        open: &[Open],
+        mut trial: Trial,
+        bounces: Bounces,
+    ) -> Result<Trial, L::Error> {
         let strictest = self.strictest(open, &vec![1; open.len()]);
         // the forces of a result do not act on the modes: the times of the record suffice
         self.scene.output_parts = 1;

@@ -28,7 +28,11 @@ pub(super) struct Oscillator {
 impl Oscillator {
     /// A mode at rest with the circular frequency `omega` and the damping ratio `ratio`.
     pub fn new(omega: f64, ratio: f64) -> Self {
-        Oscillator { omega, ratio: ratio.min(MOST_DAMPED), ..Oscillator::default() }
+        Oscillator {
+            omega,
+            ratio: ratio.min(MOST_DAMPED),
+            ..Oscillator::default()
+        }
     }
 
     /// 1/omega^2, its displacement under a static unit load.
@@ -51,11 +55,14 @@ impl Oscillator {
         if (h - self.length).abs() > 1e-9 * h {
             self.set_step(h);
         }
-        let LoadAtEnds { value: [a, b], rate: [rate, rate_b] } = load;
+        let LoadAtEnds {
+            value: [a, b],
+            rate: [rate, rate_b],
+        } = load;
         let [x, v, _] = self.state;
-        let [x, v] = self
-            .step
-            .map(|by| by[0] * x + by[1] * v + by[2] * a + by[3] * b + (by[4] * rate + by[5] * rate_b));
+        let [x, v] = self.step.map(|by| {
+            by[0] * x + by[1] * v + by[2] * a + by[3] * b + (by[4] * rate + by[5] * rate_b)
+        });
         let lag = 2.0 * self.ratio * self.omega;
         self.state = [x, v, b - lag * v - self.omega * self.omega * x];
     }
@@ -66,7 +73,10 @@ impl Oscillator {
         let free = free_oscillation(self.omega, self.ratio, h);
         for k in 0..6 {
             let unit = |at: usize| f64::from(u8::from(at == k));
-            let load = LoadAtEnds { value: [unit(2), unit(3)], rate: [unit(4), unit(5)] };
+            let load = LoadAtEnds {
+                value: [unit(2), unit(3)],
+                rate: [unit(4), unit(5)],
+            };
             let [x, v] = self.exact_step(h, free, [unit(0), unit(1)], load);
             (self.step[0][k], self.step[1][k]) = (x, v);
         }
@@ -77,8 +87,17 @@ impl Oscillator {
     /// The solution is a free oscillation about the polynomial p(t) = d_0 + d_1 t + d_2 t^2 + d_3 t^3 that fulfils the
     /// equation for the load c_0 + c_1 t + c_2 t^2 + c_3 t^3:
     /// omega^2 d_k = c_k - 2 zeta omega (k + 1) d_(k+1) - (k + 1)(k + 2) d_(k+2).
-    fn exact_step(&self, h: f64, free: [[f64; 2]; 2], [x, v]: [f64; 2], load: LoadAtEnds) -> [f64; 2] {
-        let LoadAtEnds { value: [a, b], rate: [rate, rate_b] } = load;
+    fn exact_step(
+        &self,
+        h: f64,
+        free: [[f64; 2]; 2],
+        [x, v]: [f64; 2],
+        load: LoadAtEnds,
+    ) -> [f64; 2] {
+        let LoadAtEnds {
+            value: [a, b],
+            rate: [rate, rate_b],
+        } = load;
         let [_, _, c2, c3] = cubic([a, b], [h * rate, h * rate_b]);
         let (c2, c3) = (c2 / (h * h), c3 / (h * h * h));
         let (by, lag) = (self.flexibility(), 2.0 * self.ratio * self.omega);
@@ -86,7 +105,10 @@ impl Oscillator {
         let d2 = by * (c2 - 3.0 * lag * d3);
         let d1 = by * (rate - 2.0 * lag * d2 - 6.0 * d3);
         let d0 = by * (a - lag * d1 - 2.0 * d2);
-        let after = [d0 + h * (d1 + h * (d2 + h * d3)), d1 + h * (2.0 * d2 + 3.0 * h * d3)];
+        let after = [
+            d0 + h * (d1 + h * (d2 + h * d3)),
+            d1 + h * (2.0 * d2 + 3.0 * h * d3),
+        ];
         let apart = [x - d0, v - d1];
         [0, 1].map(|k| free[k][0] * apart[0] + free[k][1] * apart[1] + after[k])
     }
@@ -100,7 +122,10 @@ fn free_oscillation(omega: f64, ratio: f64, h: f64) -> [[f64; 2]; 2] {
     let slow = ratio * omega / free;
     [
         [decay * (cos + slow * sin), decay * sin / free],
-        [-decay * omega * omega / free * sin, decay * (cos - slow * sin)],
+        [
+            -decay * omega * omega / free * sin,
+            decay * (cos - slow * sin),
+        ],
     ]
 }
 

@@ -5,18 +5,39 @@ use super::*;
 /// Analytic: six speeds that grow uniformly from sample to sample, at unequal times; a single sample has none.
 #[test]
 fn accelerations_of_a_carrier_are_differences_of_its_speeds() {
-    let speeds = [BodyDof::X, BodyDof::Y, BodyDof::Z, BodyDof::Roll, BodyDof::Yaw, BodyDof::Pitch];
-    let channels: Vec<Channel> =
-        std::iter::once(Channel::Time).chain(speeds.map(|dof| Channel::Speed(0, dof))).collect();
+    let speeds = [
+        BodyDof::X,
+        BodyDof::Y,
+        BodyDof::Z,
+        BodyDof::Roll,
+        BodyDof::Yaw,
+        BodyDof::Pitch,
+    ];
+    let channels: Vec<Channel> = std::iter::once(Channel::Time)
+        .chain(speeds.map(|dof| Channel::Speed(0, dof)))
+        .collect();
     let history = |times: &[f64]| {
         let mut history = History::new(channels.clone());
-        let sample = |t: &f64| std::iter::once(*t).chain((0..6).map(|k| 5.0 + f64::from(k) * t)).collect();
-        history.put_values(times.iter().flat_map(|t| -> Vec<f64> { sample(t) }).collect());
+        let sample = |t: &f64| {
+            std::iter::once(*t)
+                .chain((0..6).map(|k| 5.0 + f64::from(k) * t))
+                .collect()
+        };
+        history.put_values(
+            times
+                .iter()
+                .flat_map(|t| -> Vec<f64> { sample(t) })
+                .collect(),
+        );
         history
     };
     let uniform = history(&[0.0, 0.5, 0.75, 2.0]);
     for i in 0..4 {
-        assert_eq!(acceleration(&uniform, i, 1), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0], "sample {i}");
+        assert_eq!(
+            acceleration(&uniform, i, 1),
+            [0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
+            "sample {i}"
+        );
     }
     assert_eq!(acceleration(&history(&[0.5]), 0, 1), [0.0; 6]);
 }
@@ -28,8 +49,15 @@ fn the_sums_over_the_modes_left_out_are_noted() {
     let counts = [0, 1, 3];
     let notes = [[8.0, -4.0, 2.0, 1.0], [0.0, 0.0, 0.0, -3.0]];
     for times in [0, 2] {
-        let mut slot = Slot { quantity: 0, largest: vec![0.0; 3], series: vec![0.0; 3 * times] };
-        notes.iter().enumerate().for_each(|(row, terms)| slot.note(&counts, row, |r| terms[r], 4));
+        let mut slot = Slot {
+            quantity: 0,
+            largest: vec![0.0; 3],
+            series: vec![0.0; 3 * times],
+        };
+        notes
+            .iter()
+            .enumerate()
+            .for_each(|(row, terms)| slot.note(&counts, row, |r| terms[r], 4));
         assert_eq!(slot.largest, [7.0, 3.0, 3.0]);
         assert_eq!(slot.series, [7.0, -1.0, 1.0, -3.0, -3.0, -3.0][..3 * times]);
         slot.note(&counts, 0, |r| if r == 1 { f64::NAN } else { 0.0 }, 4);
@@ -42,8 +70,10 @@ fn the_sums_over_the_modes_left_out_are_noted() {
 #[test]
 fn modes_above_the_known_ones_contribute_as_their_series_does() {
     for (kept, known) in [(20, 60), (60, 96), (96, 144)] {
-        let sum = |power: i32, to: usize| (kept + 1..=to).map(|n| (n as f64).powi(power)).sum::<f64>();
-        let ratios = [sum_beyond(kept, known), root_beyond(kept, known).powi(2)].map(|factor| factor - 1.0);
+        let sum =
+            |power: i32, to: usize| (kept + 1..=to).map(|n| (n as f64).powi(power)).sum::<f64>();
+        let ratios =
+            [sum_beyond(kept, known), root_beyond(kept, known).powi(2)].map(|factor| factor - 1.0);
         for (found, power) in ratios.into_iter().zip([-2, -4]) {
             let exact = sum(power, 1_000_000) / sum(power, known) - 1.0;
             assert!(

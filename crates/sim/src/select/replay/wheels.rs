@@ -55,20 +55,41 @@ pub(super) fn loaded_wheels(
 ) -> Result<Vec<LoadedWheel>, Error> {
     let foundation = &foundations[structure];
     let mut wheels = Vec::new();
-    for (index, point) in Wheels::new(scene, foundations, || 0)?.points.iter().enumerate() {
+    for (index, point) in Wheels::new(scene, foundations, || 0)?
+        .points
+        .iter()
+        .enumerate()
+    {
         let contact = &scene.contacts[point.contact];
-        let Some(first) = history.position(Channel::Position(index)) else { continue };
+        let Some(first) = history.position(Channel::Position(index)) else {
+            continue;
+        };
         if contact.structure != structure {
             continue;
         }
         let law = &scene.wheels[contact.wheel].normal;
         let rest = history.sample(0)[first + 1].max(0.0);
         let at = law.at(law.penetration(rest), 0.0);
-        let (k, c) = (at.by_penetration, if law.damper == Damper::Rail { at.by_rate } else { 0.0 });
+        let (k, c) = (
+            at.by_penetration,
+            if law.damper == Damper::Rail {
+                at.by_rate
+            } else {
+                0.0
+            },
+        );
         let rail = contact.rail;
         wheels.push(LoadedWheel {
-            steps: foundation.irregularities.get(rail).into_iter().flat_map(Irregularity::steps).collect(),
-            breaks: foundation.rails.get(rail).map_or(Vec::new(), |extent| extent.breaks.clone()),
+            steps: foundation
+                .irregularities
+                .get(rail)
+                .into_iter()
+                .flat_map(Irregularity::steps)
+                .collect(),
+            breaks: foundation
+                .rails
+                .get(rail)
+                .map_or(Vec::new(), |extent| extent.breaks.clone()),
             is_damped: law.damping > 0.0 && law.depth == 0.0,
             index,
             body: contact.body,
@@ -118,32 +139,67 @@ impl LoadedWheel {
         let x = [a[self.first], b[self.first]];
         let (jump, impulse) = if h > 0.0 { self.jump(a, b) } else { None }.unzip();
         // traction and lateral force act on the rail as they are given, the vertical one downwards
-        let channels = [(self.first + 3, 1.0), (self.first + 2, 1.0), (self.first + 1, -1.0)];
+        let channels = [
+            (self.first + 3, 1.0),
+            (self.first + 2, 1.0),
+            (self.first + 1, -1.0),
+        ];
         let forces = channels.map(|(k, sign)| [sign * a[k], sign * b[k]]);
         let rates = channels.map(|(k, sign)| {
-            let beside =
-                |at: usize| if a[k] == 0.0 && at < i { 0.0 } else { sign * difference(history, at, k) };
-            match jump {
-                Some(_) => {
-                    [if i == 0 { 0.0 } else { beside(i - 1) }, if next == last { 0.0 } else { beside(next) }]
+            let beside = |at: usize| {
+                if a[k] == 0.0 && at < i {
+                    0.0
+                } else {
+                    sign * difference(history, at, k)
                 }
-                None => [sign * rates_at(history, i, k)[1], sign * rates_at(history, next, k)[0]],
+            };
+            match jump {
+                Some(_) => [
+                    if i == 0 { 0.0 } else { beside(i - 1) },
+                    if next == last { 0.0 } else { beside(next) },
+                ],
+                None => [
+                    sign * rates_at(history, i, k)[1],
+                    sign * rates_at(history, next, k)[0],
+                ],
             }
         });
         let within = |at: &f64| (*at - x[0]) * (*at - x[1]) < 0.0;
         let share = |at: f64| ((at - x[0]) / (x[1] - x[0])).clamp(CORNER, 1.0 - CORNER);
-        let breaks = self.breaks.iter().copied().filter(within).map(share).collect();
-        Interval { h, x, forces, rates, jump, impulse: impulse.unwrap_or(0.0), breaks }
+        let breaks = self
+            .breaks
+            .iter()
+            .copied()
+            .filter(within)
+            .map(share)
+            .collect();
+        Interval {
+            h,
+            x,
+            forces,
+            rates,
+            jump,
+            impulse: impulse.unwrap_or(0.0),
+            breaks,
+        }
     }
 
     /// Share of the interval between two samples after which the forces jump first, and the upward impulse on the rail there.
     fn jump(&self, before: &[f64], after: &[f64]) -> Option<(f64, f64)> {
         let [from, to] = [before, after].map(|sample| sample[self.first]);
         let [force, later] = [before, after].map(|sample| sample[self.first + 1]);
-        let passed = self.steps.iter().filter(|[x, _]| (x - from) * (x - to) < 0.0).map(|[x, height]| {
-            let raised = if force > 0.0 { height * (to - from).signum() } else { 0.0 };
-            ((x - from) / (to - from), -self.contact[1] * raised)
-        });
+        let passed = self
+            .steps
+            .iter()
+            .filter(|[x, _]| (x - from) * (x - to) < 0.0)
+            .map(|[x, height]| {
+                let raised = if force > 0.0 {
+                    height * (to - from).signum()
+                } else {
+                    0.0
+                };
+                ((x - from) / (to - from), -self.contact[1] * raised)
+            });
         let landing = (self.is_damped && force == 0.0 && later > 0.0).then_some((0.5, 0.0));
         let first = passed.chain(landing).min_by(|a, b| a.0.total_cmp(&b.0));
         first.map(|(share, impulse)| (share.clamp(CORNER, 1.0 - CORNER), impulse))
@@ -158,16 +214,36 @@ impl Interval {
 
     /// Upward impulse of the wheel on the rail after a share of the interval.
     pub fn impulse(&self, share: f64) -> f64 {
-        if self.jump == Some(share) { self.impulse } else { 0.0 }
+        if self.jump == Some(share) {
+            self.impulse
+        } else {
+            0.0
+        }
     }
 
     /// The wheel after a share of the interval, just before this instant if `side` is -1 and just after it if it is 1.
     pub fn at(&self, share: f64, side: f64) -> WheelInstant {
-        let Interval { h, x: [from, to], forces, rates, .. } = self;
+        let Interval {
+            h,
+            x: [from, to],
+            forces,
+            rates,
+            ..
+        } = self;
         let is_inside = share > 0.0 && share < 1.0;
         let speed = if *h > 0.0 { (to - from) / h } else { 0.0 };
-        let share_of_x = if is_inside { share + side * BESIDE } else { share };
-        let is_after = self.jump.map(|jump| if side < 0.0 { share > jump } else { share >= jump });
+        let share_of_x = if is_inside {
+            share + side * BESIDE
+        } else {
+            share
+        };
+        let is_after = self.jump.map(|jump| {
+            if side < 0.0 {
+                share > jump
+            } else {
+                share >= jump
+            }
+        });
         let values = std::array::from_fn::<_, 3, _>(|k| {
             let ([a, b], [rate, rate_b]) = (forces[k], rates[k]);
             match is_after {
@@ -176,21 +252,35 @@ impl Interval {
                 None if share <= 0.0 => [a, rate],
                 None if share >= 1.0 => [b, rate_b],
                 None => {
-                    let [value, slope] = value_and_slope(cubic([a, b], [h * rate, h * rate_b]), share);
+                    let [value, slope] =
+                        value_and_slope(cubic([a, b], [h * rate, h * rate_b]), share);
                     [value, slope / h]
                 }
             }
         });
         // exactly the sample at its ends
-        let x = if share >= 1.0 { *to } else { from + share_of_x * (to - from) };
-        WheelInstant { x, speed, forces: values.map(|own| own[0]), rates: values.map(|own| own[1]) }
+        let x = if share >= 1.0 {
+            *to
+        } else {
+            from + share_of_x * (to - from)
+        };
+        WheelInstant {
+            x,
+            speed,
+            forces: values.map(|own| own[0]),
+            rates: values.map(|own| own[1]),
+        }
     }
 }
 
 /// Difference quotient of channel `k` after sample `i`.
 fn difference(history: &History, i: usize, k: usize) -> f64 {
     let [a, b] = [i, i + 1].map(|at| history.sample(at));
-    if b[0] > a[0] { (b[k] - a[k]) / (b[0] - a[0]) } else { 0.0 }
+    if b[0] > a[0] {
+        (b[k] - a[k]) / (b[0] - a[0])
+    } else {
+        0.0
+    }
 }
 
 /// Rates of channel `k` just before and just after sample `i`, see the head of this module.
@@ -204,7 +294,9 @@ fn rates_at(history: &History, i: usize, k: usize) -> [f64; 2] {
     }
     let [before, after] = [difference(history, i - 1, k), difference(history, i, k)];
     let bend = |at: usize| (difference(history, at, k) - difference(history, at - 1, k)).abs();
-    let neighbours = [i - 1, i + 1].into_iter().filter(|at| *at > 0 && *at < last);
+    let neighbours = [i - 1, i + 1]
+        .into_iter()
+        .filter(|at| *at > 0 && *at < last);
     let least = neighbours.map(bend).fold(f64::INFINITY, f64::min);
     if (after - before).abs() > SMOOTH * least {
         return [before, after];

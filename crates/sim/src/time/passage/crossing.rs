@@ -68,7 +68,11 @@ const ENDS: f64 = 1.0 / 56.0;
 /// `None` if nothing is missing.
 pub(crate) fn missing(system: &System) -> Option<&'static str> {
     let scene = system.scene;
-    let mut moving = scene.bodies.iter().enumerate().filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
+    let mut moving = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
     let first = moving.next();
     let together = moving.next().is_none()
         && system
@@ -77,21 +81,36 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
             .iter()
             .all(|w| first.is_none_or(|(b, _)| system.mechanics.kinematics.root(w.body) == b));
     let uniform = first.is_none_or(|(_, motion)| motion.uniform(scene.end).is_some());
-    let symmetric = system.foundations.iter().all(|f| f.compliance.as_ref().is_none_or(|c| c.is_symmetric()));
-    let mounted =
-        !system.mechanics.carried.is_empty() || system.foundations.iter().any(|f| f.carrier.is_some());
+    let symmetric = system
+        .foundations
+        .iter()
+        .all(|f| f.compliance.as_ref().is_none_or(|c| c.is_symmetric()));
+    let mounted = !system.mechanics.carried.is_empty()
+        || system.foundations.iter().any(|f| f.carrier.is_some());
     let troubles = [
         (!together, "wheels that travel together"),
         (!uniform, "a uniform speed"),
         (!system.traits.has_linear_laws, "linear contacts"),
         (system.traits.is_uneven, "even rails"),
-        (!system.traits.has_constant_rows || mounted, "structures without mass, on the ground"),
+        (
+            !system.traits.has_constant_rows || mounted,
+            "structures without mass, on the ground",
+        ),
         (!symmetric, "a symmetric compliance"),
-        (!scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(), "no loads or events"),
+        (
+            !scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(),
+            "no loads or events",
+        ),
         (system.elements.len() > WIDEST, "eight contacts at most"),
-        (system.mechanics.dofs > system.elements.len(), "no more freedoms than contacts"),
+        (
+            system.mechanics.dofs > system.elements.len(),
+            "no more freedoms than contacts",
+        ),
     ];
-    troubles.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted)
+    troubles
+        .into_iter()
+        .find(|(found, _)| *found)
+        .map(|(_, wanted)| wanted)
 }
 
 /// Result of a crossing from the start to the end, or until the caller stopped it.
@@ -132,7 +151,11 @@ fn dispatch<const P: usize>(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
     let crossing = Crossing::<P>::new(system, start)?;
-    Arch::new().dispatch(Dispatched { crossing, placed, watch })
+    Arch::new().dispatch(Dispatched {
+        crossing,
+        placed,
+        watch,
+    })
 }
 
 /// [`Crossing::run`], compiled for several sets of vector registers.
@@ -235,11 +258,18 @@ impl<'a, const P: usize> Crossing<'a, P> {
             damping[i] = law.damping * system.mechanics.groups[i].count();
             softness[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
         }
-        let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
-        let begun = root.map(|root| geometry.places().travel[root]).unwrap_or_default();
+        let root = system
+            .scene
+            .bodies
+            .iter()
+            .position(|body| body.motion.is_some());
+        let begun = root
+            .map(|root| geometry.places().travel[root])
+            .unwrap_or_default();
         let mut travel_inertia = [0.0; P];
-        for &(number, inertia) in
-            root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
+        for &(number, inertia) in root
+            .iter()
+            .flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
         {
             travel_inertia[number] += inertia;
         }
@@ -263,7 +293,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
             v,
             series: Series::new(),
             compliance: [zero; TERMS],
-            contacts: Contacts { mobile, free, ratio, damping, softness },
+            contacts: Contacts {
+                mobile,
+                free,
+                ratio,
+                damping,
+                softness,
+            },
             state: start,
             audit: Audit::default(),
             energy_at_start: 0.0,
@@ -283,14 +319,21 @@ impl<'a, const P: usize> Crossing<'a, P> {
     ) -> Result<Option<Crossed>, Error> {
         let system = self.system;
         let scene = system.scene;
-        let softness =
-            self.contacts.softness.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
+        let softness = self
+            .contacts
+            .softness
+            .iter()
+            .take(system.elements.len())
+            .fold(0.0_f64, |max, s| max.max(*s));
         let mut recorder = Recorder::new(system);
         recorder.reserve_for(scene);
         let mut counts = Counts::default();
         let quick = |i: usize| self.contacts.softness[i] / self.contacts.mobile[i][i];
-        let quickest = (0..system.elements.len()).map(quick).fold(f64::INFINITY, f64::min);
-        let carried = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.elements.len() as f64;
+        let quickest = (0..system.elements.len())
+            .map(quick)
+            .fold(f64::INFINITY, f64::min);
+        let carried =
+            scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.elements.len() as f64;
         if carried * softness > STIFF * quickest {
             return Ok(None);
         }
@@ -299,8 +342,14 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
         let mut due = scene.output_time(next);
         for end in self.breaks() {
-            let path =
-                Path::new(system, &mut self.geometry, &self.state, [t, end], self.travel.speed, softness)?;
+            let path = Path::new(
+                system,
+                &mut self.geometry,
+                &self.state,
+                [t, end],
+                self.travel.speed,
+                softness,
+            )?;
             let Some(path) = path else { return Ok(None) };
             if t == 0.0 && !(placed || self.rest(&path.about(0.0, 1.0)[0])) {
                 return Ok(None);
@@ -309,18 +358,29 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 self.compliance = path.about(t, scale);
                 let approach = self.approach(&self.q, true);
                 let rate = self.approach(&self.v, false);
-                self.largest_approach =
-                    approach.iter().fold(self.largest_approach, |max, w| max.max(w.abs()));
+                self.largest_approach = approach
+                    .iter()
+                    .fold(self.largest_approach, |max, w| max.max(w.abs()));
                 let starts = [&approach, &rate];
-                if self.series.expand(&self.contacts, &self.compliance, scale, starts).is_none() {
+                if self
+                    .series
+                    .expand(&self.contacts, &self.compliance, scale, starts)
+                    .is_none()
+                {
                     return Ok(None);
                 }
                 let force = self.series.first().force;
-                self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
+                self.largest_force = force
+                    .iter()
+                    .fold(self.largest_force, |max, force| max.max(force.abs()));
                 // An error of an approach by this much changes a force by the fraction of the largest one.
-                let yielding = self.yielding(&self.compliance[0]).min(self.largest_approach);
-                let wanted =
-                    scale * self.series.reach(allowed * yielding, FORCES * allowed * self.largest_force);
+                let yielding = self
+                    .yielding(&self.compliance[0])
+                    .min(self.largest_approach);
+                let wanted = scale
+                    * self
+                        .series
+                        .reach(allowed * yielding, FORCES * allowed * self.largest_force);
                 let count = ((end - t) / wanted).ceil().max(1.0);
                 let worthwhile = scene.end < MANY * wanted;
                 if !worthwhile {
@@ -364,8 +424,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// highest frequency of a contact, whose damping limits it to 1 + 1/(2 pi zeta).
     fn bounces(&self, quickest: f64) -> f64 {
         let omega = quickest.sqrt().recip();
-        let ratio =
-            self.contacts.ratio[..self.system.elements.len()].iter().fold(f64::INFINITY, |a, b| a.min(*b));
+        let ratio = self.contacts.ratio[..self.system.elements.len()]
+            .iter()
+            .fold(f64::INFINITY, |a, b| a.min(*b));
         (self.system.scene.end * omega / TAU).min(1.0 + 2.0 / (TAU * ratio * omega))
     }
 
@@ -385,7 +446,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.geometry.set_compliance(compliance.iter());
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.into_history(), self.audit);
-        Crossed { is_stopped, history, audit, counts, bounces }
+        Crossed {
+            is_stopped,
+            history,
+            audit,
+            counts,
+            bounces,
+        }
     }
 
     /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times
@@ -393,7 +460,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
     #[inline(always)]
     fn yielding(&self, compliance: &Matrix<P>) -> f64 {
         let m = self.system.elements.len();
-        let row = |i: usize| (0..m).map(|j| compliance[j][i].abs()).sum::<f64>() + self.contacts.softness[i];
+        let row = |i: usize| {
+            (0..m).map(|j| compliance[j][i].abs()).sum::<f64>() + self.contacts.softness[i]
+        };
         (0..m).map(row).fold(f64::INFINITY, f64::min) * self.largest_force
     }
 
@@ -402,12 +471,19 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let system = self.system;
         let end = system.scene.end;
         let mut times = vec![end];
-        for (wheel, x) in
-            system.mechanics.wheels.iter().zip(&self.travel.places).filter(|_| self.travel.speed != 0.0)
+        for (wheel, x) in system
+            .mechanics
+            .wheels
+            .iter()
+            .zip(&self.travel.places)
+            .filter(|_| self.travel.speed != 0.0)
         {
             let contact = &system.scene.contacts[wheel.contact];
             let to = x + self.travel.speed * end;
-            let places = system.mechanics.breaks.between(contact.structure, contact.rail, *x, to);
+            let places = system
+                .mechanics
+                .breaks
+                .between(contact.structure, contact.rail, *x, to);
             times.extend(places.map(|place| (place - x) / self.travel.speed));
         }
         let sliver = 1e-12 * end;
@@ -423,7 +499,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// Approaches, constant + R q, or their rates, R v.
     #[inline(always)]
     fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
-        let mut sum = if with_constant { self.matrices.constant } else { [0.0; P] };
+        let mut sum = if with_constant {
+            self.matrices.constant
+        } else {
+            [0.0; P]
+        };
         for (column, q) in self.matrices.rows.iter().zip(freedoms) {
             for (sum, entry) in sum.iter_mut().zip(column) {
                 *sum += entry * q;
@@ -463,7 +543,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
     fn begin(&mut self) -> bool {
         let look = self.series.first();
         let p = self.penetration(&look.force, &look.rate);
-        let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
+        let presses =
+            |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
         if !(0..self.system.elements.len()).all(presses) {
             return false;
         }
@@ -478,7 +559,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// Penetration p = F/k - r w' under the forces `force` at the rates of the approaches `rate`.
     #[inline(always)]
     fn penetration(&self, force: &[f64; P], rate: &[f64; P]) -> [f64; P] {
-        let Contacts { ratio, softness, .. } = &self.contacts;
+        let Contacts {
+            ratio, softness, ..
+        } = &self.contacts;
         std::array::from_fn(|i| force[i] * softness[i] - ratio[i] * rate[i])
     }
 
@@ -511,7 +594,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let p = self.penetration(&at.force, &at.rate);
         let (mut elastic, mut rest) = (0.0, 0.0);
         for (i, p) in p.iter().enumerate() {
-            elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
+            elastic +=
+                0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
         }
         for (k, column) in self.matrices.mass.iter().enumerate() {
             let momentum: f64 = column.iter().zip(v).map(|(entry, v)| entry * v).sum();
@@ -534,7 +618,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
         };
         // Three places at a time: their sums fit into the registers.
         let (first, second) = LOBATTO.split_at(3);
-        let of = |places: &[[f64; 2]]| self.series.at::<3>(&std::array::from_fn(|k| places[k][0] * end));
+        let of = |places: &[[f64; 2]]| {
+            self.series
+                .at::<3>(&std::array::from_fn(|k| places[k][0] * end))
+        };
         let (before, after, [at]) = (of(first), of(second), self.series.at(&[end]));
         book(&self.series.first(), ENDS);
         for (at, [_, weight]) in before.iter().chain(&after).zip(&LOBATTO) {
@@ -551,7 +638,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
         let mut least = at.force;
         for at in before.iter().chain(&after) {
-            least.iter_mut().zip(&at.force).for_each(|(least, force)| *least = least.min(*force));
+            least
+                .iter_mut()
+                .zip(&at.force)
+                .for_each(|(least, force)| *least = least.min(*force));
         }
         let pulls = |i: usize| least[i] < 0.0 && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
@@ -561,7 +651,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// the deflection and F dG/dt F = F u' - u F'.
     #[inline(always)]
     fn power(&self, at: &Values<P>) -> [f64; 2] {
-        let (p, p_rate) = (self.penetration(&at.force, &at.rate), self.penetration_rate(at));
+        let (p, p_rate) = (
+            self.penetration(&at.force, &at.rate),
+            self.penetration_rate(at),
+        );
         let (mut dampers, mut drives) = (0.0, 0.0);
         for (i, (p, p_rate)) in p.iter().zip(&p_rate).enumerate() {
             let (give, give_rate) = (at.approach[i] - p, at.rate[i] - p_rate);
@@ -584,7 +677,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
     ) -> Result<(), Error> {
         let per_time = 1.0 / self.series.scale;
         let mut places = *times;
-        places.iter_mut().for_each(|place| *place = (*place - start) * per_time);
+        places
+            .iter_mut()
+            .for_each(|place| *place = (*place - start) * per_time);
         let mut last = f64::NAN;
         for ((time, s), at) in times.iter().zip(places).zip(self.series.impulses(&places)) {
             if *time == last {
@@ -607,7 +702,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         if self.travel.speed == 0.0 {
             // the slopes of G are still those of the last evaluation, at the same places
-            self.geometry.update_rail_slope(self.system, &self.state.q, &self.state.force);
+            self.geometry
+                .update_rail_slope(self.system, &self.state.q, &self.state.force);
             return;
         }
         // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
@@ -646,7 +742,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
         put(&a, self.state.a.as_mut_slice());
         put(&p, &mut self.state.p);
         put(force, &mut self.state.force);
-        let UniformTravel { root, speed, places } = &self.travel;
+        let UniformTravel {
+            root,
+            speed,
+            places,
+        } = &self.travel;
         self.geometry.move_uniformly(places, *speed, t, *root);
     }
 }
@@ -658,5 +758,8 @@ fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
     if let ([last], Some(value)) = (last, values.get(2 * pairs.len())) {
         *last = *value;
     }
-    pairs.iter_mut().zip(values.as_chunks::<2>().0).for_each(|(to, from)| *to = *from);
+    pairs
+        .iter_mut()
+        .zip(values.as_chunks::<2>().0)
+        .for_each(|(to, from)| *to = *from);
 }

@@ -9,8 +9,12 @@ use crate::mechanics::state::State;
 
 /// Points of an interval, on [-1, 1], at which G and its rate are evaluated: zeros of the Chebyshev polynomial of
 /// degree 4.
-const PLACES: [f64; 4] =
-    [-0.923_879_532_511_286_7, -0.382_683_432_365_089_8, 0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
+const PLACES: [f64; 4] = [
+    -0.923_879_532_511_286_7,
+    -0.382_683_432_365_089_8,
+    0.382_683_432_365_089_8,
+    0.923_879_532_511_286_7,
+];
 
 /// Largest coefficient of degree 7, relative to the compliance of rail and wheel, for which G is regarded as a
 /// polynomial of degree 6.
@@ -47,8 +51,9 @@ impl<const P: usize> Path<P> {
                 for j in 0..m {
                     let (there, back) = (i * m + j, j * m + i);
                     value[i][j] = geometry.rails().value[there];
-                    rate[i][j] =
-                        (geometry.rails().slope[there] + geometry.rails().slope[back]) * speed * half;
+                    rate[i][j] = (geometry.rails().slope[there] + geometry.rails().slope[back])
+                        * speed
+                        * half;
                 }
                 size = size.max(value[i][i]);
             }
@@ -60,14 +65,25 @@ impl<const P: usize> Path<P> {
                 let (before, own) = (all[k - 1], &mut all[k]);
                 for (i, row) in own.iter_mut().enumerate() {
                     for (j, entry) in row.iter_mut().enumerate() {
-                        *entry = if gap == 0.0 { rate[k / 2][i][j] } else { (*entry - before[i][j]) / gap };
+                        *entry = if gap == 0.0 {
+                            rate[k / 2][i][j]
+                        } else {
+                            (*entry - before[i][j]) / gap
+                        };
                     }
                 }
             }
         }
         let [differences @ .., last] = all;
-        let is_polynomial = last.as_flattened().iter().all(|last| last.abs() <= ROUNDING * size);
-        Ok(is_polynomial.then_some(Path { middle, half, differences }))
+        let is_polynomial = last
+            .as_flattened()
+            .iter()
+            .all(|last| last.abs() <= ROUNDING * size);
+        Ok(is_polynomial.then_some(Path {
+            middle,
+            half,
+            differences,
+        }))
     }
 
     /// Coefficients of G over the time since `t` divided by `scale`.
@@ -87,7 +103,10 @@ impl<const P: usize> Path<P> {
         let mut power = 1.0;
         for matrix in &mut sum[1..] {
             power *= scale / self.half;
-            matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= power);
+            matrix
+                .as_flattened_mut()
+                .iter_mut()
+                .for_each(|entry| *entry *= power);
         }
         sum
     }

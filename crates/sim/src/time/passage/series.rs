@@ -66,7 +66,11 @@ pub(super) struct Values<const P: usize> {
 
 impl<const P: usize> Series<P> {
     pub fn new() -> Self {
-        Series { scale: 1.0, force: [[0.0; P]; ORDER + MORE], approach: [[0.0; P]; ORDER + 2] }
+        Series {
+            scale: 1.0,
+            force: [[0.0; P]; ORDER + MORE],
+            approach: [[0.0; P]; ORDER + 2],
+        }
     }
 
     /// Computes the series of the step that starts with the approach `start` and its rate `rate`; `compliance` holds
@@ -88,7 +92,8 @@ impl<const P: usize> Series<P> {
         self.approach[0] = *start;
         self.approach[1] = rate.map(|rate| rate * scale);
         // A^-1 C_j, s A^-1 r B and s^2 A^-1 B
-        let memory: [Matrix<P>; BEFORE] = std::array::from_fn(|j| product(&inverse, &compliance[j + 1]));
+        let memory: [Matrix<P>; BEFORE] =
+            std::array::from_fn(|j| product(&inverse, &compliance[j + 1]));
         let mut by_rate = [[0.0; P]; P];
         for (column, mobile) in by_rate.iter_mut().zip(&contacts.mobile) {
             for i in 0..P {
@@ -108,14 +113,22 @@ impl<const P: usize> Series<P> {
                 subtract(&memory[j], &latest[j], &mut force);
             }
             if k < 3 {
-                let (w, next, per_time) = (&self.approach[k], &self.approach[k + 1], (k + 1) as f64 / scale);
+                let (w, next, per_time) = (
+                    &self.approach[k],
+                    &self.approach[k + 1],
+                    (k + 1) as f64 / scale,
+                );
                 let right = std::array::from_fn(|i| -w[i] - contacts.ratio[i] * per_time * next[i]);
                 subtract(&inverse, &right, &mut force);
                 subtract(&memory[1], &latest[1], &mut force);
                 subtract(&memory[0], &latest[0], &mut force);
             } else {
                 let (first, second) = (rate_share * FIRST[k - 1], scale * scale * SECOND[k - 2]);
-                subtract(&sum(&memory[1], second, &by_approach), &latest[1], &mut force);
+                subtract(
+                    &sum(&memory[1], second, &by_approach),
+                    &latest[1],
+                    &mut force,
+                );
                 subtract(&sum(&memory[0], first, &by_rate), &latest[0], &mut force);
             }
             self.force[k] = force;
@@ -137,12 +150,18 @@ impl<const P: usize> Series<P> {
     #[inline(always)]
     pub fn reach(&self, approach: f64, force: f64) -> f64 {
         let longest = |terms: &[[f64; P]], allowed: f64, k: usize| {
-            let size = terms[k].iter().fold(f64::MIN_POSITIVE, |max, term| max.max(term.abs()));
+            let size = terms[k]
+                .iter()
+                .fold(f64::MIN_POSITIVE, |max, term| max.max(term.abs()));
             (allowed / size).ln() / k as f64
         };
         let by_force = [ORDER - 2, ORDER - 1].map(|k| longest(&self.force, force, k));
         let by_approach = [ORDER, ORDER + 1].map(|k| longest(&self.approach, approach, k));
-        by_force.into_iter().chain(by_approach).fold(f64::INFINITY, f64::min).exp()
+        by_force
+            .into_iter()
+            .chain(by_approach)
+            .fold(f64::INFINITY, f64::min)
+            .exp()
     }
 
     /// Values at each of the scaled times `places`.
@@ -184,7 +203,10 @@ impl<const P: usize> Series<P> {
             }
         }
         for (k, term) in moving.iter().enumerate().rev() {
-            let (first, second) = (term.map(|term| term * FIRST[k]), term.map(|term| term * SECOND[k]));
+            let (first, second) = (
+                term.map(|term| term * FIRST[k]),
+                term.map(|term| term * SECOND[k]),
+            );
             for at in 0..N {
                 let s = places[at];
                 for i in 0..P {

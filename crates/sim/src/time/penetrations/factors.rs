@@ -43,7 +43,11 @@ impl Factors {
         let count = laws.len() / COUNT;
         let delays = self.delays.get_or_insert_default();
         delays.clear();
-        delays.extend(laws[..count].iter().map(|[_, by_place, by_rate]| by_rate / (by_place * h)));
+        delays.extend(
+            laws[..count]
+                .iter()
+                .map(|[_, by_place, by_rate]| by_rate / (by_place * h)),
+        );
         if is_alike && delays.iter().all(|delay| delay.is_finite()) {
             return;
         }
@@ -51,11 +55,18 @@ impl Factors {
         let size = COUNT * count;
         self.whole.replace(size, |matrix| {
             matrix.resize(size * size, 0.0);
-            matrix.iter_mut().step_by(size + 1).for_each(|own| *own = 1.0);
+            matrix
+                .iter_mut()
+                .step_by(size + 1)
+                .for_each(|own| *own = 1.0);
             for (a, (node, weights)) in followed.iter().zip(weights()).enumerate() {
                 for r in (0..count).filter(|&r| is_solved(a, r)) {
                     let row = a * count + r;
-                    let entries = node.compliances(r).iter().zip(&laws[a * count..]).enumerate();
+                    let entries = node
+                        .compliances(r)
+                        .iter()
+                        .zip(&laws[a * count..])
+                        .enumerate();
                     for (c, (compliance, [_, by_place, by_rate])) in entries {
                         matrix[row * size + a * count + c] += compliance * by_place;
                         for (b, weight) in weights.iter().enumerate() {
@@ -75,13 +86,22 @@ impl Factors {
     /// Replaces the `residual` by the change of the differences that brings it to zero; false where the factors are
     /// singular. The contacts are those with which the factors were set.
     pub fn solve(&mut self, followed: &[Followed; COUNT], residual: &mut [[f64; COUNT]]) -> bool {
-        let Factors { whole, delays, line, term, image } = self;
+        let Factors {
+            whole,
+            delays,
+            line,
+            term,
+            image,
+        } = self;
         let Some(delays) = delays else {
             line.clear();
             (0..COUNT).for_each(|a| line.extend(residual.iter().map(|own| own[a])));
             let is_solved = whole.solve(line);
             for (a, at_place) in line.chunks_exact(residual.len()).enumerate() {
-                residual.iter_mut().zip(at_place).for_each(|(own, value)| own[a] = *value);
+                residual
+                    .iter_mut()
+                    .zip(at_place)
+                    .for_each(|(own, value)| own[a] = *value);
             }
             return is_solved;
         };
@@ -128,8 +148,9 @@ mod tests {
                 .flat_map(|_| stiffness.iter().enumerate())
                 .map(|(i, &by_place)| [0.0, by_place, 30.0 + (i % 7) as f64])
                 .collect();
-            let residual: Vec<[f64; COUNT]> =
-                (0..count).map(|i| std::array::from_fn(|a| (1.0 + (COUNT * i + a) as f64).sin())).collect();
+            let residual: Vec<[f64; COUNT]> = (0..count)
+                .map(|i| std::array::from_fn(|a| (1.0 + (COUNT * i + a) as f64).sin()))
+                .collect();
             let [expected, found] = [false, true].map(|is_alike| {
                 let (mut factors, mut change) = (Factors::default(), residual.clone());
                 factors.set(&followed, &laws, (0.7, is_alike), |_, _| true);
@@ -137,9 +158,15 @@ mod tests {
                 assert!(factors.solve(&followed, &mut change), "I + G K is regular");
                 change
             });
-            let largest = expected.iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            let largest = expected
+                .iter()
+                .flatten()
+                .fold(0.0_f64, |largest, x| largest.max(x.abs()));
             for (expected, found) in expected.iter().flatten().zip(found.iter().flatten()) {
-                assert!((expected - found).abs() < 1e-12 * largest, "{count}: {found} for {expected}");
+                assert!(
+                    (expected - found).abs() < 1e-12 * largest,
+                    "{count}: {found} for {expected}"
+                );
             }
         }
     }

@@ -44,13 +44,21 @@ pub fn weights() -> &'static [[f64; COUNT]; COUNT] {
 /// Sum of the values at the places, each times its weight.
 #[inline]
 pub fn sum_of(weights: &[f64; COUNT], values: &[f64; COUNT]) -> f64 {
-    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
+    weights
+        .iter()
+        .zip(values)
+        .map(|(weight, value)| weight * value)
+        .sum()
 }
 
 /// Values at `share` of the cubic Lagrange polynomials through the places.
 pub fn values(share: f64) -> [f64; COUNT] {
     let away = PLACES.map(|place| share - place);
-    std::array::from_fn(|j| OTHERS[j].iter().fold(SCALE[j], |product, other| product * away[*other]))
+    std::array::from_fn(|j| {
+        OTHERS[j]
+            .iter()
+            .fold(SCALE[j], |product, other| product * away[*other])
+    })
 }
 
 /// Weights of the polynomial of the seventh degree through the values, and the rates at the places, and of its derivative per
@@ -66,7 +74,10 @@ pub struct SpringPolynomial {
 impl SpringPolynomial {
     /// The weights at the fraction `share` of the step, where the Lagrange polynomials have these `values` and `slopes`.
     pub fn new(share: f64, values: &[f64; COUNT], slopes: &[f64; COUNT]) -> SpringPolynomial {
-        let mut made = SpringPolynomial { value: [[0.0; COUNT]; 2], slope: [[0.0; COUNT]; 2] };
+        let mut made = SpringPolynomial {
+            value: [[0.0; COUNT]; 2],
+            slope: [[0.0; COUNT]; 2],
+        };
         for j in 0..COUNT {
             let (away, own, value) = (share - PLACES[j], weights()[j][j], values[j]);
             let (square, square_slope) = (value * value, 2.0 * value * slopes[j]);
@@ -81,12 +92,22 @@ impl SpringPolynomial {
     /// Penetration of the spring of contact `r` and its rate in a step of length `h`.
     pub fn at(&self, followed: &[Followed; COUNT], r: usize, h: f64) -> [f64; 2] {
         let sum = |[by_value, by_rate]: &[[f64; COUNT]; 2]| {
-            let of_values = followed.iter().zip(by_value).map(|(node, weight)| weight * node.value[r]);
-            let of_rates = followed.iter().zip(by_rate).map(|(node, weight)| weight * node.rate[r]);
+            let of_values = followed
+                .iter()
+                .zip(by_value)
+                .map(|(node, weight)| weight * node.value[r]);
+            let of_rates = followed
+                .iter()
+                .zip(by_rate)
+                .map(|(node, weight)| weight * node.rate[r]);
             [of_values.sum::<f64>(), of_rates.sum::<f64>()]
         };
-        let ([by_values, by_rates], [slope_by_values, slope_by_rates]) = (sum(&self.value), sum(&self.slope));
-        [by_values + h * by_rates, slope_by_values / h + slope_by_rates]
+        let ([by_values, by_rates], [slope_by_values, slope_by_rates]) =
+            (sum(&self.value), sum(&self.slope));
+        [
+            by_values + h * by_rates,
+            slope_by_values / h + slope_by_rates,
+        ]
     }
 }
 
@@ -97,8 +118,10 @@ mod tests {
     /// Identity: a polynomial of the seventh degree, and its derivative, from its values and derivatives at the places.
     #[test]
     fn springs_between_the_places_follow_their_polynomial() {
-        let (value, rate) =
-            (|x: f64| x.powi(7) - 2.0 * x.powi(4) + x, |x: f64| 7.0 * x.powi(6) - 8.0 * x.powi(3) + 1.0);
+        let (value, rate) = (
+            |x: f64| x.powi(7) - 2.0 * x.powi(4) + x,
+            |x: f64| 7.0 * x.powi(6) - 8.0 * x.powi(3) + 1.0,
+        );
         let h = 0.25;
         let followed = PLACES.map(|place| {
             let mut node = Followed::default();
@@ -109,7 +132,10 @@ mod tests {
             let polynomial = SpringPolynomial::new(share, &values(share), &slopes(share));
             let [found, found_rate] = polynomial.at(&followed, 0, h);
             assert!((found - value(share)).abs() < 1e-13, "{share}: {found}");
-            assert!((found_rate - rate(share) / h).abs() < 1e-12 / h, "{share}: {found_rate}");
+            assert!(
+                (found_rate - rate(share) / h).abs() < 1e-12 / h,
+                "{share}: {found_rate}"
+            );
         }
     }
 }

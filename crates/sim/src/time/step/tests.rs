@@ -1,6 +1,9 @@
 //! Orders of convergence of the methods with fixed steps, and their conservation of energy.
 
-#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures measured belong beside the claims"
+)]
 
 use super::Step;
 use crate::contact::solver::{RailMemory, Solver};
@@ -14,8 +17,8 @@ use nalgebra::DMatrix;
 use splines::{Compliance, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
 
 use crate::{
-    Analysis, BlendedParts, Body, BodyDof, Contact, Damper, Dynamics, Error, Flange, Foundation, Load,
-    Method, MotionKind, NormalLaw, PartChain, Profile, Schedule,
+    Analysis, BlendedParts, Body, BodyDof, Contact, Damper, Dynamics, Error, Flange, Foundation,
+    Load, Method, MotionKind, NormalLaw, PartChain, Profile, Schedule,
 };
 use crate::{Scene, Shapes, Structure, Wheel};
 
@@ -61,7 +64,11 @@ fn scene() -> Scene {
 }
 
 /// Calls `body` with a step that starts at height `y` with speed `v`.
-fn with<T>(y: f64, v: f64, body: impl FnOnce(&mut Step<'_, '_>) -> Result<T, Error>) -> Result<T, Error> {
+fn with<T>(
+    y: f64,
+    v: f64,
+    body: impl FnOnce(&mut Step<'_, '_>) -> Result<T, Error>,
+) -> Result<T, Error> {
     let (scene, foundations) = (scene(), [Foundation::rigid()]);
     let system = System::new(&scene, &foundations)?;
     let mut solver = Solver::new(&system, RailMemory::Known)?;
@@ -101,9 +108,17 @@ fn a_step_in_which_a_flange_that_was_left_out_touches_is_repeated() -> Result<()
     let (mut scene, foundations) = (scene(), [Foundation::rigid()]);
     scene.bodies[0].free[2] = true;
     let (stiffness, clearance) = (100.0, 0.01);
-    scene.wheels[0].flange = Some(Flange { stiffness, clearance, release: None });
+    scene.wheels[0].flange = Some(Flange {
+        stiffness,
+        clearance,
+        release: None,
+    });
     let value = Schedule::new(&[[0.0, 0.0], [1.0, 30.0]])?;
-    scene.actuators.loads.push(Load { body: 0, dof: BodyDof::Z, value });
+    scene.actuators.loads.push(Load {
+        body: 0,
+        dof: BodyDof::Z,
+        value,
+    });
     let system = System::new(&scene, &foundations)?;
     // Free motion by the load 30 t of a mass of 1: z = 5 t^3, 5e-3 and 0.04 at the ends of these steps.
     for (h, touches) in [(0.1, false), (0.2, true)] {
@@ -116,8 +131,16 @@ fn a_step_in_which_a_flange_that_was_left_out_touches_is_repeated() -> Result<()
         step.begin();
         assert!(step.attempt(h, f64::INFINITY, &mut stages)?);
         assert_eq!(stages, if touches { 10 } else { 5 }, "step {h}");
-        let wanted = if touches { stiffness * (step.to.q[1] - clearance) } else { 0.0 };
-        assert!((step.to.force[1] - wanted).abs() < 1e-9, "step {h}: {} of {wanted}", step.to.force[1]);
+        let wanted = if touches {
+            stiffness * (step.to.q[1] - clearance)
+        } else {
+            0.0
+        };
+        assert!(
+            (step.to.force[1] - wanted).abs() < 1e-9,
+            "step {h}: {} of {wanted}",
+            step.to.force[1]
+        );
         assert_eq!(wanted > 0.0, touches);
     }
     Ok(())
@@ -185,22 +208,34 @@ impl Compliance for Give {
 }
 
 fn modal() -> Foundation {
-    let dynamics = Dynamics::Modes { omega: vec![4.0, 9.0, 17.0], ratio: vec![0.0, 0.02, 0.05] };
-    Foundation { structure: Some(Structure { dynamics, shapes: Box::new(Sines) }), ..Foundation::default() }
+    let dynamics = Dynamics::Modes {
+        omega: vec![4.0, 9.0, 17.0],
+        ratio: vec![0.0, 0.02, 0.05],
+    };
+    Foundation {
+        structure: Some(Structure {
+            dynamics,
+            shapes: Box::new(Sines),
+        }),
+        ..Foundation::default()
+    }
 }
 
 /// Two rigid parts on springs, joined by a beam. Their datum is blended from 1.5 to 6.5, where the wheel stays.
 fn parts() -> Foundation {
-    let cells = [2.0, 6.0].iter().enumerate().map(|(j, centre)| RailElement {
-        rail: j,
-        x: [0.0, 10.0],
-        ends: [j, j],
-        length: 10.0,
-        frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        offset: [-centre, 0.0, 0.0],
-        flexibility: Flexibility::default(),
-        member: None,
-    });
+    let cells = [2.0, 6.0]
+        .iter()
+        .enumerate()
+        .map(|(j, centre)| RailElement {
+            rail: j,
+            x: [0.0, 10.0],
+            ends: [j, j],
+            length: 10.0,
+            frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            offset: [-centre, 0.0, 0.0],
+            flexibility: Flexibility::default(),
+            member: None,
+        });
     let line = Rails::new(cells.collect()).expect("rigid arms");
     let mut nodal = DMatrix::zeros(12, 12);
     let give = DMatrix::from_row_slice(
@@ -220,7 +255,13 @@ fn parts() -> Foundation {
     }
     let surface = ExactSurface::new(Arc::new(line), nodal).expect("two parts");
     let chain = PartChain::new(vec![0.0, 4.0, 10.0], 0, Some(5.0)).expect("one joint");
-    Foundation::massless(Box::new(BlendedParts { surface, chains: vec![chain] }), 1)
+    Foundation::massless(
+        Box::new(BlendedParts {
+            surface,
+            chains: vec![chain],
+        }),
+        1,
+    )
 }
 
 /// A pinned beam of three elements with all its natural modes; the wheel stays on the middle element, from 1.5 to
@@ -237,7 +278,12 @@ impl Shapes for Beam {
         let length = ENDS[2] - ENDS[1];
         let s = (at.x - ENDS[1]) / length;
         let (t, by) = (1.0 - s, 6.0 * s * (1.0 - s) / length);
-        let own = [t * t * (1.0 + 2.0 * s), length * s * t * t, s * s * (3.0 - 2.0 * s), -length * s * s * t];
+        let own = [
+            t * t * (1.0 + 2.0 * s),
+            length * s * t * t,
+            s * s * (3.0 - 2.0 * s),
+            -length * s * s * t,
+        ];
         let rate = [-by, t * (1.0 - 3.0 * s), by, s * (3.0 * s - 2.0)];
         for (k, column) in self.middle.column_iter().enumerate() {
             (value[k], slope[k]) = (0.0, 0.0);
@@ -255,14 +301,24 @@ fn full() -> Foundation {
     let (mut stiffness, mut mass) = (DMatrix::<f64>::zeros(8, 8), DMatrix::<f64>::zeros(8, 8));
     for (e, ends) in ENDS.windows(2).enumerate() {
         let l = ends[1] - ends[0];
-        let k = [[12.0, 6.0 * l, -12.0, 6.0 * l], [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l]];
-        let m = [[156.0, 22.0 * l, 54.0, -13.0 * l], [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l]];
+        let k = [
+            [12.0, 6.0 * l, -12.0, 6.0 * l],
+            [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
+        ];
+        let m = [
+            [156.0, 22.0 * l, 54.0, -13.0 * l],
+            [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
+        ];
         let mirror = [2, 3, 0, 1];
         for i in 0..4 {
             for j in 0..4 {
                 let of = |rows: &[[f64; 4]; 2]| {
                     let sign = if i < 2 || (i + j) % 2 == 0 { 1.0 } else { -1.0 };
-                    sign * if i < 2 { rows[i][j] } else { rows[i - 2][mirror[j]] }
+                    sign * if i < 2 {
+                        rows[i][j]
+                    } else {
+                        rows[i - 2][mirror[j]]
+                    }
                 };
                 stiffness[(2 * e + i, 2 * e + j)] += bending / l.powi(3) * of(&k);
                 mass[(2 * e + i, 2 * e + j)] += line_mass * l / 420.0 * of(&m);
@@ -276,13 +332,29 @@ fn full() -> Foundation {
     let own = (&inverse * inner(&stiffness) * inverse.transpose()).symmetric_eigen();
     let shapes = inverse.transpose() * own.eigenvectors;
     let omega = own.eigenvalues.iter().map(|square| square.sqrt()).collect();
-    let dynamics = Dynamics::Modes { omega, ratio: vec![0.02; 6] };
-    let shapes = Beam { middle: shapes.rows(1, 4).into_owned() };
-    Foundation { structure: Some(Structure { dynamics, shapes: Box::new(shapes) }), ..Foundation::default() }
+    let dynamics = Dynamics::Modes {
+        omega,
+        ratio: vec![0.02; 6],
+    };
+    let shapes = Beam {
+        middle: shapes.rows(1, 4).into_owned(),
+    };
+    Foundation {
+        structure: Some(Structure {
+            dynamics,
+            shapes: Box::new(shapes),
+        }),
+        ..Foundation::default()
+    }
 }
 
 /// Height and speed of the wheel at time 1, after `steps` equal steps.
-fn end(method: Method, law: NormalLaw, foundation: Foundation, steps: u32) -> Result<[f64; 2], Error> {
+fn end(
+    method: Method,
+    law: NormalLaw,
+    foundation: Foundation,
+    steps: u32,
+) -> Result<[f64; 2], Error> {
     let mut scene = scene();
     scene.wheels[0].normal = law;
     scene.bodies[0].motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 3.0]], 2.0, 0.0)?);
@@ -311,7 +383,10 @@ fn errors(
     found: impl Fn(u32) -> Result<[f64; 2], Error>,
 ) -> Result<Vec<f64>, Error> {
     let error = |found: [f64; 2]| (found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1]));
-    counts.into_iter().map(|steps| found(steps).map(error)).collect()
+    counts
+        .into_iter()
+        .map(|steps| found(steps).map(error))
+        .collect()
 }
 
 /// The order is measured between the two finest of three steps. The reference is Gauss of order 6, or Radau if the
@@ -329,13 +404,24 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
     let mut missed = Vec::new();
     for (name, foundation) in foundations {
         let structure = foundation().structure.is_some();
-        for (law, damping, damper) in
-            [("none", 0.0, Damper::Rail), ("ground", 2.0, Damper::Ground), ("rail", 2.0, Damper::Rail)]
-        {
-            let best = if law == "rail" { Method::Radau } else { Method::Gauss3 };
+        for (law, damping, damper) in [
+            ("none", 0.0, Damper::Rail),
+            ("ground", 2.0, Damper::Ground),
+            ("rail", 2.0, Damper::Rail),
+        ] {
+            let best = if law == "rail" {
+                Method::Radau
+            } else {
+                Method::Gauss3
+            };
             let radau = if law == "rail" { 5.0 } else { 9.0 };
             let wheel = || NormalLaw::linear(100.0, damping, damper);
-            let wanted = end(best, wheel(), foundation(), if law == "rail" { 1280 } else { 640 })?;
+            let wanted = end(
+                best,
+                wheel(),
+                foundation(),
+                if law == "rail" { 1280 } else { 640 },
+            )?;
             for (method, order) in [
                 (Method::Sdirk4, 4.0),
                 (Method::Esdirk5, 5.0),
@@ -347,7 +433,8 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                     continue;
                 }
                 // Its errors are near rounding before it resolves the fastest mode, and the relaxation on parts.
-                let is_fine = matches!((name, law), ("full", "none" | "ground") | ("parts", "rail"));
+                let is_fine =
+                    matches!((name, law), ("full", "none" | "ground") | ("parts", "rail"));
                 if method == Method::Esdirk5 && is_fine {
                     continue;
                 }
@@ -369,9 +456,13 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                     _ if name == "full" => [40, 80, 160],
                     _ => [20, 40, 80],
                 };
-                let errors = errors(counts, wanted, |steps| end(method, wheel(), foundation(), steps))?;
+                let errors = errors(counts, wanted, |steps| {
+                    end(method, wheel(), foundation(), steps)
+                })?;
                 let seen = slope(&errors[1..]);
-                println!("{name}, damper {law}, {method:?}: order {seen:.3} for {order}, {errors:?}");
+                println!(
+                    "{name}, damper {law}, {method:?}: order {seen:.3} for {order}, {errors:?}"
+                );
                 // With few steps the fastest modes of the mesh are not resolved yet, and the order is approached from above.
                 let is_coarse = name == "full" && method == Method::Radau && law != "rail";
                 if (seen - order).abs() > 0.1 && !(is_coarse && seen > order) {
@@ -389,31 +480,68 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
 #[test]
 fn methods_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error> {
     let influence = || Foundation::massless(Box::new(Give), 1);
-    let foundations: [(&str, &dyn Fn() -> Foundation); 4] =
-        [("rigid", &Foundation::rigid), ("influence", &influence), ("modal", &modal), ("full", &full)];
+    let foundations: [(&str, &dyn Fn() -> Foundation); 4] = [
+        ("rigid", &Foundation::rigid),
+        ("influence", &influence),
+        ("modal", &modal),
+        ("full", &full),
+    ];
     let mut missed = Vec::new();
     for (name, foundation) in foundations {
         let is_massless = matches!(name, "rigid" | "influence");
         // The fastest mode of the mesh has a period of 0.06.
-        let stages = if name == "full" { [80, 160, 320] } else { [40, 80, 160] };
-        let under_dampers = if name == "influence" { [320, 640, 1280] } else { [80, 160, 320] };
+        let stages = if name == "full" {
+            [80, 160, 320]
+        } else {
+            [40, 80, 160]
+        };
+        let under_dampers = if name == "influence" {
+            [320, 640, 1280]
+        } else {
+            [80, 160, 320]
+        };
         let mut by_ground = vec![
             (Method::Sdirk4, 4.0, stages),
             (Method::Gauss3, 6.0, [40, 80, 160]),
-            (Method::Radau, 9.0, if is_massless { [6, 12, 24] } else { [10, 20, 40] }),
+            (
+                Method::Radau,
+                9.0,
+                if is_massless {
+                    [6, 12, 24]
+                } else {
+                    [10, 20, 40]
+                },
+            ),
         ];
         // On the mesh its errors are near rounding before it resolves the fastest mode.
         if name != "full" {
-            by_ground.push((Method::Esdirk5, 5.0, if is_massless { [15, 30, 60] } else { [40, 80, 160] }));
+            by_ground.push((
+                Method::Esdirk5,
+                5.0,
+                if is_massless {
+                    [15, 30, 60]
+                } else {
+                    [40, 80, 160]
+                },
+            ));
         }
         for (damper, finest, cases) in [
             (Damper::Ground, 320, by_ground),
-            (Damper::Rail, 5120, vec![(Method::Radau, 5.0, under_dampers)]),
+            (
+                Damper::Rail,
+                5120,
+                vec![(Method::Radau, 5.0, under_dampers)],
+            ),
         ] {
-            let law = || NormalLaw { exponent: 1.5, ..NormalLaw::linear(300.0, 2.0, damper) };
+            let law = || NormalLaw {
+                exponent: 1.5,
+                ..NormalLaw::linear(300.0, 2.0, damper)
+            };
             let wanted = end(Method::Radau, law(), foundation(), finest)?;
             for (method, order, counts) in cases {
-                let errors = errors(counts, wanted, |steps| end(method, law(), foundation(), steps))?;
+                let errors = errors(counts, wanted, |steps| {
+                    end(method, law(), foundation(), steps)
+                })?;
                 let seen = slope(&errors[1..]);
                 println!("{name}, {damper:?}, {method:?}: order {seen:.3} for {order}, {errors:?}");
                 // With few steps the fastest modes are not resolved yet, and the order is approached from above.
@@ -431,9 +559,12 @@ fn methods_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error>
 /// Analytic: E = v^2/2 + 50 p^2 + 10 y is constant; ten thousand periods of 2 pi/10 with 12 steps each.
 #[test]
 fn gauss_conserves_the_energy_of_ten_thousand_cycles() -> Result<(), Error> {
-    for (method, bound) in
-        [(Method::Gauss2, 1e-10), (Method::Gauss3, 1e-10), (Method::Radau, 1.0), (Method::Sdirk4, 1.0)]
-    {
+    for (method, bound) in [
+        (Method::Gauss2, 1e-10),
+        (Method::Gauss3, 1e-10),
+        (Method::Radau, 1.0),
+        (Method::Sdirk4, 1.0),
+    ] {
         let (scene, foundations) = (scene(), [Foundation::rigid()]);
         let system = System::new(&scene, &foundations)?;
         let mut solver = Solver::new(&system, RailMemory::Known)?;

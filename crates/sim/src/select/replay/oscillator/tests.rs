@@ -6,7 +6,8 @@ use super::*;
 /// Runge-Kutta method in `steps` steps: q, q' and q'' at `end`.
 fn integrated(omega: f64, ratio: f64, load: impl Fn(f64) -> f64, end: f64, steps: u32) -> [f64; 3] {
     let h = end / f64::from(steps);
-    let acceleration = |t: f64, q: f64, v: f64| load(t) - 2.0 * ratio * omega * v - omega * omega * q;
+    let acceleration =
+        |t: f64, q: f64, v: f64| load(t) - 2.0 * ratio * omega * v - omega * omega * q;
     let (mut q, mut v) = (load(0.0) / (omega * omega), 0.0);
     for k in 0..steps {
         let t = h * f64::from(k);
@@ -28,14 +29,36 @@ fn integrated(omega: f64, ratio: f64, load: impl Fn(f64) -> f64, end: f64, steps
 fn steps_of_a_mode_follow_its_equation_exactly_under_a_load_of_cubic_pieces() {
     let times = [0.0, 0.3, 1.7, 2.0, 3.1];
     let pieces = [
-        LoadAtEnds { value: [2.0, 5.0], rate: [10.0, 10.0] },
-        LoadAtEnds { value: [5.0, -1.0], rate: [-3.0, 0.5] },
-        LoadAtEnds { value: [-1.0, -1.0], rate: [7.0, 0.0] },
-        LoadAtEnds { value: [-1.0, 4.0], rate: [0.0, -2.0] },
+        LoadAtEnds {
+            value: [2.0, 5.0],
+            rate: [10.0, 10.0],
+        },
+        LoadAtEnds {
+            value: [5.0, -1.0],
+            rate: [-3.0, 0.5],
+        },
+        LoadAtEnds {
+            value: [-1.0, -1.0],
+            rate: [7.0, 0.0],
+        },
+        LoadAtEnds {
+            value: [-1.0, 4.0],
+            rate: [0.0, -2.0],
+        },
     ];
     let load = |t: f64| {
-        let k = times.iter().rposition(|from| *from <= t).unwrap_or(0).min(pieces.len() - 1);
-        let (h, LoadAtEnds { value: [a, b], rate: [c, d] }) = (times[k + 1] - times[k], pieces[k]);
+        let k = times
+            .iter()
+            .rposition(|from| *from <= t)
+            .unwrap_or(0)
+            .min(pieces.len() - 1);
+        let (
+            h,
+            LoadAtEnds {
+                value: [a, b],
+                rate: [c, d],
+            },
+        ) = (times[k + 1] - times[k], pieces[k]);
         let s = (t - times[k]) / h;
         let r = 1.0 - s;
         a * r * r * (1.0 + 2.0 * s) + b * s * s * (1.0 + 2.0 * r) + h * s * r * (c * r - d * s)
@@ -50,7 +73,10 @@ fn steps_of_a_mode_follow_its_equation_exactly_under_a_load_of_cubic_pieces() {
             let [q, v, a] = integrated(omega, ratio, load, ends[1], steps);
             for (found, expected) in mode.state.into_iter().zip([q, v, a]) {
                 let size = 10.0 * omega.max(1.0).powi(2);
-                assert!((found - expected).abs() < 1e-8 * size, "{omega} {ratio}: {found}, not {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-8 * size,
+                    "{omega} {ratio}: {found}, not {expected}"
+                );
             }
         }
     }
@@ -61,7 +87,10 @@ fn steps_of_a_mode_follow_its_equation_exactly_under_a_load_of_cubic_pieces() {
 #[test]
 fn a_jump_of_the_load_excites_modes_of_short_periods() {
     let (omega, h) = (50.0_f64, 1.0);
-    let constant = |load: f64| LoadAtEnds { value: [load; 2], rate: [0.0; 2] };
+    let constant = |load: f64| LoadAtEnds {
+        value: [load; 2],
+        rate: [0.0; 2],
+    };
     for share in [0.2, 0.5, 0.93] {
         let mut mode = Oscillator::new(omega, 0.0);
         mode.begin(4.0);
@@ -73,10 +102,16 @@ fn a_jump_of_the_load_excites_modes_of_short_periods() {
                 mode.advance(later, constant(6.5));
             }
             let since = omega * ((1.0 - share) * h + later);
-            let expected =
-                [(6.5 - 2.5 * since.cos()) / (omega * omega), 2.5 * since.sin() / omega, 2.5 * since.cos()];
+            let expected = [
+                (6.5 - 2.5 * since.cos()) / (omega * omega),
+                2.5 * since.sin() / omega,
+                2.5 * since.cos(),
+            ];
             for (found, expected) in mode.state.into_iter().zip(expected) {
-                assert!((found - expected).abs() < 1e-11, "{share}: {found}, not {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-11,
+                    "{share}: {found}, not {expected}"
+                );
             }
         }
     }
@@ -92,7 +127,13 @@ fn a_smooth_load_does_not_shake_modes_of_short_periods() {
     let mut largest = 0.0_f64;
     for k in 0..80 {
         let [a, b] = [f64::from(k), f64::from(k + 1)].map(|k| k * h);
-        mode.advance(h, LoadAtEnds { value: [a.cos(), b.cos()], rate: [-a.sin(), -b.sin()] });
+        mode.advance(
+            h,
+            LoadAtEnds {
+                value: [a.cos(), b.cos()],
+                rate: [-a.sin(), -b.sin()],
+            },
+        );
         largest = largest.max(mode.state[2].abs());
     }
     // q'' of the static deflection is 1/omega^2; straight pieces have kinks of 0.6 and answers of 0.6/omega
@@ -105,8 +146,17 @@ fn a_mode_begins_at_rest_in_its_static_deflection() {
     let mut mode = Oscillator::new(3.0, 0.1);
     mode.begin(18.0);
     for _ in 0..5 {
-        mode.advance(0.37, LoadAtEnds { value: [18.0; 2], rate: [0.0; 2] });
+        mode.advance(
+            0.37,
+            LoadAtEnds {
+                value: [18.0; 2],
+                rate: [0.0; 2],
+            },
+        );
         let [q, v, a] = mode.state;
-        assert!((q - 2.0).abs() < 1e-14 && v.abs() < 1e-13 && a.abs() < 1e-12, "{q} {v} {a}");
+        assert!(
+            (q - 2.0).abs() < 1e-14 && v.abs() < 1e-13 && a.abs() < 1e-12,
+            "{q} {v} {a}"
+        );
     }
 }
