@@ -303,7 +303,7 @@ def blas():
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--dir", type=pathlib.Path, default=pathlib.Path("target/frames"))
-    options.add_argument("--cargo", default="run --release --quiet -p fea --example frames --")
+    options.add_argument("--cargo", default="run --release --quiet -p girderway-fea --example frames --")
     options.add_argument("--only", nargs="+", default=CASES, choices=CASES)
     options.add_argument("--quick", action="store_true", help="CHOLMOD and SuperLU alone")
     options.add_argument("--csv", type=pathlib.Path, help="also write all totals there, as docs/frames.csv has them")

@@ -132,7 +132,7 @@ def error(grid, wanted):
 def grids(profile, quick):
     """Rows of all codes: case, code, setting, error, None for forces, least, median and most ms."""
     wanted = reference()
-    command = ["cargo", "run", "-q", "--profile", profile, "-p", "fea", "--example", "girder"]
+    command = ["cargo", "run", "-q", "--profile", profile, "-p", "girderway-fea", "--example", "girder"]
     text = subprocess.run(command, cwd=HERE.parent, check=True, capture_output=True, text=True).stdout
     times, *lines = ([float(value) for value in line.split(",")] for line in text.splitlines())
     yield GRID, "girderway", "4 states", error(np.array(lines), wanted), None, *times

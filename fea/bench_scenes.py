@@ -232,7 +232,7 @@ def case(name):
 
 def ours(profile, cases):
     """Rows of the example of the crate sim."""
-    command = ["cargo", "run", "-q", "--profile", profile, "-p", "sim", "--example", "crossings"]
+    command = ["cargo", "run", "-q", "--profile", profile, "-p", "girderway-sim", "--example", "crossings"]
     text = subprocess.run(command, cwd=HERE.parent, check=True, capture_output=True, text=True).stdout
     known = {case.name: case for case in cases}
     for line in text.splitlines()[1:]:

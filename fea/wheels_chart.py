@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Time of a step by the number of wheels, as a chart with the exponents of its parts.
 
-    cargo run --release -p sim --example crossings -- wheels > docs/wheels.csv
-    python fea/wheels_chart.py docs/wheels.csv docs/wheels.svg
+    cargo run --release -p girderway-sim --example crossings -- wheels > target/wheels.csv
+    python fea/wheels_chart.py target/wheels.csv target/wheels.svg
 """
 
 import csv

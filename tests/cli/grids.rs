@@ -9,7 +9,7 @@ use super::{base, folder, girderway, json as parsed, path, text};
 
 const MILL: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/../crates/fea/tests/data/mill_girderway.json"
+    "/../crates/fea/tests/it/data/mill_girderway.json"
 );
 
 /// Length in metres and force in newtons of a unit word.

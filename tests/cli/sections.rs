@@ -7,8 +7,7 @@ use tempfile::TempDir;
 
 use super::{base, folder, girderway, json, text};
 
-#[path = "../near.rs"]
-mod near;
+use crate::common::near;
 
 use near::assert_near;
 

@@ -683,7 +683,7 @@ fn generated_scene(bytes: &[u8]) -> u64 {
         Ok(document) => document,
         Err(told) => return told,
     };
-    let before = results::before::check(&document);
+    let before = results::preflight::check(&document);
     let mut known = Vec::new();
     for (_, _, spec) in distinct_specs(&document) {
         match foundations::solve(spec) {

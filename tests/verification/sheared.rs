@@ -10,8 +10,8 @@ use sim::{
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
+use super::crossings::foundation;
 use crate::common::{EI, SPAN, bogie, give};
-use crate::crossings::foundation;
 
 const MASS: f64 = 15.2;
 /// Shear stiffness G As, force, and square of the radius of gyration.

@@ -1,6 +1,6 @@
 //! Frames for a comparison with other solvers: writes them as CSV, with our times and grids.
 //!
-//! `cargo run --release -p fea --example frames -- DIR NAME...` makes `DIR/NAME/` for each of the names
+//! `cargo run --release -p girderway-fea --example frames -- DIR NAME...` makes `DIR/NAME/` for each of the names
 //! `runway-11`, `runway-112`, `runway-1122` (bays) and `building-12`, `building-26` (points a side).
 //! `fea/bench_frames.py` calls it, reads the folders and prints the ratios.
 //!

@@ -1,6 +1,6 @@
 //! The paper's girder, from its numbers to the grid of its unit loads: times and coefficients for a comparison.
 //!
-//! `cargo run --release -p fea --example girder` prints a line with the least, median and largest milliseconds of thread time,
+//! `cargo run --release -p girderway-fea --example girder` prints a line with the least, median and largest milliseconds of thread time,
 //! then 61 lines of 61 coefficients, ft/lb: row of the displacement, column of the load, both at -15, -13.5, ..., 75 ft.
 //! `fea/bench_peers.py` calls it.
 

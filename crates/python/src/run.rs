@@ -225,7 +225,7 @@ pub(crate) fn run(
         let source = scene.scene()?;
         let patch = patch.map(changes);
         let document = source.document(patch.as_ref(), comparisons)?;
-        let document = results::before::prepared(document)?;
+        let document = results::preflight::validate(document)?;
         clock.lap("read");
         let structures = StructureCache::default().solve(&document)?;
         clock.lap("fea");

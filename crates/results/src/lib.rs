@@ -24,10 +24,9 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, response, girders, codes, fatigue, case_result, run_error, before, warning,
+//! Wings, lowest first: error, threads, columns, layout, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
 //! summary, observe, cases, scene_run, many
 
-pub mod before;
 pub mod case_result;
 pub mod cases;
 pub mod codes;
@@ -38,6 +37,7 @@ pub mod girders;
 pub mod layout;
 pub mod many;
 pub mod observe;
+pub mod preflight;
 pub mod response;
 pub mod run_error;
 pub mod scene_run;

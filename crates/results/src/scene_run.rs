@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use serde_json::Value;
 
 use crate::Error;
-use crate::before;
 use crate::case_result::CaseResult;
 use crate::cases::{RunOptions, SimulationProgress, simulate_while};
 use crate::columns::NamedColumns;
+use crate::preflight;
 use crate::response::{Response, RunComparison};
 use crate::run_error::reason_incomplete;
 use crate::summary;
@@ -66,12 +66,12 @@ impl SceneRun {
         options: RunOptions,
         progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
     ) -> Result<SceneRun, Error> {
-        let document = before::prepared(document)?;
+        let document = preflight::validate(document)?;
         let structures = cache.solve(&document)?;
         SceneRun::on(document, structures, options, progress)
     }
 
-    /// Runs the cases of a document that has been prepared ([`before::prepared`]) on its solved structures.
+    /// Runs the cases of a document that has been prepared ([`preflight::validate`]) on its solved structures.
     ///
     /// # Errors
     /// As [`SceneRun::of`].
@@ -82,7 +82,7 @@ impl SceneRun {
         progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
     ) -> Result<SceneRun, Error> {
         let cases = simulate_while(&document, &structures, options, progress)
-            .map_err(|error| before::located(&document, error))?;
+            .map_err(|error| preflight::located(&document, error))?;
         Ok(SceneRun {
             document,
             structures,

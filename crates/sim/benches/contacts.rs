@@ -1,6 +1,6 @@
 //! Contact forces of n wheels of 1e8 lb/ft on the paper's girder: influence assembled and solved.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
 mod common;
 #[allow(dead_code, unused_imports)]
 #[path = "../src/numerics/complementarity.rs"]

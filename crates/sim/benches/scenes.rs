@@ -1,6 +1,6 @@
 //! The paper's bogie over its girder: time of a solve at the loosest setting that reaches an error.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
 mod common;
 
 use std::ops::ControlFlow;

@@ -1,8 +1,8 @@
 //! Work and precision of the public `run` on crossings of the paper's girder, and its cost by the number of wheels.
 //!
 //! ```text
-//! cargo run --release -p sim --example crossings            scene,accuracy,steps,least ms,median ms,most ms,z,forces
-//! cargo run --release -p sim --example crossings -- wheels  n,steps,stages,events,us a step,residual
+//! cargo run --release -p girderway-sim --example crossings            scene,accuracy,steps,least ms,median ms,most ms,z,forces
+//! cargo run --release -p girderway-sim --example crossings -- wheels  n,steps,stages,events,us a step,residual
 //! ```
 //!
 //! S1 and S2 are the bogie at 5 and 100 ft/s, S3 eight wheels under a carriage at 10 ft/s, S4 a sprung mass over Yang and
@@ -15,7 +15,7 @@
     reason = "the figures are what the example is for"
 )]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
 mod common;
 #[path = "crossings/mesh.rs"]
 mod mesh;

@@ -1,7 +1,7 @@
 //! Time of one pass over the equations of scenes whose bodies ride on bodies.
 //!
 //! ```text
-//! cargo run --release -p sim --example riders      scene,freedoms,steps,stages,us a stage,residual
+//! cargo run --release -p girderway-sim --example riders      scene,freedoms,steps,stages,us a stage,residual
 //! ```
 //!
 //! A bridge on four wheels, a trolley on four that crosses it; least of nine runs. History, audit and events are on.
@@ -11,7 +11,7 @@
     reason = "the figures are what the example is for"
 )]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common/mod.rs"]
 mod common;
 
 use std::ops::ControlFlow;

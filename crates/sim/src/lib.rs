@@ -100,4 +100,4 @@ pub use select::replay::ModalBasis;
 pub use select::selection::{
     Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck,
 };
-pub use time::outcome::{Counts, Strike, StruckBy};
+pub use time::outcome::{Counts, FirstImpact, StruckBy};

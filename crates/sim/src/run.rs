@@ -14,7 +14,7 @@ use crate::mechanics::state::State;
 use crate::record::energy::Audit;
 use crate::record::history::History;
 use crate::record::recorder::Recorder;
-use crate::time::outcome::{Counts, Strike};
+use crate::time::outcome::{Counts, FirstImpact};
 use crate::time::passage::crossing;
 use crate::time::samples::Samples;
 use crate::time::step::BOUNCES;
@@ -104,7 +104,7 @@ pub struct Run {
     /// quasi-static sweep and for steps of a fixed length.
     pub bounces: f64,
     /// The first strike of a flange or a stop. Runs of different accuracy part there.
-    pub strike: Option<Strike>,
+    pub strike: Option<FirstImpact>,
     /// The method that could not continue, and the time at which it stopped, if the run was repeated with another.
     pub abandoned: Option<(Method, f64)>,
 }

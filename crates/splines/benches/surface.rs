@@ -1,7 +1,7 @@
 //! Influence coefficients of wheels on the paper's girder by every reading: one pair with its derivatives,
 //! and whole matrices.
 
-#[path = "../tests/beam/mod.rs"]
+#[path = "../tests/it/beam/mod.rs"]
 mod beam;
 
 use beam::printed::STATIONS;

@@ -4,7 +4,7 @@ use fea::Effect;
 
 use crate::follow::SectionSide;
 use crate::structure::GirderResponse;
-use crate::train::Stance;
+use crate::train::Orientation;
 
 /// What is asked of a structure beside the envelopes along its rails.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct TrainPosition {
     /// Coordinate of its first wheel.
     pub position: f64,
     /// Which way round it stands, and the signs of its horizontal forces.
-    pub stance: Stance,
+    pub stance: Orientation,
 }
 
 /// An extreme value with the loads that cause it.

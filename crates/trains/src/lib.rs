@@ -72,4 +72,4 @@ pub use follow::SectionSide;
 pub use instant::{MemberForces, PassedLoads, RailLoad, RailMember};
 pub use ordinates::InfluenceLine;
 pub use structure::{GirderResponse, Structure};
-pub use train::{Stance, Train, TrainCase, TrainWheel};
+pub use train::{Orientation, Train, TrainCase, TrainWheel};

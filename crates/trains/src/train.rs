@@ -53,7 +53,7 @@ pub struct TrainCase {
 
 /// How a train stands: which way round, and the signs of lateral force, longitudinal force and eccentricity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stance {
+pub struct Orientation {
     /// Whether it is turned.
     pub turned: bool,
     /// Signs, +1 or -1, of the lateral forces, the longitudinal forces and the eccentricities.
@@ -73,7 +73,7 @@ pub(crate) struct PlacedWheel {
 /// A train in one stance, with the positions in which it fits on the rails.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlacedTrain {
-    pub stance: Stance,
+    pub stance: Orientation,
     pub wheels: Vec<PlacedWheel>,
     /// Positions from first to last.
     pub range: [f64; 2],
@@ -82,7 +82,7 @@ pub(crate) struct PlacedTrain {
 impl Train {
     /// The stances to try: unturned first, all signs positive first. A sign is tried only where it changes a load, and
     /// a train is turned only where that changes it.
-    pub(crate) fn stances(&self) -> Vec<Stance> {
+    pub(crate) fn stances(&self) -> Vec<Orientation> {
         let any = |of: fn(&TrainWheel) -> f64| {
             self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0)
         };
@@ -102,7 +102,7 @@ impl Train {
             for &lateral in both(any(|wheel| wheel.lateral)) {
                 for &longitudinal in both(any(|wheel| wheel.longitudinal)) {
                     for &eccentricity in both(eccentric) {
-                        out.push(Stance {
+                        out.push(Orientation {
                             turned,
                             signs: [lateral, longitudinal, eccentricity],
                         });
@@ -114,7 +114,7 @@ impl Train {
     }
 
     /// The wheels in a stance. A wheel on rail r stands at position + x + shift r, turned at position - x + shift r.
-    pub(crate) fn placed(&self, stance: Stance, shifts: &[f64]) -> Vec<PlacedWheel> {
+    pub(crate) fn placed(&self, stance: Orientation, shifts: &[f64]) -> Vec<PlacedWheel> {
         let [lateral, longitudinal, side] = stance.signs;
         let place = |wheel: &TrainWheel| {
             let along = longitudinal * wheel.longitudinal;
@@ -136,7 +136,7 @@ impl Train {
 
     /// First and last coordinate that the train covers on each of `rails` rails, ends included, less its position;
     /// `None` where it has no wheel.
-    pub(crate) fn extents(&self, stance: Stance, shifts: &[f64]) -> Vec<Option<[f64; 2]>> {
+    pub(crate) fn extents(&self, stance: Orientation, shifts: &[f64]) -> Vec<Option<[f64; 2]>> {
         let mut out: Vec<Option<[f64; 2]>> = vec![None; shifts.len()];
         for wheel in self.placed(stance, shifts) {
             let known = out[wheel.rail].unwrap_or([wheel.offset; 2]);

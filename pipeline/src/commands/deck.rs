@@ -50,7 +50,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         inputs: document.inputs.clone(),
         changes: None,
     };
-    let only = results::before::prepared(only)?;
+    let only = results::preflight::validate(only)?;
     let scene = only.scene();
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {

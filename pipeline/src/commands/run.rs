@@ -18,9 +18,9 @@ use outputs::files::json as json_text;
 use outputs::folder::OutputFolder;
 use outputs::planned::{check_names, planned_files};
 use outputs::run_files::{WrittenRun, write_run};
-use results::before;
 use results::cases::{RunOptions, SimulationProgress};
 use results::columns::peak;
+use results::preflight;
 use results::scene_run::SceneRun;
 use results::warning;
 
@@ -81,7 +81,7 @@ fn whole(
     structures: Source,
 ) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let document = before::prepared(document)?;
+    let document = preflight::validate(document)?;
     progress.warn_of_commas(&document.inputs);
     check_names(&document, path)?;
     let folder = OutputFolder::open(path, name, force, &planned_files(name, &document))?;

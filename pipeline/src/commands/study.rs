@@ -39,7 +39,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         changes: None,
     };
     document.cases = vec![case(&document, args)?];
-    results::before::check(&chosen)?;
+    results::preflight::check(&chosen)?;
     let document = foundations::with_wheels_at_rest(document);
     let scene = document.scene().clone();
     let folder = || PathBuf::from("girderway-out").join(format!("{name}-study"));

@@ -5,9 +5,9 @@ use super::fields::CardFields;
 use super::property::{Property, rod_from};
 use crate::findings::FilePlace;
 
-/// Orientation of the local y axis of an element.
+/// BarOrientation of the local y axis of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Orientation {
+pub enum BarOrientation {
     /// An orientation vector at end A.
     Vector([f64; 3]),
     /// The orientation vector points from grid GA to this grid.
@@ -43,8 +43,8 @@ pub struct ElementCard {
     pub section: SectionOf,
     /// Numbers of the grids at ends A and B.
     pub grids: [u64; 2],
-    /// Orientation of the local y axis; `None` for rods.
-    pub orientation: Option<Orientation>,
+    /// BarOrientation of the local y axis; `None` for rods.
+    pub orientation: Option<BarOrientation>,
     /// Released degrees of freedom at ends A and B.
     pub pins: [[bool; 6]; 2],
     /// Offsets of ends A and B, in the systems of `systems`.
@@ -64,7 +64,7 @@ pub struct BarDefaults {
     pub card: FilePlace,
     /// Number of the property.
     pub property: Option<u64>,
-    orientation: Option<Orientation>,
+    orientation: Option<BarOrientation>,
     systems: Option<ElementSystems>,
     /// Whether the card could not be read, so that nothing is known of its defaults.
     is_unreadable: bool,
@@ -128,15 +128,17 @@ fn systems(card: &mut CardFields<'_, '_>) -> Option<Option<ElementSystems>> {
 
 /// Reads fields 5 to 7, which contain a vector or the number of a grid. Returns `Some(None)` if all are blank and
 /// `None`, with an error, if they cannot be read.
-fn orientation(card: &mut CardFields<'_, '_>) -> Option<Option<Orientation>> {
+fn orientation(card: &mut CardFields<'_, '_>) -> Option<Option<BarOrientation>> {
     if (5..8).all(|index| card.blank(index)) {
         return Some(None);
     }
     if card.blank(6) && card.blank(7) && matches!(number(card.text(5)), Some(Number::Integer(_))) {
-        return card.id(5, "G0").map(|grid| Some(Orientation::Grid(grid)));
+        return card
+            .id(5, "G0")
+            .map(|grid| Some(BarOrientation::Grid(grid)));
     }
     card.vector(5, ["X1", "X2", "X3"])
-        .map(|vector| Some(Orientation::Vector(vector)))
+        .map(|vector| Some(BarOrientation::Vector(vector)))
 }
 
 /// Reads CBAR or CBEAM.

@@ -1,6 +1,6 @@
 //! Conversion of elements to members: properties, orientations, offsets and releases.
 
-use super::element::{ElementCard, Orientation, SectionOf as Given};
+use super::element::{BarOrientation, ElementCard, SectionOf as Given};
 use super::lumped::MemberMass;
 use super::property::Property;
 use super::resolve::Resolver;
@@ -72,7 +72,7 @@ impl<'d> Resolver<'d, '_> {
         Some((number, property))
     }
 
-    /// Orientation vector of an element whose first grid is at `first`: `Some(None)` for rods, and `None` if the grid
+    /// BarOrientation vector of an element whose first grid is at `first`: `Some(None)` for rods, and `None` if the grid
     /// that defines the orientation does not exist (with an error) or could not be read.
     fn orientation(
         &mut self,
@@ -81,12 +81,12 @@ impl<'d> Resolver<'d, '_> {
         about: &str,
     ) -> Option<Option<[f64; 3]>> {
         match element.orientation {
-            Some(Orientation::Vector(vector)) if element.systems.basic => Some(Some(vector)),
-            Some(Orientation::Vector(vector)) => {
+            Some(BarOrientation::Vector(vector)) if element.systems.basic => Some(Some(vector)),
+            Some(BarOrientation::Vector(vector)) => {
                 let axes = self.grids.get(&element.grids[0])?.axes;
                 Some(Some(combined(&axes, vector)))
             }
-            Some(Orientation::Grid(grid)) => {
+            Some(BarOrientation::Grid(grid)) => {
                 let Some(there) = self.grids.get(&grid) else {
                     if !self.deck.grids.contains_key(&grid) {
                         let (at, about) =

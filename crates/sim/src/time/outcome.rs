@@ -26,7 +26,7 @@ pub enum StruckBy {
 /// times, and each further strike multiplies it: from this time on, values of runs with different accuracies differ at equal
 /// times, while their extremes agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strike {
+pub struct FirstImpact {
     /// Time of the strike.
     pub time: f64,
     /// What struck.

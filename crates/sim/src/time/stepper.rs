@@ -13,7 +13,7 @@ use super::events::{
     prescribed_break, rolling_break,
 };
 use super::modal_loads::ModalLoads;
-use super::outcome::{Counts, Strike, StruckBy};
+use super::outcome::{Counts, FirstImpact, StruckBy};
 use super::step::{PathStart, Step};
 use super::step_size::StepSize;
 use super::triggers::Triggers;
@@ -71,7 +71,7 @@ const INSTANT: f64 = 1e-3;
 const ASKED: f64 = 1.0 / 3.0;
 
 /// Error of a wheel force, relative to its size, per unit of the error of a displacement, relative to its scale. It is
-/// fitted to the crossings S1 to S4 of `tests/accuracy.rs`, and judged there by scenes at random.
+/// fitted to the crossings S1 to S4 of `tests/it/accuracy.rs`, and judged there by scenes at random.
 const FORCE_SHARE: f64 = 0.6;
 
 /// Energy that a step in which a flange touches or separates may leave unaccounted for, relative to the peak energy, per
@@ -158,7 +158,7 @@ pub(crate) struct Stepper<'a, 'b> {
     /// Number of bounces so far over which errors add up.
     bounces: f64,
     /// The first strike of a flange or a stop.
-    strike: Option<Strike>,
+    strike: Option<FirstImpact>,
     /// Sizes of the wheel forces, to which their errors are relative.
     wheel_forces: WheelForces,
     /// Loads of the natural modes, to which the errors of their accelerations are relative, where these have propagators.
@@ -246,7 +246,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     }
 
     /// The first strike of a flange or a stop so far.
-    pub fn strike(&self) -> Option<Strike> {
+    pub fn strike(&self) -> Option<FirstImpact> {
         self.strike
     }
 
@@ -515,7 +515,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Notes a strike at the end of the step if it is the first.
     fn note_strike(&mut self, by: StruckBy) {
-        self.strike.get_or_insert(Strike {
+        self.strike.get_or_insert(FirstImpact {
             time: self.step.to.t,
             by,
         });

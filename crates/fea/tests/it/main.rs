@@ -1,0 +1,34 @@
+//! Tests of the crate `fea` through its public interface, one executable.
+
+mod bodies;
+mod certificate;
+mod common;
+mod curves;
+mod directions;
+mod effects;
+mod hard;
+mod inertial;
+mod large;
+mod layouts;
+mod mill;
+mod model;
+mod modes;
+mod modes_all;
+mod modes_excited;
+mod modes_iterated;
+mod modes_many;
+mod modes_published;
+mod mystran;
+mod paired;
+mod paper;
+mod properties;
+mod rails;
+mod refusals;
+mod rods;
+mod roundings;
+mod second;
+mod second_published;
+mod sharpness;
+mod spans;
+mod taper;
+mod textbook;

@@ -1,0 +1,3 @@
+//! Tests of the crate `formats` through its public interface, one executable.
+
+mod consequences;

@@ -1,0 +1,5 @@
+//! Tests of the crate `results` through its public interface, one executable.
+
+mod bounces;
+mod girders;
+mod loaded;

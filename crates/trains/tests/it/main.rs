@@ -1,0 +1,6 @@
+//! Tests of the crate `trains` through its public interface, one executable.
+
+mod loaded;
+mod long;
+mod random;
+mod worked;
