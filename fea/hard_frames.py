@@ -1,7 +1,7 @@
 """Random frames of hard geometry with their influence coefficients to 50 digits and more, for the test of the error bound.
 
     python3 fea/hard_frames.py SEED COUNT [wide|close] > frames.json
-    HARD_FRAMES=frames.json cargo test --release -p girderway-fea --test hard -- --ignored --nocapture
+    HARD_FRAMES=frames.json cargo test --release -p girderway-fea --features nightly --test it -- hard --nocapture
 
 Needs fea/requirements-frames.txt: python-flint (ball arithmetic: every digit is proved). The method shares nothing with the crate: a node is put at
 every station, released ends are unknowns of their own, and the stiffness is solved densely with 1200 bits. All numbers

@@ -1,5 +1,6 @@
 //! The documents speak of what is there: paths, names and commands on pages exist, and pages that can be run are run.
 
+mod commands;
 mod names;
 mod page;
 

@@ -4,8 +4,8 @@
 //! what the last command prints, line by line as far as the page has it. A row of a table whose first cell is nothing but a
 //! path of names into the summary has the number that stands there in its second.
 //!
-//! README and CONTRIBUTING also have commands of cargo. They are not run: they must be commands of `.ci/run`, or of the slow
-//! tier, which is run by hand.
+//! README and CONTRIBUTING also have commands of cargo. They are not run: they must be commands of `.ci/run` or
+//! `.ci/nightly`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -281,15 +281,6 @@ fn assert_row(page: &str, name: &str, column: usize, exact: &[f64]) {
     }
 }
 
-/// Commands that are run by hand: slow tests, and changes of the code that tests must find.
-const SLOW: [&str; 5] = [
-    "cargo test --release -- --ignored",
-    "cargo test --manifest-path tests/reference/Cargo.toml",
-    "cargo install cargo-mutants --version 27.1.0",
-    "cargo mutants --list -p splines",
-    "cargo mutants -p girderway-splines --baseline=skip --timeout 120 --shard 0/50",
-];
-
 /// A command of cargo without what does not change its meaning to a reader, up to the first variable of the shell.
 fn plain(words: &[&str]) -> String {
     let words = words
@@ -302,9 +293,11 @@ fn plain(words: &[&str]) -> String {
     kept.join(" ")
 }
 
-/// Commands of cargo in `.ci/run`, and whether an argument of the shell follows.
+/// Commands of cargo in `.ci/run` and `.ci/nightly`, and whether an argument of the shell follows.
 fn checked() -> Vec<(String, bool)> {
-    let script = fs::read_to_string(super::root().join(".ci/run")).expect("the script");
+    let scripts = [".ci/run", ".ci/nightly"]
+        .map(|name| fs::read_to_string(super::root().join(name)).expect("the script"));
+    let script = scripts.join("\n");
     let lines = script
         .lines()
         .map(str::trim)
@@ -318,13 +311,13 @@ fn checked() -> Vec<(String, bool)> {
         .collect()
 }
 
-/// Whether a command of cargo is one that `.ci/run` runs, its last arguments aside where the script has a variable.
+/// Whether a command of cargo is one that a script runs, its last arguments aside where the script has a variable.
 fn is_checked(words: &[&str]) -> bool {
     let own = plain(words);
     let same = |(known, is_open): &(String, bool)| {
         own == *known || (*is_open && own.starts_with(known.as_str()))
     };
-    SLOW.contains(&own.as_str()) || checked().iter().any(same)
+    checked().iter().any(same)
 }
 
 #[test]
@@ -345,7 +338,7 @@ fn commands_of_readme_and_contributing_are_those_that_are_checked() {
             .flat_map(commands)
         {
             match words[0] {
-                "cargo" => assert!(is_checked(&words), "{name}: .ci/run does not run {words:?}"),
+                "cargo" => assert!(is_checked(&words), "{name}: no script runs {words:?}"),
                 "girderway" => {
                     girderway(folder.path(), &words[1..]);
                 }
@@ -370,7 +363,7 @@ fn commands_of_readme_and_contributing_are_those_that_are_checked() {
             let words: Vec<&str> = span.split_whitespace().collect();
             match words[..] {
                 ["cargo", _, ..] => {
-                    assert!(is_checked(&words), "{name}: .ci/run does not run {span}")
+                    assert!(is_checked(&words), "{name}: no script runs {span}")
                 }
                 ["girderway", command, ..] if command.chars().all(|c| c.is_ascii_lowercase()) => {
                     girderway(folder.path(), &[command, "--help"]);
