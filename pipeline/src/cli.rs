@@ -11,7 +11,7 @@ use import::rail::triple;
 use import::{fix, rail};
 use study::table_quality::TableReadingMethod;
 
-/// From a beam spec to influence tables, simulation, plots and report.
+/// Static design and moving-load simulation of crane girders, runway beams and mill buildings.
 #[derive(Debug, Parser)]
 #[command(
     name = "girderway",
@@ -32,13 +32,13 @@ pub struct Cli {
 /// Flags of every command.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct Global {
-    /// No progress and no messages; errors alone
+    /// Print errors only
     #[arg(long, global = true)]
     pub quiet: bool,
-    /// A machine-readable result on standard output, errors as JSON on standard error
+    /// Print the result as JSON to standard output and errors as JSON to standard error
     #[arg(long, global = true)]
     pub json: bool,
-    /// Most threads to use [default: one a processor]
+    /// Maximum number of threads [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }
@@ -46,55 +46,58 @@ pub struct Global {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Solve the structures, write their tables, simulate, draw and report: the main job
+    /// Solve the structures, write their influence tables, simulate the scene, and write a report
     #[command(after_help = "Example:\n  girderway run examples/bogie/scene.json -o out")]
     Run(SceneArgs),
-    /// Simulate alone, on the tables that an earlier run has left in the output folder
+    /// Simulate with the tables of an earlier run in the output folder
     #[command(after_help = "Example:\n  girderway sim examples/bogie/scene.json -o out")]
     Sim(SceneArgs),
-    /// Solve a beam spec for its influence grid
+    /// Compute the influence coefficients of a beam spec, and optionally its natural modes
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(FeaArgs),
-    /// Write the tables of a grid or of another file, at their stations or at the fewest that are sufficient, or check their errors
+    /// Write or convert SPLINE tables, at the given or at the minimum number of stations, or check their interpolation
+    /// errors
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(SplinesArgs),
-    /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
+    /// Write a scene as an ADAMS/Solver data set with its command file; --check executes it and compares it with the
+    /// simulator
     #[command(
         after_help = "Example:\n  girderway deck examples/bogie/scene.json -o bogie.adm --form symmetrised --check"
     )]
     Deck(DeckArgs),
-    /// Turn a model of another program into a beam spec: NASTRAN bulk data, a gmsh mesh or an Abaqus file
+    /// Convert NASTRAN bulk data, a gmsh mesh or an Abaqus input file to a beam spec
     #[command(
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
     )]
     Import(ImportArgs),
-    /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
+    /// Compare the influence coefficients of a beam spec with independent FE codes: scikit-fem, OpenSees, PyNite and a
+    /// gmsh solid model
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(CrosscheckArgs),
-    /// Chart accuracy against cost: a scene at many settings, compared with a converged reference that is run first
+    /// Accuracy against cost: run a scene with many models and settings and compare each with a converged reference
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
     Study(StudyArgs),
-    /// Envelopes, extremes and reactions of wheel trains on a structure, statically and exactly, with limits of codes
+    /// Static design for wheel trains: exact envelopes, governing positions, reactions and code limits
     #[command(after_help = "Example:\n  girderway design examples/runway/design.json -o out")]
     Design(DesignArgs),
-    /// Many runs of a scene or design with other values of its axes, on all cores; resumes where it was interrupted
+    /// Parameter study of a scene or design on all cores; an interrupted study resumes where it stopped
     #[command(after_help = "Example:\n  girderway sweep examples/runway/sweep.json -o out")]
     Sweep(SweepArgs),
     /// List rolled sections and crane rails by name, with dimensions and properties
     #[command(after_help = "Example:\n  girderway sections heb")]
     Sections(SectionsArgs),
-    /// Print the JSON Schema of a format, with which editors complete and check files
+    /// Print the JSON Schema of a file format, for completion and validation in editors
     #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
     Schema(SchemaArgs),
-    /// Write starter files that run as they are: a crane runway, a bogie on a girder, a girder of a mill building, a bridge crane
+    /// Write starter files that can be run: a crane runway, a bogie on a girder, a mill girderway or a bridge crane
     #[command(after_help = "Example:\n  girderway init bogie mine")]
     Init(InitArgs),
-    /// Print the completions of a shell
+    /// Print the completion script of a shell
     #[command(
         after_help = "Example:\n  girderway completions bash > ~/.local/share/bash-completion/completions/girderway"
     )]
     Completions(CompletionsArgs),
-    /// Write the manual pages of the program and its commands
+    /// Write the manual pages (man) of the program and its commands
     #[command(after_help = "Example:\n  girderway man ~/.local/share/man/man1")]
     Man(ManArgs),
 }
@@ -102,14 +105,14 @@ pub enum Command {
 /// Arguments of `completions`.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct CompletionsArgs {
-    /// Shell that reads them
+    /// Shell
     pub shell: clap_complete::Shell,
 }
 
 /// Arguments of `man`.
 #[derive(Clone, Debug, Args)]
 pub struct ManArgs {
-    /// Folder of the pages, created if it does not exist [default: the program's page to standard output]
+    /// Output folder, created if needed [default: print the main page to standard output]
     #[arg(value_name = "DIR")]
     pub folder: Option<PathBuf>,
 }
@@ -119,13 +122,13 @@ pub struct ManArgs {
 pub struct DesignArgs {
     /// Design file
     pub design: PathBuf,
-    /// Output folder [default: girderway-out/NAME-design, after the design's name]
+    /// Output folder [default: girderway-out/NAME-design, where NAME is the name of the design]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files in the folder that girderway did not write, or that have been changed since
+    /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long)]
     pub force: bool,
-    /// Exit with status 1 where a limit of the code is exceeded
+    /// Exit with status 1 if a code limit or a strength is exceeded
     #[arg(long)]
     pub fail_on_limit: bool,
 }
@@ -136,19 +139,21 @@ pub struct SweepArgs {
     /// Sweep file
     #[arg(required_unless_present = "merge", value_name = "SWEEP")]
     pub sweep: Option<PathBuf>,
-    /// Output folder [default: girderway-out/NAME-sweep, after the sweep's name; a shard: NAME-sweep-K-of-N; one run: NAME-run-K]
+    /// Output folder [default: girderway-out/NAME-sweep; with --shard: girderway-out/NAME-sweep-K-of-N; with --run:
+    /// girderway-out/NAME-run-K]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files in the folder that girderway did not write, or that have been changed since, and discard the runs of another sweep that was interrupted there
+    /// Overwrite files in the output folder that girderway did not write or that were modified since, and discard the
+    /// finished runs of another interrupted sweep there
     #[arg(long)]
     pub force: bool,
-    /// Only shard K of N: every N-th run from run K
+    /// Run only shard K of N: every N-th run, starting with run K
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "merge")]
     pub shard: Option<(usize, usize)>,
-    /// Join the folders of all shards of a sweep, in place of running one
+    /// Merge the folders of all shards of a sweep instead of running one
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "sweep", requires = "output")]
     pub merge: Vec<PathBuf>,
-    /// Repeat one run with everything that `run` or `design` writes
+    /// Repeat run K and write all files of `run` or `design`
     #[arg(long, value_name = "K", conflicts_with_all = ["shard", "merge"])]
     pub run: Option<usize>,
 }
@@ -167,7 +172,7 @@ fn shard(text: &str) -> Result<(usize, usize), String> {
 /// Arguments of `sections`.
 #[derive(Clone, Debug, Args)]
 pub struct SectionsArgs {
-    /// Part of the names to list, where blanks and case do not count [default: all]
+    /// Part of a name, ignoring spaces and case [default: list all names]
     #[arg(value_name = "PATTERN")]
     pub pattern: Vec<String>,
 }
@@ -175,7 +180,7 @@ pub struct SectionsArgs {
 /// Arguments of `schema`.
 #[derive(Clone, Debug, Args)]
 pub struct SchemaArgs {
-    /// Which format
+    /// File format
     pub format: SchemaArg,
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "FILE.json")]
@@ -187,7 +192,7 @@ pub struct SchemaArgs {
 pub enum SchemaArg {
     /// Beam spec
     Beam,
-    /// Influence grid
+    /// Grid of influence coefficients
     Grid,
     /// Scene
     Scene,
@@ -204,9 +209,9 @@ pub enum SchemaArg {
 /// Arguments of `init`.
 #[derive(Clone, Debug, Args)]
 pub struct InitArgs {
-    /// Which files
+    /// Starter to write
     pub what: Starter,
-    /// Folder to write them into, created if it does not exist [default: the current folder]
+    /// Output folder, created if needed [default: the current folder]
     #[arg(value_name = "DIR")]
     pub folder: Option<PathBuf>,
 }
@@ -214,13 +219,13 @@ pub struct InitArgs {
 /// Words of the starter files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Starter {
-    /// Two wheels cross a girder on two supports
+    /// A two-wheel bogie crossing a simply supported girder with overhangs
     Bogie,
-    /// A bridge crane in a building of two girderways
+    /// A bridge crane in a mill building with two girderways
     Crane,
-    /// One girderway on columns and brackets
+    /// A single girderway on columns and brackets
     Girderway,
-    /// A plain crane runway, with its design and a sweep
+    /// A crane runway, with a scene, a design and a sweep
     Runway,
 }
 
@@ -229,26 +234,28 @@ pub enum Starter {
 pub struct StudyArgs {
     /// Scene file
     pub scene: PathBuf,
-    /// Output folder [default: girderway-out/NAME-study, after the scene's name]
+    /// Output folder [default: girderway-out/NAME-study, where NAME is the name of the scene]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files in the folder that girderway did not write, or that have been changed since
+    /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long)]
     pub force: bool,
-    /// The comparison of the scene to study [default: the scene itself]
+    /// Label of the comparison (`compare`) to study [default: the scene itself]
     #[arg(long, value_name = "LABEL")]
     pub case: Option<String>,
-    /// Fewer settings, coarser references, fewer repetitions
+    /// Fewer settings and repetitions, and coarser references
     #[arg(long)]
     pub quick: bool,
-    /// Instead of the charts, map where methods fail for the first straight girder of the scene and its wheels
+    /// Map where methods fail, for the wheels of the scene on its first straight girder, instead of studying accuracy
+    /// against cost
     #[arg(long)]
     pub stability: bool,
-    /// Time limit in seconds of one run and of all its repetitions (with --quick half a second of these); references may take ten times as long
-    /// [default: 20, with --quick 5]
+    /// Time limit in seconds for a single run and for all its repetitions together (with --quick: half a second for the
+    /// repetitions); ten times as long for references [default: 20; with --quick: 5]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub limit: Option<f64>,
-    /// Largest uncertainty of the references, relative to the largest value; status 3 where they do not reach it [default: 1e-4, with --quick 1e-2]
+    /// Maximum uncertainty of the references, relative to the largest value; exit status 3 if it is exceeded [default:
+    /// 1e-4; with --quick: 1e-2]
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub resolution: Option<f64>,
 }
@@ -258,13 +265,13 @@ pub struct StudyArgs {
 pub struct CrosscheckArgs {
     /// Beam spec
     pub spec: PathBuf,
-    /// Folder for the result as text and JSON, with plots of the differences [default: console only]
+    /// Output folder for text, JSON and plots of the differences [default: print the result only]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files in the folder that girderway did not write, or that have been changed since
+    /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long, requires = "output")]
     pub force: bool,
-    /// Beam theory that replaces that of the spec
+    /// Beam theory, overriding that of the spec
     #[arg(long)]
     pub theory: Option<TheoryArg>,
 }
@@ -272,13 +279,13 @@ pub struct CrosscheckArgs {
 /// Arguments of `splines`.
 #[derive(Clone, Debug, Args)]
 pub struct SplinesArgs {
-    /// Grid file, or a file of tables: .adm, .cmd, .csv, .json or .npz
+    /// Grid file or table file (.adm, .cmd, .csv, .json or .npz)
     pub grid: PathBuf,
-    /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]; with --check a
-    /// picture (.svg), a page (.html) or all numbers (.json)
+    /// Output file: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]; with --check: .svg
+    /// (figures), .html (report) or .json (all values)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Only the tables of these directions [default: all]
+    /// Write only the tables of these directions [default: all]
     #[arg(
         long,
         value_name = "DIRECTIONS",
@@ -286,32 +293,34 @@ pub struct SplinesArgs {
         conflicts_with = "check"
     )]
     pub only: Vec<DirectionArg>,
-    /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
+    /// Write influence coefficients directly, or factored as sums of products of curves [default: table; for table
+    /// files, their own form]
     #[arg(long, conflicts_with = "check")]
     pub form: Option<TableFormArg>,
-    /// Largest number of products of the factored form [default: all that exceed rounding errors]
+    /// Maximum number of products of the factored form [default: all that exceed rounding error]
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u16).range(1..))]
     pub rank: Option<u16>,
-    /// Round to N significant digits (Adams View writes 10) [default: all digits]
+    /// Round values to N significant digits, as Adams View does to 10 [default: full precision]
     #[arg(long, value_name = "N", conflicts_with = "check", value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
-    /// Unit of length of tables whose file does not contain it
+    /// Length unit of a table file that does not state one
     #[arg(long, requires = "force")]
     pub length: Option<LengthArg>,
-    /// Unit of force of tables whose file does not contain it
+    /// Force unit of a table file that does not state one
     #[arg(long, requires = "length")]
     pub force: Option<ForceArg>,
-    /// Print the error of each reading method of the tables
+    /// Check the tables and report the interpolation error of each reading method
     #[arg(long)]
     pub check: bool,
-    /// Reading method that must meet the tolerance: writes tables at the fewest stations that are sufficient; with --check a
-    /// larger error is a failure [default with --check: akispl]
+    /// Reading method (interpolation) that must meet --tolerance: write tables with the minimum number of stations;
+    /// with --check: fail if the error is larger [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
     pub reading: Option<TableReadingArg>,
-    /// Error allowed, relative to the largest coefficient; for the factored form without --reading, the error at the stations
+    /// Maximum error, relative to the largest coefficient; for --form factored without --reading: maximum error at the
+    /// stations
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub tolerance: Option<f64>,
-    /// Directions that must meet the tolerance [default: vertical,lateral]
+    /// Directions in which the tolerance must be met [default: vertical,lateral]
     #[arg(
         long,
         value_name = "DIRECTIONS",
@@ -320,13 +329,13 @@ pub struct SplinesArgs {
         requires = "reading"
     )]
     pub directions: Vec<DirectionArg>,
-    /// Force of one wheel, for work and angles
+    /// Wheel load for the reported work and slope changes
     #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
     pub load: Option<f64>,
-    /// Distance between two wheels that move together
+    /// Distance between two wheels that move as a pair, for the reported work and slope changes of the pair
     #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
     pub spacing: Option<f64>,
-    /// Compare the rules of extrapolation up to this distance beyond a table [default: its last station distance]
+    /// Compare extrapolation rules up to this distance beyond the end of a table [default: its last station spacing]
     #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
     pub beyond: Option<f64>,
 }
@@ -334,26 +343,26 @@ pub struct SplinesArgs {
 /// Words of the forms of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TableFormArg {
-    /// G over load and deflection
+    /// Two-dimensional tables of influence coefficients G(load, deflection)
     Table,
-    /// One-curve splines, and G as the sum of their products
+    /// One-dimensional splines; G is the sum of their products
     Factored,
 }
 
 /// Words of the reading methods of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TableReadingArg {
-    /// AKISPL along the load, linear interpolation along the deflection
+    /// AKISPL along the load coordinate, linear interpolation along the deflection coordinate
     Akispl,
-    /// The mean of AKISPL with load and deflection exchanged
+    /// Mean of AKISPL(x, z) and AKISPL(z, x)
     Symmetrised,
-    /// CUBSPL along the load, linear interpolation along the deflection
+    /// CUBSPL along the load coordinate, linear interpolation along the deflection coordinate
     Cubspl,
-    /// Natural splines along both
+    /// Natural cubic splines along both coordinates
     Natural,
-    /// Products of one-curve CUBSPLs
+    /// Sum of products of one-dimensional CUBSPL curves
     Factored,
-    /// The beam whose coefficients the values are
+    /// Exact influence function of the beam
     Exact,
 }
 
@@ -373,11 +382,11 @@ impl From<TableReadingArg> for TableReadingMethod {
 /// Words of the directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DirectionArg {
-    /// Up
+    /// Vertical, positive up
     Vertical,
-    /// To the right
+    /// Lateral, positive to the right when looking along the rail
     Lateral,
-    /// Along the rail
+    /// Longitudinal, positive along the rail
     Longitudinal,
 }
 
@@ -407,7 +416,7 @@ fn positive(text: &str) -> Result<f64, String> {
     if value > 0.0 && value < 1e60 {
         Ok(value)
     } else {
-        Err("must be positive, below 1e60".to_owned())
+        Err("must be positive and less than 1e60".to_owned())
     }
 }
 
@@ -416,19 +425,20 @@ fn positive(text: &str) -> Result<f64, String> {
 pub struct DeckArgs {
     /// Scene file
     pub scene: PathBuf,
-    /// Data set to write; its command file is written to the same folder [default: standard output, data set only]
+    /// Output data set; the command file (.acf) is written beside it [default: data set only, on standard output]
     #[arg(short, long, value_name = "FILE.adm")]
     pub output: Option<PathBuf>,
-    /// Replace a command file beside the data set that girderway did not write
+    /// Overwrite a command file that girderway did not write
     #[arg(long, requires = "output")]
     pub force: bool,
-    /// Method by which the deck reads the compliance of the rails [default: factored; akispl where the scene reads a structure by it]
+    /// Method of evaluating the rail compliance in the deck [default: factored, or akispl if the scene reads a table
+    /// with it]
     #[arg(long)]
     pub form: Option<DeckFormArg>,
-    /// Execute the deck and compare its forces with the simulator's; status 1 where they differ
+    /// Execute the deck and compare its forces with those of the simulator; exit status 1 if they differ
     #[arg(long)]
     pub check: bool,
-    /// Random states of the check
+    /// Number of random states for --check
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub states: u32,
 }
@@ -436,13 +446,14 @@ pub struct DeckArgs {
 /// Words of the forms of decks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeckFormArg {
-    /// AKISPL of a family of curves: N^2 look-ups for N wheels; neither symmetric nor conservative between the stations
+    /// AKISPL of a family of curves: N^2 evaluations for N wheels; between stations neither symmetric nor conservative
     Akispl,
-    /// The mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 look-ups, symmetric
+    /// Mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 evaluations; symmetric
     Symmetrised,
-    /// Products of r curves read by CUBSPL: r N curves, symmetric, positive, with the force along the rail
+    /// Products of r CUBSPL curves: r N evaluations for N wheels; symmetric, positive semi-definite, with the
+    /// longitudinal force component
     Factored,
-    /// The expressions printed in the paper, with their inaccuracies, for comparison only
+    /// Expressions as printed in McConville's paper, including their errors; for comparison only
     Paper,
 }
 
@@ -460,39 +471,40 @@ impl From<DeckFormArg> for DeckForm {
 /// Arguments of `import`.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
-    /// Model: .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh), or .inp (Abaqus)
+    /// Model file: .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)
     pub model: PathBuf,
-    /// Beam spec to write [default: standard output]
+    /// Output file [default: standard output]
     #[arg(short, long, value_name = "SPEC.json")]
     pub output: Option<PathBuf>,
-    /// Unit of length of the model, which its file does not contain
+    /// Length unit of the model (model files do not state one)
     #[arg(long)]
     pub length: Option<LengthArg>,
-    /// Unit of force of bulk data and Abaqus files, which do not contain it
+    /// Force unit of the model (NASTRAN and Abaqus files do not state one)
     #[arg(long)]
     pub force: Option<ForceArg>,
-    /// Upward direction; required for rails
+    /// Upward direction; required if rails are defined or members have no orientation
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
-    /// A rail along elements (12,23,30-35) or a set of them; /offset=X,Y,Z and /axis=X,Y,Z may follow
+    /// Define a rail by elements (12,23,30-35) or by an element set, optionally with /offset=X,Y,Z and /axis=X,Y,Z; may
+    /// be repeated
     #[arg(long, value_name = "NAME=ELEMENTS")]
     pub rail: Vec<rail::RailRequest>,
-    /// Restrain degrees of freedom of a set of points, such as feet=ux,uy,uz
+    /// Restrain degrees of freedom of a node set, such as feet=ux,uy,uz; may be repeated
     #[arg(long, value_name = "SET=DOF")]
     pub fix: Vec<fix::SupportRequest>,
-    /// Materials and sections of a mesh, by the names of its physical groups
+    /// File of materials and sections, assigned by physical group or element set
     #[arg(long, value_name = "FILE.json")]
     pub sections: Option<PathBuf>,
-    /// Set of supports, where case control does not choose one
+    /// Single-point constraint set (SPC) if case control selects none
     #[arg(long, value_name = "SET")]
     pub spc: Option<u64>,
-    /// Cards or keywords to leave out, such as CQUAD4,MPC
+    /// Cards, keywords or element types to ignore, such as CQUAD4,MPC
     #[arg(long, value_name = "CARDS", value_delimiter = ',')]
     pub skip: Vec<String>,
-    /// Leave out what cannot change statics, such as optimisation, aeroelasticity and damping; each is listed
+    /// Ignore and list data that do not affect static results, such as optimisation, aeroelasticity and damping
     #[arg(long)]
     pub skip_unused: bool,
-    /// Where the mass of bulk-data elements acts [default: along beams, and at the ends of rods unless PARAM COUPMASS is above 0]
+    /// Mass distribution of NASTRAN elements [default: beams distributed, rods lumped unless PARAM COUPMASS > 0]
     #[arg(long, value_name = "WHERE")]
     pub mass: Option<MassArg>,
 }
@@ -500,9 +512,9 @@ pub struct ImportArgs {
 /// Words of the distribution of mass.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum MassArg {
-    /// At the ends of members
+    /// Lumped at the member ends
     Lumped,
-    /// Along members
+    /// Distributed along the members
     Distributed,
 }
 
@@ -544,7 +556,7 @@ impl From<LengthArg> for Length {
 pub enum ForceArg {
     /// Pound-force
     Lbf,
-    /// 1000 pound-force
+    /// Kip (1000 pounds-force)
     Kip,
     /// Newton
     #[value(name = "N")]
@@ -570,16 +582,17 @@ impl From<ForceArg> for Force {
 pub struct FeaArgs {
     /// Beam spec
     pub spec: PathBuf,
-    /// Grid file to write [default: standard output]
+    /// Output file [default: standard output]
     #[arg(short, long, value_name = "GRID.json")]
     pub output: Option<PathBuf>,
-    /// Beam theory that replaces that of the spec
+    /// Beam theory, overriding that of the spec
     #[arg(long)]
     pub theory: Option<TheoryArg>,
-    /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
+    /// Maximum relative rounding error; extended precision (double-double) is used where double precision cannot
+    /// guarantee it
     #[arg(long, value_name = "BOUND", default_value_t = fea::DEFAULT_ACCURACY, value_parser = fraction)]
     pub accuracy: f64,
-    /// Add the N lowest natural modes
+    /// Compute the N lowest natural modes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub modes: Option<u32>,
 }
@@ -590,16 +603,16 @@ fn fraction(text: &str) -> Result<f64, String> {
     if value > 0.0 && value < 1.0 {
         Ok(value)
     } else {
-        Err("must lie between 0 and 1".to_owned())
+        Err("must be greater than 0 and less than 1".to_owned())
     }
 }
 
 /// Words of the beam theories.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TheoryArg {
-    /// Sections stay normal to the axis
+    /// Rigid in shear: plane sections remain normal to the axis
     EulerBernoulli,
-    /// Sections shear
+    /// Flexible in shear: plane sections do not remain normal to the axis
     Timoshenko,
 }
 
@@ -617,10 +630,10 @@ impl From<TheoryArg> for fea::BeamTheory {
 pub struct SceneArgs {
     /// Scene file
     pub scene: PathBuf,
-    /// Output folder [default: girderway-out/NAME, the scene's name]
+    /// Output folder [default: girderway-out/NAME, where NAME is the name of the scene]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace files in the folder that girderway did not write, or that have been changed since
+    /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long)]
     pub force: bool,
 }

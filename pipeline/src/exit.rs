@@ -115,8 +115,8 @@ impl Failure {
                 let mut lines: Vec<String> = diagnostics.iter().take(MOST).map(one).collect();
                 match diagnostics.len().saturating_sub(MOST) {
                     0 => {}
-                    1 => lines.push(format!("{name}and 1 more fault\n")),
-                    more => lines.push(format!("{name}and {more} more faults\n")),
+                    1 => lines.push(format!("{name}and 1 more error\n")),
+                    more => lines.push(format!("{name}and {more} more errors\n")),
                 }
                 lines.concat()
             }

@@ -8,14 +8,14 @@ const STOPPED: i32 = 130;
 /// What a stop leaves, in a sentence.
 fn left() -> String {
     match folder_at_work() {
-        None => "girderway: stopped; no file was written or changed\n".to_owned(),
+        None => "girderway: interrupted; no files were written or changed\n".to_owned(),
         Some(folder) if would_resume() => format!(
-            "girderway: stopped; the runs that are made are kept in {}; the same command resumes there\n",
+            "girderway: interrupted; finished runs are saved in {}; repeat the command to resume\n",
             folder.display()
         ),
         Some(folder) => format!(
-            "girderway: stopped; every file in {} is whole, those of an earlier result included; the next run there \
-             clears what this one has left\n",
+            "girderway: interrupted; all files in {} are complete, including those of an earlier result; the next run \
+             there removes temporary files\n",
             folder.display()
         ),
     }

@@ -85,11 +85,12 @@ impl Progress {
     }
 }
 
-/// The time left, in a form such as `, 12s left`; nothing before the first step, which alone tells how long a step takes.
+/// The time left, in a form such as `, 12s remaining`; nothing before the first step, which alone tells how long a step
+/// takes.
 fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
     if state.pos() > 0 {
         // writing to the text of a bar does not fail
-        let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
+        let _ = write!(out, ", {:#} remaining", HumanDuration(state.eta()));
     }
 }
 
@@ -107,7 +108,7 @@ impl Bar {
     fn set_style_with_end(&self) {
         let Some(bar) = &self.bar else { return };
         if let Ok(style) =
-            ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}")
+            ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} elapsed{left}")
         {
             bar.set_style(style.progress_chars("=> ").with_key("left", left));
         }
@@ -122,7 +123,7 @@ impl Bar {
         else {
             return;
         };
-        let template = format!("{{spinner}} {{msg}}{what}, {{elapsed}} gone");
+        let template = format!("{{spinner}} {{msg}}{what}, {{elapsed}} elapsed");
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }

@@ -1,6 +1,7 @@
 //! The documents speak of what is there: paths, names and commands on pages exist, and pages that can be run are run.
 
 mod commands;
+mod links;
 mod names;
 mod page;
 

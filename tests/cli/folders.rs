@@ -219,7 +219,7 @@ fn sim_refuses_a_grid_that_is_not_the_one_of_the_manifest() {
         let told = text(&run.stderr);
         assert_eq!(run.status.code(), Some(2));
         assert!(
-            told.starts_with("out/grid-girder.json: is not the grid that manifest.json lists"),
+            told.starts_with("out/grid-girder.json: does not match the hash in manifest.json"),
             "{told}"
         );
         assert!(told.contains("girderway run"), "{told}");

@@ -277,7 +277,8 @@ fn a_command_file_of_somebody_else_is_not_replaced() {
         &["deck", "scene.json", "-o", "bogie.adm", "--quiet"],
     );
     assert_eq!(run.status.code(), Some(2));
-    let wanted = "bogie.acf: would be replaced, but is not as girderway wrote it";
+    let wanted =
+        "bogie.acf: would be overwritten, but was not written by girderway or was modified since";
     assert!(
         text(&run.stderr).starts_with(wanted) && text(&run.stderr).contains("--force"),
         "{run:?}"

@@ -86,8 +86,8 @@ fn runs_of_more_than_a_hundred_bounces_state_the_error_of_each() {
     for stepper in ["auto", "radau", "sdirk4"] {
         let all = bouncing(0.0, 14.0, stepper);
         let is_told = |count: usize| {
-            all[0].starts_with(&format!("the wheels bounce about {count} times"))
-                && all[0].contains("an error of 1e-6 for each, 0.00013 in all")
+            all[0].starts_with(&format!("the wheels bounce for about {count} cycles"))
+                && all[0].contains("an error of 1e-6 per cycle, 0.00013 in total")
         };
         assert!(
             all.len() == 1 && (125..=129).any(is_told),
@@ -122,9 +122,9 @@ fn runs_say_from_which_strike_of_a_stop_on_only_extremes_are_promised() {
         .into_iter()
         .filter(|note| !note.starts_with("extremes of girders"))
         .collect();
-    let wanted = "the stop buffer strikes at t = 2.000000 s: from then on small differences grow";
+    let wanted = "impact of the stop buffer at t = 2.000000 s: afterwards small differences grow";
     assert!(
-        all.len() == 1 && all[0].starts_with(wanted) && all[0].contains("for the extremes"),
+        all.len() == 1 && all[0].starts_with(wanted) && all[0].contains("to the extremes"),
         "{all:?}"
     );
 }
@@ -153,7 +153,7 @@ fn runs_say_from_which_strike_of_a_flange_on_only_extremes_are_promised() {
         .and_then(|rest| rest.split(' ').next());
     let told: f64 = told.and_then(|time| time.parse().ok()).expect("a time");
     assert!(
-        all.len() == 1 && all[0].starts_with("the flange of truck.wheel1 strikes"),
+        all.len() == 1 && all[0].starts_with("impact of the flange of truck.wheel1 at"),
         "{all:?}"
     );
     // The step in which the flange touches need not end there.

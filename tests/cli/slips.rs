@@ -92,7 +92,7 @@ fn rotations_without_inertia_are_told_where_girders_lend_theirs() {
             .remove("inertia");
     });
     assert!(
-        idle.len() == 1 && idle[0].starts_with("bridge can roll and yaw and pitch"),
+        idle.len() == 1 && idle[0].starts_with("bridge is free to roll and yaw and pitch"),
         "{idle:?}"
     );
 }
@@ -120,7 +120,7 @@ fn structures_held_beyond_the_wheels_of_their_body_are_told() {
     let at = |z: f64| warned(|scene| scene["structures"]["girders"]["at"] = json!([0, 3, z]));
     assert_eq!(at(7.0), Vec::<String>::new());
     let beside = at(-10.0);
-    let expected = "bridge supports girders across its track from -47.5 to 27.5, but its wheels stand from -37.5 to 37.5";
+    let expected = "bridge supports girders across its track from -47.5 to 27.5, but its wheels are located from -37.5 to 37.5";
     assert!(
         beside.len() == 1 && beside[0].starts_with(expected),
         "{beside:?}"

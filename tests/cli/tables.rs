@@ -410,7 +410,10 @@ fn what_cannot_be_checked_is_refused_with_its_place() {
         &folder,
         &["splines", path(&base("grid.json")), "--tolerance", "1e-2"],
     ));
-    assert!(told.contains("--tolerance is that of a reading"), "{told}");
+    assert!(
+        told.contains("--tolerance requires --reading, --check or --form factored"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -456,7 +459,10 @@ fn pictures_and_pages_are_whole_and_hold_every_direct_table() {
         &folder,
         &["splines", path(&nothing), "--check", "-o", "none.svg"],
     ));
-    assert!(told.contains("nothing to draw"), "{told}");
+    assert!(
+        told.contains("no figure: the exact influence function of the tables is unknown"),
+        "{told}"
+    );
     assert!(!folder.path().join("none.svg").exists());
 }
 
@@ -628,7 +634,7 @@ fn stations_that_cannot_be_found_are_refused_in_words() {
     ));
     assert!(
         told.contains("grid.json:")
-            && told.contains("has no `surface`")
+            && told.contains("has no `surface` (exact influence function between stations)")
             && told.contains("girderway fea"),
         "{told}"
     );

@@ -131,7 +131,7 @@ fn rails_held_lengthwise_at_both_ends_warn_where_that_would_stiffen_them() {
     );
     let taut = warned(influence, 2.85e6, 30.0, 0.0, false);
     assert!(
-        taut.len() == 1 && taut[0].contains("restrain it lengthwise"),
+        taut.len() == 1 && taut[0].contains("restrain it longitudinally"),
         "{taut:?}"
     );
 }
@@ -142,7 +142,7 @@ fn tables_that_are_zero_at_an_end_warn_of_wheels_next_to_it() {
     assert_eq!(warned(held, 1e5, 30.0, 5.0, false), Vec::<String>::new());
     let next = warned(held, 1e5, 50.0, 5.0, false);
     assert!(
-        next.len() == 1 && next[0].contains("is zero at its end 60, and wheels stand in the bay"),
+        next.len() == 1 && next[0].contains("is zero at its end 60, and wheels are in the bay"),
         "{next:?}"
     );
     let open = r#"{"tables": {"file": "printed.adm", "vertical": 6}, "foundation": "influence"}"#;
@@ -184,7 +184,7 @@ fn wheels_off_their_rail_warn_with_the_time() {
     let all = warned_with(rigid, 1e6, 20.0, 5.0, false, r#", "start": {"y": 1}"#);
     assert_eq!(
         all,
-        ["truck.wheel1 is off its rail at 11 of 11 output times, first at 0 s"]
+        ["truck.wheel1 is not in contact with its rail at 11 of 11 output times, first at 0 s"]
     );
 }
 

@@ -206,7 +206,7 @@ fn a_pendant_crane_has_its_row_and_its_fatigue_loads() {
         .as_str()
         .expect("a formula");
     assert!(
-        formula.ends_with("least value, no speed given"),
+        formula.ends_with("minimum value, no speed given"),
         "{formula}"
     );
     // S5: lambda 0.630 and 0.758; phi_fat = (1 + 1.1)/2 and (1 + 1.151816)/2

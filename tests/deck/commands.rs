@@ -190,5 +190,7 @@ fn a_scene_read_by_akispl_has_its_deck_so() {
 fn a_data_set_must_have_its_ending() {
     let run = girderway(&["deck", path(&example("bogie")), "-o", "bogie.acf"]);
     assert_eq!(run.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&run.stderr).contains("must end in .adm"));
+    assert!(
+        String::from_utf8_lossy(&run.stderr).contains("output file must have the extension .adm")
+    );
 }

@@ -164,7 +164,7 @@ fn a_rail_in_the_section_moves_the_centroid_towards_it() {
         "shear stress",
     );
     let said = found["left_out"].to_string();
-    let known = "direct stress of a crane rail that is a part of the section, on rail rail: the spec does not have its strength";
+    let known = "direct stress of a crane rail that is a part of the section, on rail rail: the spec does not specify its strength";
     assert!(said.contains(known), "{said}");
 }
 
@@ -220,7 +220,7 @@ fn lateral_limits_count_where_vertical_forces_bend_sideways() {
     assert_eq!(rows.len(), 1, "{rows:?}");
     assert_eq!(
         rows[0]["loads"],
-        json!("vertical wheel loads alone, which move the rail sideways")
+        json!("vertical wheel loads only, which displace the rail laterally")
     );
     close(
         value(&rows[0], "value"),

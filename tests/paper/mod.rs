@@ -252,6 +252,6 @@ fn simulation_on_existing_tables_gives_the_same_history() {
     assert_eq!(output.status.code(), Some(2));
     assert!(
         String::from_utf8_lossy(&output.stderr)
-            .contains("were not made from spec.json as it is now")
+            .contains("its tables are out of date: spec.json is new or has changed")
     );
 }

@@ -171,7 +171,10 @@ fn garbage_is_refused_before_anything_is_run() {
         (vec!["bad.json"], "bad.json:1:"),
         (vec!["missing.json"], "no such file"),
         (vec!["--limit", "0", scene], "must be positive"),
-        (vec!["--resolution", "2", scene], "must lie between 0 and 1"),
+        (
+            vec!["--resolution", "2", scene],
+            "must be greater than 0 and less than 1",
+        ),
     ] {
         let run = girderway(folder.path(), &arguments);
         assert_eq!(run.status.code(), Some(2), "{arguments:?}");

@@ -321,7 +321,7 @@ fn runs_of_another_sweep_are_not_lost() {
     let run = girderway(&folder, &["sweep.json", "-o", "out", "--quiet"]);
     assert_eq!(run.status.code(), Some(2), "{}", errors(&run));
     assert!(
-        errors(&run).contains("holds the runs of another sweep"),
+        errors(&run).contains("contains the runs of another interrupted sweep"),
         "{}",
         errors(&run)
     );

@@ -225,7 +225,7 @@ fn shards_that_do_not_belong_together_are_refused_by_their_folders() {
     );
     let rows = String::from_utf8(read(&folder, "shard2/rows.jsonl")).expect("text");
     write(&folder, "shard2/rows.jsonl", &rows.replacen("[", "[ ", 1));
-    assert!(refused(&["shard1", "shard2"]).contains("shard2: has a rows.jsonl that was changed"));
+    assert!(refused(&["shard1", "shard2"]).contains("shard2: has a modified rows.jsonl"));
     let text = String::from_utf8(read(&folder, "sweep.json")).expect("text");
     write(
         &folder,
@@ -236,7 +236,7 @@ fn shards_that_do_not_belong_together_are_refused_by_their_folders() {
         &folder,
         &["sweep.json", "--shard", "2/2", "-o", "shard2", "--force"],
     );
-    assert!(refused(&["shard1", "shard2"]).contains("shard2: is a shard of another sweep"));
+    assert!(refused(&["shard1", "shard2"]).contains("shard2: belongs to a different sweep"));
 
     for (shard, expected) in [
         ("0/2", "K from 1 to N"),

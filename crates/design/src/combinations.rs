@@ -81,7 +81,7 @@ fn wind(groups: &[LoadGroup]) -> Option<String> {
     let names: Vec<&str> = with_wind.clone().map(|group| group.name).collect();
     let code = with_wind.map(|group| group.clause.standard).next()?;
     Some(format!(
-        "{code}, groups {}: wind in service, which a design does not have, is not included",
+        "{code}, groups {}: in-service wind is not included, because a design has no wind loads",
         names.join(", ")
     ))
 }
@@ -96,8 +96,8 @@ fn remaining(groups: &[LoadGroup]) -> Option<String> {
     };
     let group = groups.iter().find(remains)?;
     Some(format!(
-        "{}, group {}: the part eta of the hoisted load that remains without the payload, which a design does not give, is \
-         taken as 0",
+        "{}, group {}: the part eta of the hoisted load that remains after release of the payload is not specified in \
+         a design and is taken as 0",
         group.clause.standard, group.name
     ))
 }
@@ -132,7 +132,9 @@ fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
             Ok((all, plain))
         }
         "ASCE 7" => Ok((vec![asce_group(design.practice.operation)], plain)),
-        other => Err(format!("groups of loads: {other} has limits only")),
+        other => Err(format!(
+            "{other} defines deflection limits but no load groups"
+        )),
     }
 }
 
@@ -170,7 +172,7 @@ fn factors(
         (
             CraneLoad::TrolleyDrives,
             wheels().any(|w| w.trolley_drives != 0.0),
-            "no train gives `hoist_load` and `trolley`, from which the force of the trolley's drives follows",
+            "no train has `hoist_load` and `trolley`, which determine the force of the trolley drives",
         ),
         (
             CraneLoad::TestLoad,
@@ -180,7 +182,7 @@ fn factors(
         (
             CraneLoad::Tilting,
             wheels().any(DesignWheel::tilts),
-            "no wheel has a `tilting` force, which a crane has whose load or lifting attachment is guided",
+            "no wheel has a `tilting` force, which is required for a crane with a guided load or lifting attachment",
         ),
     ];
     if let Some((.., why)) = needed

@@ -54,5 +54,5 @@ pub(crate) fn left_out(design: &Design) -> Option<String> {
         .any(|wheel| wheel.buffer != 0.0);
     let is_factored = design.cases.iter().any(|case| case.factor("buffer") != 0.0);
     (has_buffer && !is_factored)
-        .then(|| "forces on end stops: no case has a factor of `buffer`".to_owned())
+        .then(|| "forces on end stops: no case has a factor for `buffer`".to_owned())
 }

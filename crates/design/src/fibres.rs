@@ -110,7 +110,7 @@ impl Fibres {
     ) -> Result<Fibres, String> {
         let OutlinedMember { section, taper } = spec
             .outline(member)
-            .ok_or_else(|| "the spec does not have its members".to_owned())?;
+            .ok_or_else(|| "the spec does not define its members".to_owned())?;
         let SectionOutline {
             name,
             shape,
@@ -123,7 +123,7 @@ impl Fibres {
             ));
         };
         let turned = Turned::new(model, member, axes)
-            .ok_or_else(|| format!("no axis of section {name} is upright under the rail"))?;
+            .ok_or_else(|| format!("no axis of section {name} is vertical under the rail"))?;
         let (name, planes, taper) = match taper {
             None => {
                 let whole: CrossSection = model.sections[model.members[member].section];
@@ -161,7 +161,7 @@ impl Fibres {
         };
         if lateral == LateralSection::TopFlange && planes[0].top_flange.is_none() {
             return Err(format!(
-                "section {name} has no top flange that could take the lateral moments"
+                "section {name} has no top flange to resist the lateral moments"
             ));
         }
         let (yield_strength, is_composite) = (*yield_strength, rail.is_some());

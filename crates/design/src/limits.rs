@@ -13,7 +13,7 @@ use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse, SolvedCase};
 const ROUNDING: f64 = 1e-9;
 
 /// Loads of a lateral deflection where no train of the case has lateral forces.
-const VERTICAL_ALONE: &str = "vertical wheel loads alone, which move the rail sideways";
+const VERTICAL_ALONE: &str = "vertical wheel loads only, which displace the rail laterally";
 
 /// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
 /// and without factors, as the codes want them.
@@ -122,9 +122,9 @@ pub(crate) fn left_out(
                 if pairs.iter().any(|pair| pair.quantity == quantity) {
                     continue;
                 }
-                "no train of a case without factors stands on two rails that resist these displacements"
+                "no train of a case without factors is on two rails that resist these displacements"
             }
-            _ => "a design has deflections of rails, not of frames; `record` them in a scene",
+            _ => "a design computes deflections of rails, not of frames; use `record` in a scene",
         };
         let name = limit.displacement.word();
         let clause = limit.clause;

@@ -82,8 +82,9 @@ pub fn solve_on(
     if error > MOST_ERROR {
         let times = (error / NOTED_ERROR).powf(0.25).ceil();
         return Err(SolveError::NoSolution(format!(
-            "{}: influence lines under the preload may err by {error:.1e} of their size, more than {MOST_ERROR:e}  hint: cut \
-             the cells that carry rails into {times} times as many `cell_data.parts`, in the general form",
+            "{}: the relative error of influence lines under the preload may be {error:.1e}, more than {MOST_ERROR:e}  \
+             hint: subdivide the cells that carry rails into {times} times as many `cell_data.parts`, in the general \
+             form",
             design.spec_file
         )));
     }
@@ -132,8 +133,8 @@ pub fn solve_on(
     let mut warnings = warnings(design, &solved);
     if error > NOTED_ERROR {
         warnings.push(format!(
-            "{}: influence lines under the preload may err by {error:.1e} of their size; more `cell_data.parts` lower this \
-             with their fourth power",
+            "{}: the relative error of influence lines under the preload may be {error:.1e}; it decreases with the \
+             fourth power of `cell_data.parts`",
             design.spec_file
         ));
     }
@@ -244,7 +245,7 @@ fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
         .collect();
     if design.dead.gravity > 0.0 && !design.spec.has_mass() {
         out.push(format!(
-            "{}: nothing of the structure has mass, so that its weight is 0; give `mass_per_length` or densities",
+            "{}: no part of the structure has mass, so its weight is 0; specify `mass_per_length` or densities",
             design.spec_file
         ));
     }

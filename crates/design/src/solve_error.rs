@@ -27,21 +27,22 @@ pub(crate) fn solve_error(error: &trains::Error, design: &Design, inputs: &Input
     let fault = match error {
         trains::Error::NoRoom { case } => fault(
             path(&[("cases", *case)]),
-            "its trains must fit on the rails beside each other".to_owned(),
+            "its trains must fit on the rails together".to_owned(),
             "fewer trains, a smaller gap, or \"enters\": true",
         ),
         trains::Error::Ring { case } => fault(
             path(&[("cases", *case)]),
-            "its trains hinder each other in a ring, which cannot be arranged exactly".to_owned(),
+            "the order of its trains on shared rails is cyclic, which cannot be solved exactly"
+                .to_owned(),
             "leave out a train that shares a rail with only some of the others",
         ),
         trains::Error::NoStiffness { train, wheel, axis } => fault(
             path(&[("trains", *train), ("wheels", *wheel)]),
             format!(
-                "must have no {} force: the structure does not resist one on this rail",
+                "must have no {} force: the structure has no stiffness in this direction on this rail",
                 word(*axis)
             ),
-            "give the spec the stiffness that resists it: A, I_lateral, J in the short form",
+            "specify the stiffness in this direction: A, I_lateral, J in the short form",
         ),
         trains::Error::TooLong { train, .. } | trains::Error::Wheel { train, .. } => fault(
             path(&[("trains", *train)]),

@@ -64,12 +64,12 @@ impl StressBasis<'_> {
             no_web.extend(open.map(|own| {
                 (
                     name(),
-                    format!("section {} is no upright I section", own.name),
+                    format!("section {} is not an upright I section", own.name),
                 )
             }));
             let has_rail = |own: &&Fibres| own.yield_strength.is_some() && own.is_composite;
             if all.into_iter().any(|own| has_rail(&own)) {
-                in_rail.push((name(), "the spec does not have its strength".to_owned()));
+                in_rail.push((name(), "the spec does not specify its strength".to_owned()));
             }
         }
         let mut out = by_reason("stress utilisation", &lacks);

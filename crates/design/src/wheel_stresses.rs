@@ -64,7 +64,7 @@ struct Seat<'a> {
 /// The seats of a rail, one for each section under it, or what is missing.
 fn seats<'a>(basis: &StressBasis<'a>, rail: usize) -> Result<Vec<Seat<'a>>, String> {
     let carried = basis.design.spec.crane_rails.get(rail).copied().flatten();
-    let carried = carried.ok_or("name the `crane_rail`")?;
+    let carried = carried.ok_or("specify the `crane_rail`")?;
     let mut out = Vec::new();
     for fibres in basis.sections.distinct(rail) {
         let Some(plates) = fibres.plates() else {
@@ -79,7 +79,7 @@ fn seats<'a>(basis: &StressBasis<'a>, rail: usize) -> Result<Vec<Seat<'a>>, Stri
             Err(lacks
                 .first()
                 .cloned()
-                .unwrap_or_else(|| "its sections are no upright I sections".to_owned()))
+                .unwrap_or_else(|| "an upright I section is required".to_owned()))
         }
     }
 }
@@ -110,7 +110,7 @@ fn seat<'a>(
     };
     let own = profile.i_vertical.ok_or_else(|| {
         format!(
-            "the tables lack the second moment for vertical bending of the crane rail {}",
+            "the tables have no second moment of area for vertical bending of the crane rail {}",
             profile.name
         )
     })?;
@@ -118,7 +118,7 @@ fn seat<'a>(
     if fixing == RailFixing::Rigid {
         let (Some(area), Some(centroid)) = (profile.area, profile.centroid) else {
             return Err(format!(
-                "the tables lack the area or the centroid of the crane rail {}, which a rigid rail needs",
+                "the tables have no area or no centroid of the crane rail {}, which rigid fastening requires",
                 profile.name
             ));
         };

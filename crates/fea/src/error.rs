@@ -76,13 +76,13 @@ pub enum Error {
         turned: Option<f64>,
     },
     /// The stiffness is not finite, or its factor exceeds the indices or the memory.
-    #[error("the stiffness of {unknowns} degrees of freedom cannot be factored")]
+    #[error("the stiffness matrix of {unknowns} degrees of freedom cannot be factored")]
     NotFactorable {
         /// Number of unknown degrees of freedom.
         unknowns: usize,
     },
     /// More memory is needed than is allowed. Nothing has been allocated.
-    #[error("the {quantity} would take {bytes} bytes, more than {most}")]
+    #[error("the {quantity} would require {bytes} bytes, more than the limit of {most}")]
     Memory {
         /// What the memory is for.
         quantity: EntryAttribute,
@@ -92,7 +92,7 @@ pub enum Error {
         most: u64,
     },
     /// Modes were asked for, but the structure has no mass that can move.
-    #[error("no degree of freedom that can move has mass")]
+    #[error("no free degree of freedom has mass")]
     NoMass,
     /// The modes could not all be found, or could not be shown to be the lowest.
     #[error("{found} of {asked} modes were found, but not shown to be the lowest")]
@@ -103,7 +103,9 @@ pub enum Error {
         found: usize,
     },
     /// All modes were asked for, of a frame with too many unknowns.
-    #[error("all modes of {unknowns} unknowns: at most {most} can be found together")]
+    #[error(
+        "all modes of {unknowns} unknowns: complete sets of modes are limited to {most} unknowns"
+    )]
     TooManyModes {
         /// Number of unknown degrees of freedom.
         unknowns: usize,
@@ -111,7 +113,7 @@ pub enum Error {
         most: usize,
     },
     /// All modes were asked for, of a mesh of too many elements.
-    #[error("a mesh of {elements} elements: at most {most} have all their modes found together")]
+    #[error("a mesh of {elements} elements: complete sets of modes are limited to {most} elements")]
     Elements {
         /// Number of elements.
         elements: usize,
@@ -129,12 +131,11 @@ pub enum Error {
 fn no_equilibrium(member: usize, turned: Option<f64>) -> String {
     match turned {
         Some(angle) => format!(
-            "under the preload member {member} turns by {angle:.2} rad: the shape of the structure under its load has to be \
-             given"
+            "under the preload member {member} rotates by {angle:.2} rad: specify the geometry of the loaded structure"
         ),
         None => format!(
-            "the axial forces of the preload do not settle (largest in member {member}): the shape of the structure under \
-             its load has to be given"
+            "the axial forces of the preload do not converge (largest in member {member}): specify the geometry of \
+             the loaded structure"
         ),
     }
 }
@@ -267,7 +268,7 @@ pub enum EntryFault {
         member: usize,
     },
     /// A place that is not on the member.
-    #[error("places of a member are from 0 to 1, got {place}")]
+    #[error("positions in a member are from 0 to 1, got {place}")]
     NoPlace {
         /// The place given.
         place: f64,
@@ -313,7 +314,7 @@ pub enum EntryFault {
         value: f64,
     },
     /// A force on a degree of freedom that nothing holds.
-    #[error("nothing holds the structure in {dof} there")]
+    #[error("the structure is not restrained in {dof} there")]
     NotHeld {
         /// The degree of freedom.
         dof: Dof,

@@ -60,9 +60,7 @@ pub enum Error {
         structure: String,
     },
     /// The compliance of a structure along its rails is needed and cannot be evaluated.
-    #[error(
-        "{structure}: its compliance along the rails is not known  hint: leave out `longitudinal`"
-    )]
+    #[error("{structure}: its longitudinal compliance is not known  hint: omit `longitudinal`")]
     NoLongitudinal {
         /// Name of the structure.
         structure: String,

@@ -330,12 +330,15 @@ pub fn check_name(check: TrialCheck) -> String {
         TrialCheck::Run(fidelity) => fidelity_name(fidelity),
         TrialCheck::Start(fidelity) => {
             format!(
-                "the first eighth of {}, finer steps",
+                "the first eighth of {} with smaller steps",
                 fidelity_name(fidelity)
             )
         }
         TrialCheck::Whole(fidelity) => {
-            format!("the motion of {}, longer steps", fidelity_name(fidelity))
+            format!(
+                "the motion of {} with larger steps",
+                fidelity_name(fidelity)
+            )
         }
     }
 }
@@ -358,7 +361,7 @@ pub fn selection_reason(choice: &Choice) -> String {
     match choice.reason {
         Reason::NoMass => {
             format!(
-                "auto: {chosen}; the mass is not known, so the error of neglecting it is not known either"
+                "auto: {chosen}; the mass is not known, so the error due to neglecting it cannot be estimated"
             )
         }
         Reason::QuasiStatic => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
@@ -369,8 +372,8 @@ pub fn selection_reason(choice: &Choice) -> String {
             )
         }
         Reason::Kept => format!(
-            "auto: {chosen}; {} of influence functions is within the tolerance as well, but the run that showed it is \
-             kept",
+            "auto: {chosen}; {} of influence functions is also within the tolerance, but the results are those of the \
+             run that verified it",
             error().trim_end_matches(',')
         ),
         Reason::Limit => format!(
@@ -379,13 +382,13 @@ pub fn selection_reason(choice: &Choice) -> String {
         ),
         Reason::NoBetter => {
             format!(
-                "auto: {chosen}; {} exceeds the tolerance, and by the estimates no number of natural modes reduces it enough",
+                "auto: {chosen}; {} exceeds the tolerance, and no number of natural modes is estimated to reduce it sufficiently",
                 error()
             )
         }
         Reason::Unchecked => {
             format!(
-                "auto: {chosen}; no other fidelity could be run to check it, so its error is not known"
+                "auto: {chosen}; its error is not known, because no other fidelity could be run for comparison"
             )
         }
     }
@@ -397,7 +400,7 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
     let chosen = fidelity_name(choice.fidelity);
     let why = match choice.reason {
         Reason::Limit | Reason::NoBetter => format!(
-            "the estimated error of {} on the foundation {chosen} is {:.1e}, which is more than the tolerance \
+            "the estimated error of {} with the foundation {chosen} is {:.1e}, which exceeds the tolerance \
              {tolerance}; {}",
             if choice.quantity.is_empty() {
                 "the run"
@@ -408,18 +411,18 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
             if choice.reason == Reason::Limit {
                 "it was not possible to reduce it in three runs"
             } else {
-                "by the estimates no number of natural modes reduces it enough"
+                "no number of natural modes is estimated to reduce it sufficiently"
             }
         ),
         Reason::Unchecked => {
             format!(
-                "the error of {chosen} is not known: no other fidelity could be run to check it"
+                "the error of {chosen} is not known: no other fidelity could be run for comparison"
             )
         }
         Reason::Sufficient | Reason::Kept => match choice.drifting {
             Some(bounces) => format!(
-                "the estimated error of values at equal times on the foundation {chosen} holds for 100 bounces of the \
-                 wheels; this run has {bounces:.0} that no damper reduces, and their phases drift. Extremes are not \
+                "the estimated error of values at the same time with the foundation {chosen} is valid for 100 cycles \
+                 of wheel bounce; this run has {bounces:.0} undamped cycles, whose phases drift. Extremes are not \
                  affected: \"measure\": \"extremes\""
             ),
             None => return None,

@@ -165,7 +165,7 @@ impl OutputFolder {
                 foreign.push(
                     Diagnostic::of_file(
                         file,
-                        "would be replaced, but is not as girderway wrote it",
+                        "would be replaced, but was not written by girderway or was changed since",
                     )
                     .hint("move it, name another folder with -o, or replace it with --force"),
                 );

@@ -109,7 +109,7 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
         let fault = |expected: String| Diagnostic::of_file(folder.display().to_string(), expected);
         if shard.sweep != known.sweep || shard.of != of {
             let expected = format!(
-                "is a shard of another sweep than {}, or of other files or another version",
+                "belongs to a different sweep from {}, or to other files or another version",
                 first.display()
             );
             wrong.push(fault(expected).hint("run the shard again"));
@@ -161,7 +161,7 @@ fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<usize>), Box<Diagnostic>>
     let none = || {
         fault(
             "is not the folder of a finished shard",
-            "girderway sweep SWEEP --shard K/N makes one",
+            "create one by girderway sweep SWEEP --shard K/N",
         )
     };
     let manifest = fs::read(folder.join(MANIFEST)).map_err(|_| none())?;
@@ -175,7 +175,7 @@ fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<usize>), Box<Diagnostic>>
             .ok_or_else(none)?;
         if entry.sha256.as_deref() != Some(&found) {
             return Err(fault(
-                &format!("has a {name} that was changed"),
+                &format!("has a modified {name}"),
                 "run the shard again",
             ));
         }

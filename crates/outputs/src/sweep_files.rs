@@ -88,7 +88,7 @@ pub fn make_sweep(
     let runner = Runner::new(sweep);
     let file = &own.all()[0].name;
     let stopped = || {
-        Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned())
+        Error::NoResults("the sweep was interrupted; repeat the command to resume it".to_owned())
     };
     let info = match runner.run_as_written(go_on) {
         Ok((units, row)) => SweepInfo::new(sweep, file, units, &row),
@@ -100,7 +100,7 @@ pub fn make_sweep(
         Err(RunFailure::Failed(why)) => {
             let input = sweep.input.file();
             return Err(Error::NoResults(format!(
-                "{input} cannot be run as it is written: {why}"
+                "{input} cannot be run as specified: {why}"
             )));
         }
         Err(RunFailure::Stopped) => return Err(stopped()),
@@ -174,7 +174,7 @@ pub fn join_shards(
 
 /// The error of a file of runs that cannot be read again.
 fn unreadable(error: io::Error) -> Error {
-    Error::NoResults(format!("the runs that were made cannot be read: {error}"))
+    Error::NoResults(format!("the finished runs cannot be read: {error}"))
 }
 
 /// Writes the results of runs, which come in any order, into a folder.

@@ -105,7 +105,7 @@ fn other_sweep(folder: &Path, first: &str) -> Error {
     let is_ours = serde_json::from_str::<Value>(first).is_ok_and(|head| head["format"] == FORMAT);
     let file = folder.join(ROWS).display().to_string();
     let expected = if is_ours {
-        "holds the runs of another sweep that was interrupted, or of this one with other files or another version"
+        "contains the runs of another interrupted sweep, or of this one with other files or another version"
     } else {
         "is not a file of runs"
     };

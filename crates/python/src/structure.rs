@@ -270,7 +270,7 @@ impl Structure {
             let format = TableFormat::of(&path.display().to_string())?;
             let set = TableSet::of_grid(&solved.grid);
             if set.tables.is_empty() {
-                let expected = "must have a rail of at least four stations: a SPLINE has four x values or more";
+                let expected = "must have a rail of at least four stations: a SPLINE needs at least four x values";
                 return Err(Refusal::argument("stations", expected, None));
             }
             let bytes = tables::write(&set, format)

@@ -149,7 +149,7 @@ def test_a_mechanism_is_untrusted():
 
 def test_an_incomplete_run_is_part_of_its_error():
     drive = {"body": "bogie", "dof": "x", "kind": "drive", "speed": [[0, 5]], "gain": 1e6, "max_force": 1e6}
-    with pytest.raises(gw.UntrustedError, match="leaves the end of rail") as raised:
+    with pytest.raises(gw.UntrustedError, match="runs off the end of rail") as raised:
         gw.run(BOGIE, {"motions": [drive], "end": {"time": 60}}, comparisons=False)
     run = raised.value.run
     assert isinstance(run, gw.Run) and 10 < run.time[-1] < 60

@@ -15,8 +15,8 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
         Status::StepTooSmall(t) => (
             "step too small",
             Some(format!(
-                "no step size was small enough at t = {t} s, or contacts opened and closed without end: the \
-                 integration cannot continue"
+                "the integration failed at t = {t} s: the step size became too small, or contacts opened and closed \
+                 indefinitely"
             )),
         ),
         Status::Failed(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
@@ -42,7 +42,7 @@ pub(crate) fn equilibrium_hint(scene: &Scene) -> String {
         ""
     };
     format!(
-        "the centre of mass of each body (`cg`), including loads that hang or stand on it, must lie between its \
+        "the centre of mass of each body (`cg`), including loads that it carries or suspends, must lie between its \
          wheels: check `at` and `tree` of the trucks{carried}, or give the body a `start`"
     )
 }
@@ -74,8 +74,8 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
                 .find(|known| (known.structure, known.rail) == (*s, *rail));
             match found {
                 Some(rail) => format!(
-                    "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
-                     (`end.time`), or keep the body on its rail by a drive, a brake or an end stop (`stops`)",
+                    "a wheel runs off the end of rail {} at x = {x:.4}: the rail extends from {} to {}  hint: end \
+                     earlier (`end.time`), or keep the body on its rail by a drive, a brake or an end stop (`stops`)",
                     rail.name,
                     number(rail.range[0]),
                     number(rail.range[1])

@@ -41,7 +41,7 @@ pub enum Error {
     #[error("rails need at least one element")]
     NoElements,
     /// A coordinate or offset that is not finite, or a node state index above `u32::MAX`.
-    #[error("rail element {cell} has a coordinate, an offset or a state index that cannot be used")]
+    #[error("rail element {cell} has an invalid coordinate, offset or state index")]
     ElementNumber {
         /// Index of the element.
         cell: usize,

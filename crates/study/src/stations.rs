@@ -364,7 +364,7 @@ impl StationChoice {
         }
         if let Some(block) = worst(false) {
             out.push(format!(
-                "note: directions that were not asked for err by up to {}",
+                "note: directions that were not requested have errors up to {}",
                 describe(block)
             ));
         }

@@ -13,7 +13,7 @@ pub enum Error {
     Function(#[from] splines::Error),
     /// A train does not fit on its rails.
     #[error(
-        "the train is longer than the rails that it stands on: position {lowest} would be needed at least and {highest} at most"
+        "the train is longer than its rails: its position would have to be at least {lowest} and at most {highest}"
     )]
     TooLong {
         /// Index of the train.
@@ -24,14 +24,14 @@ pub enum Error {
         highest: f64,
     },
     /// Trains of a case do not fit on the rails beside each other in any order.
-    #[error("the trains of the case do not fit on the rails beside each other")]
+    #[error("the trains of the case do not fit on the rails together")]
     NoRoom {
         /// Index of the case.
         case: usize,
     },
     /// Trains of a case hinder each other in a ring.
     #[error(
-        "the trains of the case hinder each other in a ring: each shares a rail with two others that do not share it with each other"
+        "the order of the trains of the case on shared rails is cyclic: each shares a rail with two others that do not share it with each other"
     )]
     Ring {
         /// Index of the case.
@@ -48,7 +48,7 @@ pub enum Error {
         axis: Axis,
     },
     /// A wheel stands on a rail that does not exist, or a number is not finite.
-    #[error("wheel {wheel} of train {train} has no rail or a number that is not finite")]
+    #[error("wheel {wheel} of train {train} is on no rail or has a number that is not finite")]
     Wheel {
         /// Index of the train.
         train: usize,

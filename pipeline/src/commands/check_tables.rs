@@ -85,7 +85,7 @@ fn form(path: &Path) -> Result<Form, Failure> {
         _ => {
             let wrong = Diagnostic::of_file(
                 path.display().to_string(),
-                "the file extension is not that of a format for checks",
+                "unsupported file extension for --check",
             );
             Err(wrong.hint("use .svg, .html or .json").into())
         }
@@ -100,7 +100,7 @@ fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failur
         }
     }
     if pictures.is_empty() {
-        let wrong = "nothing to draw: no table's exact surface is known".to_owned();
+        let wrong = "no figure: the exact influence function of the tables is unknown".to_owned();
         return Err(Diagnostic::of_file(&subject.file, wrong)
             .hint("check the grid file of these tables")
             .into());

@@ -53,14 +53,15 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     for (done, peer) in Peer::ALL.into_iter().enumerate() {
         bar.set(done as u64);
         if peer.straight() && !matches!(check.spec.form, Form::Girder(_)) {
-            let why = "it accepts only straight girders, the short form of a spec".to_owned();
+            let why = "supports straight girders only (short form of a spec)".to_owned();
             result.absent.push((peer, why));
             continue;
         }
         if check.spec.preload.is_some() && !peer.takes_preload() {
-            result
-                .absent
-                .push((peer, "it has no axial forces of a preload".to_owned()));
+            result.absent.push((
+                peer,
+                "does not support the axial forces of a preload".to_owned(),
+            ));
             continue;
         }
         bar.name(&format!("comparing with {}", peer.name()));
@@ -194,7 +195,7 @@ impl<'a> Check<'a> {
         if theory != self.spec.theory {
             let word = theory_word(self.spec.theory);
             outcome.notes.push(format!(
-                "both with {}; the theory of the spec is {word}",
+                "both computed with {}; the theory of the spec is {word}",
                 theory_word(theory)
             ));
         }
@@ -206,7 +207,7 @@ impl<'a> Check<'a> {
                 .map(|d| format!("{} {:.1e}", d.quantity, d.relative))
                 .collect();
             notes.push(format!(
-                "Euler-Bernoulli beams differ by {}, no part of the verdict",
+                "for information: Euler-Bernoulli beams differ by {}",
                 list.join(", ")
             ));
         }
@@ -224,12 +225,14 @@ fn sheared(spec: &mut Spec) -> Option<String> {
     let absent = girder.ka_vertical.is_none() || girder.ka_lateral.is_none();
     girder.ka_vertical.get_or_insert(RECTANGLE * area);
     girder.ka_lateral.get_or_insert(RECTANGLE * area);
-    absent.then(|| "shear areas missing from the spec are 5/6 A, as for a rectangle".to_owned())
+    absent.then(|| {
+        "shear areas not given in the spec are taken as 5/6 A (rectangular section)".to_owned()
+    })
 }
 
 /// Creates the failure of another code or of its environment.
 fn broken(error: &Error) -> Failure {
-    let hint = "the first use needs python3 (3.11 or newer, with venv) and PyPI, later ones no network; all other commands go on without";
+    let hint = "first use requires Python 3.11 or newer with venv and access to PyPI; later uses need no network. Other commands are not affected";
     Diagnostic::of_file("python3", format!("nothing compared: {error}"))
         .hint(hint)
         .into()

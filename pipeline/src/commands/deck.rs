@@ -28,7 +28,10 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("adm"))
     {
-        let fault = Diagnostic::of_file(path.display().to_string(), "a data set must end in .adm");
+        let fault = Diagnostic::of_file(
+            path.display().to_string(),
+            "output file must have the extension .adm",
+        );
         return Err(fault
             .hint("its command file, with the ending .acf, is written to the same folder")
             .into());
@@ -121,7 +124,7 @@ fn check_owner(path: &Path) -> Result<(), Failure> {
     }
     let fault = Diagnostic::of_file(
         path.display().to_string(),
-        "would be replaced, but is not as girderway wrote it",
+        "would be overwritten, but was not written by girderway or was modified since",
     );
     Err(fault
         .hint("move it, name another file with -o, or replace it with --force")

@@ -38,8 +38,9 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     }
     let mut said = Vec::new();
     if limits > 0 {
+        let count = if limits == 1 { "limit" } else { "limits" };
         said.push(format!(
-            "{limits} limits are exceeded: {}",
+            "{limits} {count} exceeded; largest utilisation: {}",
             worst(&result.limits)
         ));
     }
@@ -47,8 +48,13 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     said.extend(most.map(|most| {
         let used = most.utilisation();
         let (quantity, rail) = (most.quantity, &most.rail);
+        let count = if stresses == 1 {
+            "stress exceeds"
+        } else {
+            "stresses exceed"
+        };
         format!(
-            "{stresses} stresses exceed their strength: {quantity} of rail {rail}, {used:.3} of it"
+            "{stresses} {count} the strength; largest utilisation: {quantity} of rail {rail}, {used:.3}"
         )
     }));
     Err(Failure::Differs(said.join("; ")))
@@ -91,7 +97,7 @@ fn worst(limits: &[LimitCheck]) -> String {
     let found = limits.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
     found.map_or_else(String::new, |limit| {
         format!(
-            "{} of rail {}, span {}: {:.3} of its limit ({})",
+            "{} of rail {}, span {}: {:.3} ({})",
             limit.quantity,
             limit.rail,
             limit.span,

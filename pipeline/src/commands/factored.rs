@@ -37,7 +37,7 @@ pub(super) fn factored(
     let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
     for id in &factoring.skipped {
         progress.say(&format!(
-            "note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"
+            "note: SPLINE/{id} is omitted: it is zero or has fewer than four stations"
         ));
     }
     let ranks: Vec<String> = factoring
@@ -56,9 +56,7 @@ pub(super) fn factored(
             "  error against the exact surface: {}",
             found.message()
         )),
-        None => progress.say(
-            "  error between the stations: not known without the exact surface of a grid file",
-        ),
+        None => progress.say("  error between stations: unknown (needs a grid file)"),
     }
     let ranks: Vec<Value> = factoring
         .ranks

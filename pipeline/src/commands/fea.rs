@@ -58,7 +58,9 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
         let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
         progress.say(&modes_file::summary(&refined.modes));
         if let Some(error) = refined.error.filter(|error| *error > MESH_TOLERANCE) {
-            progress.say(&format!("note: the mesh shows in the modes by {error:.1e}"));
+            progress.say(&format!(
+                "note: estimated discretisation error of the frequencies: {error:.1e}"
+            ));
         }
         text = modes_file::append(&text, &modes_file::write(&refined, &solved.grid.stations()));
     }

@@ -32,7 +32,7 @@ pub(super) fn chosen(
     let Some(surface) = surface else {
         let fault = Fault::new(
             &root,
-            "has no `surface`: the exact values between its stations are not known",
+            "has no `surface` (exact influence function between stations)",
         );
         return Err(refuse(
             fault.hint("`girderway fea SPEC -o GRID.json` writes one"),
@@ -71,14 +71,14 @@ pub(super) fn chosen(
     drop(stage);
     let choice = found.map_err(|error| match error {
         splines::Error::TooFewStations { most, error } => Failure::Differs(format!(
-            "{} errs by {error:.2e} with {most} stations, the most: where shear, torsion or axial force give, every \
-             reading of values alone errs in proportion to the distance of stations; allow more, take another reading, or \
-             name the directions that matter with --directions",
+            "{}: error {error:.2e} with the maximum of {most} stations; with shear, torsional or axial flexibility the \
+             error of table interpolation decreases only linearly with the station spacing. Increase --tolerance, \
+             choose another --reading, or restrict --directions",
             manner.word()
         )),
         splines::Error::NoBeamFit => refuse(
             Fault::new(&root.key("influence"), "is not that of a uniform beam in bending on rigid supports")
-                .hint("the exact values between stations do not follow from the tables; use this file, which contains them"),
+                .hint("the exact influence function cannot be derived from the tables; use this grid file, which contains it"),
         ),
         other => refuse(Fault::new(&root.key("surface"), other.to_string())),
     })?;

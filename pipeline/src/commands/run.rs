@@ -98,11 +98,11 @@ fn whole(
         match now {
             // nobody knows how long an evaluation takes
             SimulationProgress::Fraction(share) if share >= 1.0 => {
-                bar.without_end(": evaluating the run")
+                bar.without_end(": evaluating results")
             }
             SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
             SimulationProgress::Trial(foundations) => {
-                bar.name(&format!("simulating, trial on {foundations}"))
+                bar.name(&format!("simulating, trial with {foundations}"))
             }
         }
         ControlFlow::Continue(())
@@ -152,7 +152,7 @@ fn tell(run: &SceneRun, progress: &Progress) {
                 continue;
             };
             progress.say(&format!(
-                "{}: {} sinks by at most {deepest:.6} {unit}",
+                "{}: {}: maximum deflection {deepest:.6} {unit}",
                 outcome.label, body.name
             ));
         }

@@ -65,14 +65,11 @@ fn unknown(pattern: &str) -> Diagnostic {
     ]
     .concat();
     let hint = if near.is_empty() {
-        "without a pattern all names are listed".to_owned()
+        "omit the pattern to list all names".to_owned()
     } else {
         format!("did you mean {}?", alternatives(&near))
     };
-    let fault = Diagnostic::of_file(
-        "sections",
-        "must be a part of the name of a rolled section or a crane rail",
-    );
+    let fault = Diagnostic::of_file("sections", "no rolled section or crane rail matches");
     Diagnostic {
         found: Some(format!("\"{pattern}\"")),
         ..fault.hint(hint)
@@ -84,7 +81,7 @@ const METRIC: &str =
     "Rolled sections: dimensions in mm; areas in cm2; second moments and J in cm4; mass in kg/m";
 const AMERICAN: &str =
     "W shapes: dimensions in in; areas in in2; second moments and J in in4; weight in lb/ft";
-const RAILS: &str = "Crane rails: dimensions in mm; area in cm2; second moments (vertical, lateral) in cm4; mass in kg/m; - without a source";
+const RAILS: &str = "Crane rails: dimensions in mm; area in cm2; second moments (vertical, lateral) in cm4; mass in kg/m; -: no value available";
 
 /// A title and rows of cells as text, the first column to the left and the others to the right.
 fn table(title: &str, head: &[&str], rows: &[Vec<String>]) -> String {

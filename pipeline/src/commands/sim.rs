@@ -19,7 +19,7 @@ use foundations::{SolvedStructure, distinct_specs};
 use outputs::manifest::{MANIFEST, OutputEntry, listed_files};
 
 /// Hint of errors of the tables.
-const HINT: &str = "`girderway run` makes the tables";
+const HINT: &str = "run `girderway run` first to compute the tables";
 
 /// Simulates with the grids of the output folder, and rewrites the folder.
 ///
@@ -66,7 +66,7 @@ fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputE
         wrong.hint = Some(HINT.to_owned());
         Failure::Input(vec![wrong])
     };
-    let text = std::fs::read(path).map_err(|_| refuse("there are no tables yet"))?;
+    let text = std::fs::read(path).map_err(|_| refuse("no tables found"))?;
     let outputs = listed_files(&text).ok_or_else(|| refuse("is not a manifest"))?;
     let manifest: Value = serde_json::from_slice(&text).map_err(|_| refuse("is not a manifest"))?;
     let entries = manifest["inputs"]
@@ -85,7 +85,7 @@ fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputE
         Ok(outputs)
     } else {
         Err(refuse(&format!(
-            "its tables were not made from {file} as it is now"
+            "its tables are out of date: {file} is new or has changed"
         )))
     }
 }
@@ -97,7 +97,7 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
     if listed != Some(inputs.all()[0].sha256.as_str()) {
         let wrong = Diagnostic::of_file(
             &source.name,
-            format!("is not the grid that {MANIFEST} lists"),
+            format!("does not match the hash in {MANIFEST}"),
         );
         return Err(wrong.hint(HINT).into());
     }
@@ -109,7 +109,7 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
         )])
     };
     if grid.units != spec.units {
-        return Err(wrong("is in other units than the scene"));
+        return Err(wrong("has units other than those of the scene"));
     }
     let Some(surface) = surface else {
         return foundations::solve(spec).map_err(Failure::untrusted);

@@ -89,14 +89,14 @@ fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     let factored = args.form == Some(TableFormArg::Factored);
     let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
         (
-            "--tolerance is that of a reading",
+            "--tolerance requires --reading, --check or --form factored",
             "add --reading akispl, --check or --form factored",
         )
     } else if args.rank.is_some() && !factored {
-        ("--rank is of the factored form", "add --form factored")
+        ("--rank requires --form factored", "add --form factored")
     } else if args.rank.is_some() && args.tolerance.is_some() && args.reading.is_none() {
         (
-            "--rank and --tolerance both set the number of products",
+            "--rank and --tolerance cannot be used together without --reading: both set the number of products",
             "use one of them",
         )
     } else {
@@ -123,7 +123,7 @@ fn given(
         if args.reading.is_some() {
             let fault = Diagnostic::of_file(
                 &input.display_name,
-                "does not contain the exact values between its stations",
+                "contains no exact influence function between its stations",
             );
             return Err(fault
                 .hint("--reading and --tolerance need a grid file")
@@ -161,7 +161,7 @@ fn given(
         .filter(|rail| rail.stations.len() < SplineValues::MIN_POINTS)
     {
         progress.say(&format!(
-            "note: no tables of loads on rail {}: it has fewer than four stations",
+            "note: rail {} has fewer than four stations; its tables are omitted",
             rail.name
         ));
     }
@@ -172,7 +172,7 @@ fn given(
             &root.key("rails"),
             "must have a rail of at least four stations",
         );
-        let fault = fault.hint("a SPLINE has four x values or more");
+        let fault = fault.hint("a SPLINE needs at least four x values");
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }
     let StationGrid { rails, .. } = grid;

@@ -185,7 +185,7 @@ fn stability(
     match maps.iter().find(|map| map.silent_count() > 0) {
         None => Ok(Exit::Done),
         Some(map) => Err(Failure::Untrusted(format!(
-            "girderway itself is silently wrong at {} points of the map \"{}\": see stability.csv",
+            "undetected errors of girderway at {} points of the map \"{}\": see stability.csv",
             map.silent_count(),
             map.name
         ))),

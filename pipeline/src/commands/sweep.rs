@@ -44,7 +44,7 @@ pub fn run(args: &SweepArgs, global: Global) -> Result<Exit, Failure> {
     let mut observed = |now: SweepProgress| {
         match now {
             SweepProgress::Resumed(made, all) => {
-                progress.say(&format!("resumes after {made} of {all} runs"))
+                progress.say(&format!("resuming: {made} of {all} runs are finished"))
             }
             SweepProgress::Made(made, all) => bar.set_of(made as u64, all as u64),
         }
@@ -69,13 +69,13 @@ fn report(written: &WrittenSweep, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     if let Some((run, why)) = written.failures.first() {
         let count = written.failures.len();
-        let runs = if count == 1 { "run has" } else { "runs have" };
+        let runs = if count == 1 { "run" } else { "runs" };
         progress.say(&format!(
-            "warning: {count} {runs} no results, see failures.csv; run {run}: {why}"
+            "warning: {count} {runs} failed, see failures.csv; first failure: run {run}: {why}"
         ));
     }
     progress.say(&format!(
-        "{} runs with results, {} without",
+        "{} runs finished, {} failed",
         written.rows,
         written.failures.len()
     ));
@@ -87,7 +87,7 @@ fn report(written: &WrittenSweep, global: Global) -> Result<Exit, Failure> {
     }
     if written.rows == 0 {
         return Err(Failure::Untrusted(
-            "no run has results; failures.csv has the reasons".to_owned(),
+            "all runs failed; failures.csv lists the reasons".to_owned(),
         ));
     }
     Ok(Exit::Done)

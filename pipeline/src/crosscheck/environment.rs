@@ -97,7 +97,7 @@ impl Environment {
         }
         self.check_version()?;
         say(&format!(
-            "making a Python environment with scikit-fem, gmsh, OpenSees and PyNite in {} (once, about 650 MB)",
+            "creating a Python environment with scikit-fem, gmsh, OpenSees and PyNite in {} (once, about 650 MB)",
             folder.display()
         ));
         let file = |path: &Path| {
@@ -114,7 +114,7 @@ impl Environment {
         fs::write(&requirements, REQUIREMENTS).map_err(file(&requirements))?;
 
         let make = start(Command::new(&self.python).args(["-m", "venv"]).arg(&new))?;
-        succeeded(&make, "make a Python environment (python3 -m venv)")?;
+        succeeded(&make, "create a Python environment (python3 -m venv)")?;
         let python = program(&new);
         let one = ask_index(&python)?;
         let is_online = one.status.success();
@@ -124,7 +124,7 @@ impl Environment {
         let options = if is_online { RETRIES } else { WITHOUT_INDEX };
         if !is_online {
             say(&format!(
-                "pip cannot reach its package index (PyPI); packages are taken from {COPIES} alone"
+                "pip cannot reach PyPI; using only packages in {COPIES}"
             ));
         }
         let every = [
@@ -161,7 +161,7 @@ impl Environment {
     fn check_version(&self) -> Result<(), Error> {
         let ask = "import sys; print('%d.%d' % sys.version_info[:2])";
         let answer = start(Command::new(&self.python).args(["-I", "-c", ask]))?;
-        succeeded(&answer, "ask Python for its version")?;
+        succeeded(&answer, "determine the Python version")?;
         let found = String::from_utf8_lossy(&answer.stdout).trim().to_owned();
         let version: Vec<u32> = found
             .split('.')
@@ -263,7 +263,7 @@ fn install_separately(
     }
     if !missing.is_empty() {
         say(&format!(
-            "the packages of {} cannot be installed now; the comparison goes on without, and the next one tries again",
+            "skipping {}: installation failed and is retried next time",
             missing.join(", ")
         ));
     }

@@ -10,10 +10,10 @@ pub enum Error {
     #[error("the girder has no span")]
     NoSpan,
     /// A span is not a positive number, or an overhang is negative or not a number.
-    #[error("length {0} of the girder (overhang, spans, overhang) is not usable")]
+    #[error("length {0} of the girder (overhang or span) is invalid")]
     Length(usize),
     /// A stiffness is not a positive number, or the rail height is not a number.
-    #[error("{0} of the girder is not usable")]
+    #[error("{0} of the girder is invalid")]
     Stiffness(&'static str),
     /// Stations must increase and lie on the girder.
     #[error("station {0} does not increase or does not lie on the girder")]
@@ -37,7 +37,7 @@ pub enum Error {
         column: usize,
     },
     /// Neither a cache directory nor a home directory is known.
-    #[error("no place for the Python environment: set XDG_CACHE_HOME or HOME")]
+    #[error("no folder for the Python environment: set XDG_CACHE_HOME or HOME")]
     NoCache,
     /// Python is missing or cannot be started.
     #[error(
@@ -69,8 +69,8 @@ pub enum Error {
     },
     /// pip cannot reach its index of packages.
     #[error(
-        "pip cannot reach its package index (PyPI), from which scikit-fem, OpenSees, PyNite and gmsh come: connect this \
-         machine once, or set PIP_INDEX_URL or PIP_FIND_LINKS to a copy of the packages{output}"
+        "cannot reach PyPI, which provides scikit-fem, OpenSees, PyNite and gmsh: connect this machine once, or set \
+         PIP_INDEX_URL or PIP_FIND_LINKS to a copy of the packages{output}"
     )]
     Offline {
         /// What pip wrote beside that it found no package: a line break and its last lines, or nothing.
@@ -85,7 +85,7 @@ pub enum Error {
         output: String,
     },
     /// The answer of the script has an unexpected form.
-    #[error("the answer of the model in {code} cannot be read: {source}")]
+    #[error("cannot read the output of the {code} model: {source}")]
     Answer {
         /// Which code.
         code: &'static str,
@@ -96,7 +96,7 @@ pub enum Error {
     #[error("{0}")]
     Refused(String),
     /// The script speaks of stations that are not there.
-    #[error("the model in {code} answers for stations that the spec does not have")]
+    #[error("the {code} model returned stations that are not in the spec")]
     Stations {
         /// Which code.
         code: &'static str,

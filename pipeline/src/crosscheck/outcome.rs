@@ -151,7 +151,10 @@ impl PeerOutcome {
             text.push('\n');
         }
         for quantity in &self.skipped {
-            let _ = writeln!(text, "{quantity}: not compared, only one side has it");
+            let _ = writeln!(
+                text,
+                "{quantity}: not compared; available from one code only"
+            );
         }
         for note in &self.notes {
             let _ = writeln!(text, "note: {note}");

@@ -37,7 +37,8 @@ pub(crate) const LINEAR: &str = "Exponent 1: the force is k p + c p', never nega
 same k would be softer: 0.69 of it at p = 0.024.";
 
 /// At a bilateral law.
-pub(crate) const BILATERAL: &str = "Bilateral: this wheel pulls where it lifts.";
+pub(crate) const BILATERAL: &str =
+    "Bilateral: this contact transmits tension where the wheel lifts.";
 
 /// At the requests of reactions.
 pub(crate) const REACTION: &str = "Reactions: JFLOAT on ground gives no reaction on any part. The girder's load and \
@@ -56,7 +57,7 @@ pub(crate) const SPIN: &str =
     "A wheel with spin takes 1e-9 of its body's mass, so that no part is without mass.";
 
 /// At the integrator.
-pub(crate) const INTEGRATOR: &str = "GSTIFF with SI2: velocities are under error control too, which the dampers feel, \
+pub(crate) const INTEGRATOR: &str = "GSTIFF with SI2: velocities, on which the dampers depend, are under error control too, \
 and steps may become small at impacts without an ill-conditioned Jacobian. HHT has no error control of DIFF states.";
 
 /// At the GFORCE of the first wheel.
@@ -64,8 +65,8 @@ pub(crate) const FORCE: &str =
     "GFORCE: on the wheel at I, along the axes of RM, the rail's marker.";
 
 /// At the paper's form.
-pub(crate) const PAPER: &str = "The paper's own form, for comparison alone: linear force that also pulls, damper \
-against the ground with three markers in VY, AKISPL(x_j, x_j) in the cross terms, IC = 0.";
+pub(crate) const PAPER: &str = "The paper's own form, for comparison only: linear force that also pulls, damper against the \
+ground with three markers in VY, AKISPL(x_j, x_j) in the cross terms, IC = 0.";
 
 /// At the tables of a structure.
 pub(crate) fn tables(form: DeckForm, range: [f64; 2]) -> Vec<String> {

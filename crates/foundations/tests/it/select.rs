@@ -186,10 +186,13 @@ fn fidelities_and_checks_are_named() {
         "modal, 12 modes"
     );
     let start = check_name(TrialCheck::Start(Fidelity::Modal(12)));
-    assert_eq!(start, "the first eighth of modal, 12 modes, finer steps");
+    assert_eq!(
+        start,
+        "the first eighth of modal, 12 modes with smaller steps"
+    );
     assert_eq!(
         check_name(TrialCheck::Whole(Fidelity::Modal(1))),
-        "the motion of modal, 1 mode, longer steps"
+        "the motion of modal, 1 mode with larger steps"
     );
 }
 
@@ -246,7 +249,7 @@ fn every_reason_is_a_sentence_with_the_choice_its_error_and_its_quantity() {
         1e-3,
     );
     assert!(doubt.is_some_and(
-        |doubt| doubt.contains("holds for 100 bounces") && doubt.contains("has 204 that")
+        |doubt| doubt.contains("is valid for 100 cycles") && doubt.contains("has 204 undamped")
     ));
     let failed = vec![Fidelity::Influence, Fidelity::Modal(24)];
     let doubt = selection_doubt(

@@ -226,7 +226,7 @@ pub(crate) fn envelope_charts(
             .with(Series::new("largest", Style::Line, largest))
             .with(Series::new("smallest", Style::Dashed, smallest));
         let caption = format!(
-            "Envelope of {name}: the largest and smallest value at each place over all positions."
+            "Envelope of {name}: the largest and smallest value at each section over all positions of the train."
         );
         out.push((chart, caption));
     }

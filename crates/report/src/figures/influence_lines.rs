@@ -103,9 +103,9 @@ pub(crate) fn influence_figure(design: &Design, line: &GoverningLine) -> (Svg, S
         String::new()
     };
     let caption = format!(
-        "Influence line of the {} (case {}, {}): response to a unit vertical load{ordinates} over its place on {}, with \
-         the wheels that cause it, each with its force ({}, factors included) and place. Forces times ordinates {}, dead \
-         load {}{others}; together {} {unit}.",
+        "Influence line of the {} (case {}, {}): response to a unit vertical load{ordinates} over its position on {}, \
+         with the governing wheels, each with its force ({}, factors included) and position. Forces times ordinates \
+         {}, dead load {}{others}; total {} {unit}.",
         subject_words(design, line),
         line.case + 1,
         design.cases[line.case].name,

@@ -372,8 +372,9 @@ fn mean_over_runs(table: &ResultTable, result: &SweptResult<'_>) -> (Chart, Stri
         ));
     let all = &result.statistics;
     let caption = format!(
-        "Damages add up, so that the mean {} of {count} runs is the damage where crossings scatter like the runs; \
-         the mean of all possible runs is between {} and {} with a confidence of 95 %, as if the runs were independent.",
+        "Damage accumulates linearly, so the mean {} of {count} runs is the damage where crossings scatter like the \
+         runs; the mean of all possible runs is between {} and {} with a confidence of 95 %, as if the runs were \
+         independent.",
         digits(all.mean, DIGITS),
         digits(all.mean_interval.low, DIGITS),
         digits(all.mean_interval.high, DIGITS),

@@ -23,8 +23,8 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
     let mut section = ReportSection::new("Comparison with design codes").paragraph(
         "Quantities of the runs compared with values of design codes for the same crane. The forces of the runs are \
          those of the moving loads, without the dead load of the structures. The codes state values for design, to \
-         which their own partial factors apply: a run below a value is no proof of safety, and a run above it needs \
-         an explanation.",
+         which their own partial factors apply: a run below a value does not prove safety, and a run above it \
+         requires an explanation.",
     );
     for (name, value, dimension) in first.crane.list() {
         // spans and approaches are lengths of the plan, however short
@@ -33,7 +33,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
     }
     if first.crane.approach_is_from_run {
         section = section.paragraph(
-            "The approach of the hook is the smallest in the run, because practice.approach is not set in the scene.",
+            "The hook approach is the smallest in the run, because practice.approach is not set in the scene.",
         );
     }
     section = section
@@ -52,7 +52,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
         section = section.table(groups(first));
     }
     for words in &first.left_out {
-        section = section.paragraph(format!("Left out: {words}."));
+        section = section.paragraph(format!("Not included: {words}."));
     }
     Some(section)
 }
@@ -118,7 +118,7 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
         }
     }
     ReportTable {
-        caption: "Values of the runs and values of codes.".to_owned(),
+        caption: "Values of the runs compared with values of codes.".to_owned(),
         columns,
         rows,
     }
@@ -150,7 +150,7 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
     });
     let rows = factors.collect();
     ReportTable {
-        caption: "Factors of the codes, and their loads of one wheel.".to_owned(),
+        caption: "Factors of the codes, and the resulting loads of one wheel.".to_owned(),
         columns,
         rows,
     }
@@ -166,7 +166,7 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
         TableColumn::new("from", &unit),
         TableColumn::new("to", &unit),
         TableColumn::new("static", short_unit),
-        TableColumn::new("span over deflection", ""),
+        TableColumn::new("span / deflection", ""),
         TableColumn::new("limit", ""),
         TableColumn::new("allowable", short_unit),
         TableColumn::new("within limit", ""),

@@ -105,7 +105,7 @@ fn train_words(design: &Design, train: &DesignTrain) -> String {
         }
     }
     if train.turned {
-        text.push_str(", tried both ways round");
+        text.push_str(", in both orientations");
     }
     text
 }

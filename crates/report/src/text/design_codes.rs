@@ -95,7 +95,7 @@ pub(super) fn codes(design: &Design, result: &DesignResult) -> Option<ReportSect
         section = section.table(fatigue(design, result));
     }
     for line in &result.left_out {
-        section = section.paragraph(format!("Left out: {line}."));
+        section = section.paragraph(format!("Not included: {line}."));
     }
     Some(section)
 }
@@ -110,8 +110,8 @@ fn fatigue(design: &Design, result: &DesignResult) -> ReportTable {
         ("for shear stress", force.as_str()),
     ];
     let mut table = ReportTable {
-        caption: "Damage-equivalent wheel loads by EN 1991-3:2006, 2.12.1: the load that causes with 2 million cycles \
-                  the damage of the life of the crane"
+        caption: "Damage-equivalent wheel loads by EN 1991-3:2006, 2.12.1: the load whose 2 million cycles cause the \
+                  damage of the service life of the crane"
             .to_owned(),
         columns: columns.iter().map(|(name, unit)| TableColumn::new(*name, *unit)).collect(),
         rows: Vec::new(),

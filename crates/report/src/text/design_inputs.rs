@@ -83,7 +83,7 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
 
 fn train_table(design: &Design, train: &DesignTrain, [length, force]: [&str; 2]) -> ReportTable {
     let turned = if train.turned {
-        "tried both ways round"
+        "in both orientations"
     } else {
         "not turned"
     };

@@ -67,10 +67,9 @@ fn influence_lines(design: &Design, lines: &[GoverningLine]) -> Option<ReportSec
         return None;
     }
     let mut section = ReportSection::new("Influence lines").paragraph(
-        "The response at the section that governs, or of a support, to a unit vertical load on the rail, as a function \
-         of the place of the load. The wheels stand where they cause the governing value; the numbers beside the line \
-         are its ordinates under the wheels. Moments and deflections are drawn downwards. All points are in \
-         influence.csv.",
+        "The response at the governing section, or of a support, to a unit vertical load on the rail, as a function \
+         of the position of the load. The wheels are at their governing positions; the numbers beside the line are \
+         its ordinates under the wheels. Moments and deflections are drawn downwards. All points are in influence.csv.",
     );
     for line in lines {
         let (picture, caption) = influence_figure(design, line);
@@ -194,7 +193,7 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
 fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
     let mut section = ReportSection::new("Reactions by load").paragraph(
         "Forces and moments of the ground on the structure, positive along the global axes. The extremes of each load \
-         alone occur at positions of their own; the last column has the extremes of all loads together.",
+         alone occur at different positions; the last column has the extremes of all loads together.",
     );
     let unit = design.units.label(Dimension::FORCE);
     for (index, case) in result.cases.iter().enumerate() {
@@ -286,15 +285,15 @@ fn method(design: &Design, result: &DesignResult) -> ReportSection {
     }
     section
         .paragraph(
-            "Influence lines of straight uniform members are piecewise cubic. At a fixed place every response to a train \
-             is therefore piecewise cubic in its position, and the extremes of moments, shear forces and reactions are \
-             roots of polynomials: nothing is sampled. A wheel just before and just behind a section are two states. \
-             The largest deflections are found by bisection and enclosed by a bound.",
+            "Influence lines of straight uniform members are piecewise cubic. At a fixed section every response to a \
+             train is therefore piecewise cubic in its position, and the extremes of moments, shear forces and \
+             reactions are roots of polynomials: nothing is sampled. A wheel just before a section and one just \
+             behind it are separate states. The largest deflections are found by bisection and enclosed by a bound.",
         )
         .paragraph(
-            "Statics is of first order. Vertical is the plane of the member's axis and up; a positive moment sags, shear \
-             is the derivative of the moment along the rail, a normal force is positive in tension. Loads act at the \
-             height of the rail.",
+            "The analysis is static and of first order. Vertical is the plane of the member's axis and up; a positive \
+             moment sags, shear is the derivative of the moment along the rail, a normal force is positive in \
+             tension. Loads act at the height of the rail.",
         )
         .fact("bound of the relative error of influence coefficients", result.error_bound, "")
 }

@@ -284,7 +284,7 @@ fn wheel_sources(result: &DesignResult) -> Vec<String> {
             _ => "a loose rail",
         };
         let assumed = if is_assumed {
-            ", which is assumed: give `rail_fastening`"
+            ", which is assumed: specify `rail_fastening`"
         } else {
             ""
         };
@@ -347,8 +347,8 @@ fn pairs(design: &Design, result: &DesignResult) -> ReportTable {
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
     ];
-    let caption = "Two rails under a train that stands on both, without dead load, in the states that govern the deflections \
-                   of either";
+    let caption = "Two rails under a train on both, without dead load, in the states that govern the deflections of \
+                   either rail";
     let mut out = table(caption, &columns);
     for found in &result.pairs {
         out.rows.push(vec![

@@ -85,8 +85,8 @@ pub(super) fn verdict(
     if !worst.is_empty() {
         let mut table = limits(design, &worst[..worst.len().min(MOST)]);
         table.caption =
-            "Limits of the code where they are used most; deflections are those under wheel loads without \
-                         factors"
+            "Limits of the code at their highest utilisation; deflections are those under wheel loads \
+                         without factors"
                 .to_owned();
         section = section.table(table);
     }
@@ -105,8 +105,8 @@ pub(super) fn verdict(
             section: Some(line.governing.x),
         };
         let caption = format!(
-            "The position of the wheels that causes the {} (case {}), drawn to scale along the rail; at each wheel its \
-             vertical force in {force}, factors included, and its place in {}.",
+            "The position of the wheels that causes the {} (case {}), drawn to scale along the rail; at each wheel \
+             its vertical force in {force}, factors included, and its position in {}.",
             subject_words(design, line),
             line.case + 1,
             design.units.label(Dimension::LENGTH),
@@ -153,7 +153,7 @@ fn sentence(result: &DesignResult) -> String {
         });
     match (result.limits.len(), failed) {
         (0, _) => "No limits of a code were checked: the design names no code.".to_owned(),
-        (count, 0) => format!("All {count} limits of the code are kept.{most}"),
+        (count, 0) => format!("All {count} limits of the code are satisfied.{most}"),
         (count, failed) => format!("{failed} of {count} limits of the code are exceeded.{most}"),
     }
 }

@@ -18,10 +18,10 @@ pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<Repor
     }
     let fatigue = &scene.output.fatigue;
     let section = ReportSection::new("Fatigue").paragraph(format!(
-        "Direct stresses N/A + My z/Iy - Mz y/Iz of the moving loads at the stress points of the sections, counted \
-         by rainflow (ASTM E1049) and summed by Miner's rule over the run; gamma_Ff = {}, gamma_Mf = {}. Numbers are \
-         detail categories of EN 1993-1-9 (N/mm\u{b2}), letters are those of AISC 360 (ksi). A history whose ranges are \
-         all within the limit does no damage.",
+        "Direct stresses N/A + My z/Iy - Mz y/Iz of the moving loads at the stress points of the sections, counted by \
+         rainflow (ASTM E1049) and summed by Miner's rule over the run; gamma_Ff = {}, gamma_Mf = {}. Numbers are \
+         detail categories of EN 1993-1-9 (N/mm\u{b2}), letters are those of AISC 360 (ksi). A history whose ranges \
+         are all within the limit causes no damage.",
         fatigue.loads, fatigue.material
     ));
     Some(section.table(points(scene, runs)))
@@ -72,8 +72,8 @@ fn points(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> ReportTable {
         }
     }
     let caption = "Stress points: detail category, number of cycles, largest range and fatigue limit, damage of the \
-                   run, range of one cycle of equal damage, runs to failure, and damage of a life where its \
-                   crossings are given. All cycles are in cycles.csv.";
+                   run, range of one cycle of equal damage, runs to failure, and damage of the service life where its \
+                   number of crossings is specified. All cycles are in cycles.csv.";
     ReportTable {
         caption: caption.to_owned(),
         columns,

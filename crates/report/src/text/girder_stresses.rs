@@ -20,7 +20,7 @@ pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Opti
     let lateral = scene.lateral_section?;
     let Some(found) = outcomes[0].girders().stresses.governing() else {
         return Some(format!(
-            "No direct stress of a girder is known ({}); the section on warnings and notes says why where it can.",
+            "Direct stresses of girders are not available ({}); the section on warnings and notes has the reasons that are known.",
             lateral.phrase()
         ));
     };
@@ -111,9 +111,9 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
         "without"
     };
     let method = format!(
-        "Direct stress is N/A + M z/I + M y/I at the edges of the flanges, {dead} the dead load of the structure, from normal \
-         force and moments that act at once. It is the largest at the times and sections that are evaluated. Here {}. Shear, \
-         partial factors and stability are not included.",
+        "Direct stress is N/A + M z/I + M y/I at the edges of the flanges, {dead} the dead load of the structure, \
+         from simultaneous normal force and moments. It is the largest at the times and sections that are evaluated. \
+         Here {}. Shear, partial factors and stability are not included.",
         words.join("; in other runs ")
     );
     (!table.rows.is_empty()).then_some((table, method))

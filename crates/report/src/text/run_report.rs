@@ -206,7 +206,7 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
     };
     format!(
         "from the equations of motion in contact-force form, integrated by {method} with {steps}; the times at which \
-         wheels leave or meet the rail are located"
+         wheels lose or regain contact with the rail are located"
     )
 }
 
@@ -263,7 +263,7 @@ fn structures(
             let classical = weight * span.powi(3) / (48.0 * girder.e * girder.i_vertical);
             let (unit, factor) = deflection_unit(scene.units);
             section = section.fact(
-                format!("{name}: all weight at midspan, W L^3/(48 E I)"),
+                format!("{name}: total weight at midspan, W L^3/(48 E I)"),
                 factor * classical,
                 unit,
             );

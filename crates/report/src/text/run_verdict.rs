@@ -67,9 +67,9 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     }
     if out.is_empty() {
         out.push(match outcomes.len() {
-            1 => "The run reached its end.".to_owned(),
-            2 => "Both runs reached their ends.".to_owned(),
-            count => format!("All {count} runs reached their ends."),
+            1 => "The run was completed.".to_owned(),
+            2 => "Both runs were completed.".to_owned(),
+            count => format!("All {count} runs were completed."),
         });
     }
     let dynamic = document
@@ -97,7 +97,7 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let uplifts = &outcome.response.uplifts;
     if let Some(first) = uplifts.first() {
         out.push(format!(
-            "Wheels leave their rails {} times, first {} at {} s.",
+            "Wheels lose contact with their rails {} times, first {} at {} s.",
             uplifts.len(),
             first.wheel,
             digits(first.time, DIGITS)
@@ -181,8 +181,8 @@ fn sketch(
     };
     let (unit, by) = unit_of(scene.units, found.quantity);
     let caption = format!(
-        "The wheels on {} at t = {} s, when its largest sagging moment is {} at x = {}, drawn to scale along the rail; at \
-         each wheel its vertical force in {force} and its place in {length} ({}).",
+        "The wheels on {} at t = {} s, when its largest sagging moment is {} at x = {}, drawn to scale along the \
+         rail; at each wheel its vertical force in {force} and its position in {length} ({}).",
         rail.name,
         digits(found.time, DIGITS),
         with_unit(&digits(by * found.value, DIGITS), &unit),

@@ -65,7 +65,7 @@ fn overview(info: &SweepInfo, table: &ResultTable) -> ReportSection {
         ]
     });
     section.table(ReportTable {
-        caption: "What is varied, in the units of its file".to_owned(),
+        caption: "Parameters".to_owned(),
         columns: vec![
             TableColumn::new("value in the files", ""),
             TableColumn::new("values", ""),
@@ -154,11 +154,11 @@ fn governing(info: &SweepInfo, varying: &[SweptResult<'_>]) -> ReportSection {
     };
     ReportSection::new("Governing runs")
         .paragraph(format!(
-            "A run with all its files is repeated by its number: girderway sweep {} --run {example} -o out/run-{example}",
+            "To repeat a run with all its files, specify its number: girderway sweep {} --run {example} -o out/run-{example}",
             info.file
         ))
         .table(ReportTable {
-            caption: format!("Extremes over all runs, and the runs that have them{}", more(varying.len())),
+            caption: format!("Extremes over all runs, and the runs in which they occur{}", more(varying.len())),
             columns: ["result", "unit", "largest", "in run", "smallest", "in run"]
                 .map(|name| TableColumn::new(name, ""))
                 .to_vec(),
@@ -211,12 +211,12 @@ fn dependence(table: &ResultTable, varying: &[SweptResult<'_>]) -> Option<Report
     };
     let cut = more(known.len());
     Some(
-        ReportSection::new("What the results depend on")
+        ReportSection::new("Sensitivity")
             .paragraph(
-                "The rank correlation says whether a result rises (+1) or falls (-1) with an axis. Those that chance \
-                 alone gives once in a hundred sweeps or more often are marked. The first-order index is the fraction \
-                 of the variance of the result that the axis explains by itself; what the indices of all axes leave \
-                 comes from axes that act together.",
+                "The rank correlation shows whether a result increases (+1) or decreases (-1) with an axis. Those \
+                 whose probability by chance alone is 1 % or more are marked. The first-order index is the fraction \
+                 of the variance of the result that the axis explains by itself; the remainder of the sum of all \
+                 indices to 1 is due to interactions.",
             )
             .table(table_of(format!("Rank correlation of Spearman with each axis{cut}"), &rank))
             .table(table_of(format!("First-order index of Sobol of each axis{cut}"), &first)),
@@ -249,18 +249,18 @@ fn failures(table: &ResultTable) -> Option<ReportSection> {
 
 fn method(info: &SweepInfo) -> ReportSection {
     let mut section = ReportSection::new("Method").paragraph(
-        "Every run is the one that girderway makes of the files with these values, and its results are those of its \
-         summary. All results of all runs are in results.csv and results.parquet.",
+        "Every run is identical to a single run of girderway on the files with these values, and its results are \
+         those of its summary. All results of all runs are in results.csv and results.parquet.",
     );
     if info.sampling != "grid" {
         section = section.paragraph(
             "Quantiles are interpolated between the ordered values. The interval of a quantile follows from the order \
              of the values alone and holds for independent runs; Latin hypercubes and Sobol sequences estimate means \
-             more closely than independent runs do. A quantile beyond 1 - 1/n of n runs is not known from them.",
+             more closely than independent runs do. A quantile beyond 1 - 1/n cannot be estimated from n runs.",
         );
     } else {
         section = section.paragraph(
-            "The runs of a grid have no probabilities: shares of runs are those of the values that the file lists.",
+            "The runs of a grid have no probabilities: fractions of runs are those of the values listed in the file.",
         );
     }
     section

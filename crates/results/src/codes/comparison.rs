@@ -94,11 +94,11 @@ fn dynamic_factors(case: &CodeCase) -> [ComparisonEntry; 4] {
 /// Horizontal forces of wheels, end stops and buffers.
 fn forces(case: &CodeCase) -> [ComparisonEntry; 5] {
     let (measured, force) = (case.measured, Dimension::FORCE);
-    let collision = "force of the buffer between two cranes";
+    let collision = "buffer force between two cranes";
     [
         (
             "lateral",
-            "lateral force of all wheels together",
+            "total lateral force of all wheels",
             force,
             measured.lateral,
             case.lateral(),
@@ -112,14 +112,14 @@ fn forces(case: &CodeCase) -> [ComparisonEntry; 5] {
         ),
         (
             "longitudinal",
-            "force of the wheels along one rail",
+            "total longitudinal force of the wheels on one rail",
             force,
             measured.longitudinal,
             case.longitudinal(),
         ),
         (
             "buffer",
-            "force of the end stops together",
+            "total force of the end stops",
             force,
             measured.end_stops,
             case.buffer(),

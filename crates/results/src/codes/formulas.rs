@@ -160,7 +160,7 @@ impl CodeCase<'_> {
             )
             .add(
                 en_1991_3("2.7.2", Used),
-                "H_T,1 = phi5 xi2 M/a of the drives, on the rail that carries more",
+                "H_T,1 = phi5 xi2 M/a of the drives, on the more heavily loaded rail",
                 drives.map(|drives| drives.heavy),
             )
             .add(
@@ -227,8 +227,8 @@ impl CodeCase<'_> {
             |speed: Option<f64>, mass: f64| phi7.and_then(|phi7| force(phi7, speed, mass));
         let clause = en_1991_3("2.11.1, Table 2.10", Used);
         let code = rated(buffer::END_STOP_SPEED);
-        let question = "m with the hoisted load, if it cannot swing; EN 13001-2 and CMAA 70 leave out a load that \
-                        swings freely: does it?";
+        let question = "m includes the hoisted load if it cannot swing; EN 13001-2 and CMAA 70 exclude a freely \
+                        swinging load: check which applies";
         CodeValues::default()
             .add(
                 clause,

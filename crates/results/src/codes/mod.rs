@@ -133,7 +133,7 @@ fn left_out(practice: &Practice, case: &CodeCase<'_>) -> Vec<&'static str> {
         ),
         (
             practice.building_class.is_none(),
-            "limits of AIST TR-13 are those of classes A and B, and of C and D: building_class selects",
+            "limits of AIST TR-13 differ between classes A and B, and C and D: specify building_class",
         ),
         (
             practice.bumper_stroke.is_none(),

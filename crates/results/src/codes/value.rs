@@ -47,7 +47,7 @@ impl CodeValues {
 }
 
 /// Words that follow the formula of a factor for which the scene gives no speed.
-pub(super) const NO_SPEED: &str = "least value, no speed given";
+pub(super) const NO_SPEED: &str = "minimum value, no speed given";
 
 /// A formula, with [`NO_SPEED`] where no speed is known.
 pub(super) fn with_speed(formula: &str, speed: Option<f64>) -> String {

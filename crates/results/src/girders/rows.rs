@@ -48,7 +48,7 @@ impl<'a> Prepared<'a> {
             let Some(solved) = solved else { continue };
             match PreparedGirders::new(scene, s, built, solved, (members, is_stopped)) {
                 Ok(prepared) => girders.extend(prepared),
-                Err(error) => notes.push(format!("extremes of girders are missing: {error}")),
+                Err(error) => notes.push(format!("extremes of girders were not computed: {error}")),
             }
         }
         Prepared { girders, notes }
@@ -144,7 +144,7 @@ pub(super) fn of_run(
         };
         if spans.chosen.stride > usual {
             out.notes.push(format!(
-                "{}: extremes of girders are evaluated at one of {} times, because they are many",
+                "{}: extremes of girders are evaluated at one in {} times to limit the computing time",
                 girders.name(),
                 spans.chosen.stride
             ));
@@ -152,8 +152,8 @@ pub(super) fn of_run(
     }
     if found.change.fraction > scene.accuracy {
         out.notes.push(format!(
-            "extremes of girders still change by {} of the largest value of their kind with the number of times at which \
-             they are evaluated, {}{}",
+            "extremes of girders are not converged: refining the sampling changes them by {} of the largest value of \
+             their kind, with {} sampling times{}",
             number(rounded(found.change.fraction, 2)),
             found.spans.iter().map(|spans| spans.chosen.rows.len()).max().unwrap_or_default(),
             found.change.place()
@@ -205,7 +205,7 @@ impl Change {
             let quantity = GirderResponse::ALL[quantity];
             let (plane, word) = (plane_word(quantity), quantity_word(quantity));
             format!(
-                "; most changes the {plane} {word} in span {span} of {}",
+                "; the largest change is that of the {plane} {word} in span {span} of {}",
                 self.structure
             )
         })

@@ -153,8 +153,8 @@ impl GirderStresses {
         let mut out = by_reason("no direct stress", &lacks);
         if scene.practice.is_none() {
             out.push(
-                "the run is not compared with codes, because `practice` has `lateral_section` alone and no single body is found \
-                 that runs on two rails; `practice.crane` names it"
+                "the run is not compared with codes, because `practice` has only `lateral_section` and the body that \
+                 runs on two rails is not unique; specify it by `practice.crane`"
                     .to_owned(),
             );
         }

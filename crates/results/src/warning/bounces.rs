@@ -36,15 +36,15 @@ pub(super) fn cycles_of_bounces(scene: &Scene, outcome: &CaseResult) -> Option<S
     let ways = match &structure.origin {
         Origin::Spec { .. } => {
             format!(
-                ", or {} a foundation with mass (`modal`) and `damping` of 0.005 or more",
+                ", or for {} a foundation with mass (`modal`) and `damping` of at least 0.005",
                 structure.name
             )
         }
         Origin::Tables { .. } => String::new(),
     };
     Some(format!(
-        "the cycles counted for fatigue ({} of {}) contain free bounces of {} on its wheels, which nothing damps here and a \
-         real crane does: give `vertical` of the wheels a damper `c`{ways}",
+        "the cycles counted for fatigue ({} of {}) include undamped bouncing of {} on its wheels; real cranes damp \
+         it: specify a damper `c` in `vertical` of the wheels{ways}",
         most.count(),
         most.column,
         scene.bodies[body].name

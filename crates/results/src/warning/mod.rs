@@ -213,11 +213,11 @@ fn largest_gap(input: &SimulationInput, run: &Run) -> String {
         GapCause::Step => String::new(),
         GapCause::Flange(w) => format!(", where the flange of {} touches or separates", name(w)),
         GapCause::Contact(w) => format!(", where {} loses or gains contact", name(w)),
-        GapCause::Break => ", at a corner of a motion or load".to_owned(),
+        GapCause::Break => ", at a breakpoint of a motion or load".to_owned(),
     };
     let share = gap.energy / run.audit.peak_stored;
     format!(
-        "; the largest part of one step is {share:.1e} at t = {:.6} s{place}",
+        "; the largest contribution of one step is {share:.1e} at t = {:.6} s{place}",
         gap.time
     )
 }
@@ -297,9 +297,9 @@ fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
     let growth = tension::stiffness_growth(&frame.model, carried, wheels.deepest());
     let growth = growth.filter(|growth| *growth > TENSION)?;
     Some(format!(
-        "{} lies between supports that restrain it lengthwise: axial tension would increase the bending stiffness of \
-         its members by a fraction of about {growth:.2}, which is neglected; release one end \
-         lengthwise if it can slide",
+        "{} lies between supports that restrain it longitudinally: axial tension would increase the bending stiffness \
+         of its members by a fraction of about {growth:.2}, which is neglected; release one end longitudinally if it \
+         can slide",
         rail.name
     ))
 }
@@ -371,7 +371,7 @@ fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
         .collect();
     (!used.is_empty()).then(|| {
         format!(
-            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: the table does not \
+            "the table of {} is zero at its end {}, and wheels are in the bay adjacent to it: the table does not \
              determine whether the rail can rotate there",
             rail.name,
             used.join(" and ")
@@ -440,10 +440,10 @@ fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Option<String> {
         forces.len()
     );
     Some(match lifted.len() {
-        1 => format!("{name} is off its rail {times}"),
+        1 => format!("{name} is not in contact with its rail {times}"),
         count => {
             format!(
-                "{count} wheels are off their rails at some output times, most often {name}, {times}"
+                "{count} wheels are not in contact with their rails at some output times, most often {name}, {times}"
             )
         }
     })

@@ -145,7 +145,8 @@ fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
         count => format!(" and {count} other wheels"),
     };
     Some(format!(
-        "{}{others} sink into the rail at the start by {} {}, {} of the radius: check `k` of the contact, force / length",
+        "the initial contact penetration of {}{others} reaches {} {}, {} of the radius: check `k` of the contact, \
+         force / length",
         deepest.name,
         number(rounded(
             ratio(deepest) * scene.wheels[deepest.kind].radius,
@@ -220,8 +221,8 @@ fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
         .collect();
     (scene.analysis == Analysis::Dynamic && !free.is_empty()).then(|| {
         format!(
-            "{} can {}, but its `inertia` in this motion is 0: it rotates as if all its mass were concentrated at \
-             its centre; `inertia` is [roll, yaw, pitch]",
+            "{} is free to {}, but its `inertia` in this rotation is 0: it rotates as if all its mass were \
+             concentrated at its centre; `inertia` is [roll, yaw, pitch]",
             body.name,
             free.join(" and ")
         )
@@ -259,7 +260,7 @@ fn overhanging(scene: &Scene, s: usize) -> Option<String> {
             let slack = OVERHANG * (high - low);
             (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
                 format!(
-                    "{word} its track from {} to {}, but its wheels stand from {} to {}",
+                    "{word} its track from {} to {}, but its wheels are located from {} to {}",
                     number(rounded(from, 6)),
                     number(rounded(to, 6)),
                     number(rounded(low, 6)),

@@ -25,8 +25,8 @@ fn many_bounces(scene: &Scene, run: &Run) -> Option<String> {
     (run.bounces > Run::BOUNCES).then(|| {
         let each = scene.accuracy / Run::BOUNCES;
         format!(
-            "the wheels bounce about {:.0} times without much damping, and the errors of all bounces add up: beyond {:.0} \
-             bounces `accuracy` is that of {:.0} bounces, an error of {} for each, {} in all",
+            "the wheels bounce for about {:.0} cycles with little damping, and the errors of all cycles accumulate: \
+             beyond {:.0} cycles `accuracy` is that of {:.0} cycles, an error of {} per cycle, {} in total",
             run.bounces,
             Run::BOUNCES,
             Run::BOUNCES,
@@ -61,8 +61,8 @@ fn after_strike(scene: &Scene, input: &SimulationInput, run: &Run) -> Option<Str
         }
     };
     Some(format!(
-        "{what} strikes at t = {:.6} s: from then on small differences grow, and `accuracy` holds for the extremes of the run, \
-         not for values at equal times",
+        "impact of {what} at t = {:.6} s: afterwards small differences grow, and `accuracy` applies to the extremes \
+         of the run, not to values at the same time",
         strike.time
     ))
 }

@@ -90,8 +90,9 @@ fn of_structure(
             return Some(FirstOrderDoubt {
                 is_warning: true,
                 text: format!(
-                    "{}: under its weight and the wheels at t = {time} s the structure would buckle, by axial forces at \
-                     {factor:.2} of these loads; the run neglects it, `preload` shows the motion",
+                    "{}: under its weight and the wheel forces at t = {time} s the structure would buckle, by axial \
+                     forces at {factor:.2} times these loads; the run neglects this; `preload` reports the buckling \
+                     mode",
                     structure.name
                 ),
             });
@@ -107,9 +108,10 @@ fn of_structure(
     (most >= NOTED).then(|| FirstOrderDoubt {
         is_warning: most >= WARNED,
         text: format!(
-            "{}: under its weight and the wheels at t = {time} s, when they press most, second order would change \
-             deflections by about {:.1e}, forces by {:.1e} and moments by {:.1e} of the largest, large rotations deflections by \
-             {turned:.1e}; the run neglects this, a `preload` includes the axial forces",
+            "{}: under its weight and the wheel forces at t = {time} s, when these are largest, second-order effects \
+             would change deflections by about {:.1e}, forces by {:.1e} and moments by {:.1e} of the largest, and \
+             large rotations would change deflections by {turned:.1e}; the run neglects this; `preload` includes the \
+             axial forces",
             structure.name, change.deflection, change.force, change.moment
         ),
     })

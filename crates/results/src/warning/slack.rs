@@ -118,7 +118,8 @@ pub(super) fn slack_cables(
         for (member, time) in cables.members.iter().zip(first) {
             if let Some(time) = time {
                 all.push(format!(
-                    "{}: the cable {} would go slack at t = {time:.3} s; the run keeps it taut, as a bar",
+                    "{}: the cable {} would become slack at t = {time:.3} s; the run models it as a bar that \
+                     also resists compression",
                     structure.name,
                     spec.member_words(*member)
                 ));

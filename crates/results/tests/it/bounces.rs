@@ -35,7 +35,7 @@ fn run_of(example: &str, changes: &str) -> (Vec<String>, f64) {
     let case = &run.cases[0];
     let all = case_warnings(&run.document.cases[0].scene, case).into_iter();
     let own = all
-        .filter(|warning| warning.contains("free bounces"))
+        .filter(|warning| warning.contains("undamped bouncing"))
         .collect();
     (
         own,
@@ -66,7 +66,8 @@ fn cycles_of_wheels_that_bounce_without_damping_are_warned_of() {
     let (warnings, count) = run(&wheels(r#""c": 0"#));
     assert!(count > 4.0 * few, "{count} cycles, by statics {few}");
     assert_eq!(warnings.len(), 1, "{warnings:?}");
-    let counted = format!("({count} of aisle.bay3.bottom flange) contain free bounces of truck");
+    let counted =
+        format!("({count} of aisle.bay3.bottom flange) include undamped bouncing of truck");
     assert!(
         warnings[0].contains(&counted) && warnings[0].contains("`c`"),
         "{warnings:?}"

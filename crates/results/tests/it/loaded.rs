@@ -69,7 +69,7 @@ fn cables_that_would_go_slack_are_named() {
     assert!(
         heavy
             .iter()
-            .any(|text| text.contains("cell [1, 2] would go slack")),
+            .any(|text| text.contains("cell [1, 2] would become slack")),
         "{heavy:?}"
     );
     let light = in_first_bay(1.0);
@@ -98,7 +98,7 @@ fn what_second_order_would_change_is_told() {
         all.map(|texts| {
             texts
                 .into_iter()
-                .filter(|text| text.contains("second order"))
+                .filter(|text| text.contains("second-order effects"))
                 .collect::<Vec<_>>()
         })
     };

@@ -175,7 +175,7 @@ fn check_actuators(actuators: &Actuators, scene: &Scene) -> Result<(), Error> {
 
 fn check_drive(drive: &Drive, is_second: bool, scene: &Scene) -> Result<(), Error> {
     is_free(scene, drive.body, BodyDof::X)?;
-    number("drives of a body", "one at most", 2.0, !is_second)?;
+    number("drives of a body", "at most one", 2.0, !is_second)?;
     positive("gain of a drive", drive.gain)?;
     number(
         "largest force of a drive",
@@ -247,7 +247,7 @@ fn check_turns(turns: &[PrescribedSpin], scene: &Scene) -> Result<(), Error> {
         let is_second = turns[..index].iter().any(same);
         number(
             "prescribed spins of a wheel",
-            "one at most",
+            "at most one",
             2.0,
             !is_second,
         )?;

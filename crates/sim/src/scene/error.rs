@@ -57,7 +57,7 @@ pub enum Error {
     /// A body that is pinned to itself through other bodies, or that has translations of its own in addition to its
     /// pin.
     #[error(
-        "body {body}: a pinned body has no translation of its own, and pins do not run in a circle"
+        "body {body}: a pinned body must have no translation of its own, and pins must not form a loop"
     )]
     Pinned {
         /// Which body.
@@ -66,7 +66,9 @@ pub enum Error {
     /// An unsupported arrangement of a body on a structure that another body carries: on several carriers, on rails
     /// of different directions, as the carrier of its own carrier, with a load, rope or stop, or on a structure with
     /// mass or parts of its own.
-    #[error("body {body}: cannot ride on another body or carry a structure in this way")]
+    #[error(
+        "body {body}: this arrangement of bodies and structures on other bodies is not supported"
+    )]
     Carried {
         /// Which body.
         body: usize,
@@ -86,7 +88,9 @@ pub enum Error {
         contact: usize,
     },
     /// No contact forces exist at the given state.
-    #[error("no contact forces at t = {time}: the given penetrations do not fit the state")]
+    #[error(
+        "no contact forces at t = {time}: the given penetrations are inconsistent with the state"
+    )]
     NoForces {
         /// Time of the state.
         time: f64,

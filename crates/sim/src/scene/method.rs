@@ -20,7 +20,7 @@ pub enum Method {
     /// Gauss collocation of order 6 with exact integration of the modes. It conserves the energy of undamped linear
     /// contacts.
     Gauss3,
-    /// Power series in time, of an order that increases with the accuracy. It requires wheels without a damper to
+    /// Power series in time, of order 18. It requires wheels without a damper to
     /// their rail that travel together at uniform speed over structures without mass. Where the method is not
     /// applicable, for example where a contact opens, the whole run is repeated with Radau.
     Series,

@@ -56,22 +56,25 @@ impl Method {
         let trouble = [
             (
                 system.mechanics.moves_freely,
-                "places along the rail that are prescribed",
+                "prescribed positions along the rail",
             ),
-            (!system.traits.is_vertical, "vertical contacts alone"),
+            (!system.traits.is_vertical, "only vertical contacts"),
             (
                 system.foundations.iter().any(|f| f.parts.is_some()),
-                "one force a wheel",
+                "one contact force per wheel",
             ),
             (
                 !system.mechanics.carried.is_empty(),
-                "bodies that ride on the ground's rails",
+                "bodies on rails that are supported on the ground",
             ),
             (
                 !system.mechanics.couplings.is_empty(),
-                "structures on the ground",
+                "structures supported on the ground",
             ),
-            (!modal, "structures in natural modes, damped below critical"),
+            (
+                !modal,
+                "structures represented by underdamped natural modes",
+            ),
             (
                 self != Method::Radau && system.traits.has_memory,
                 "contacts without a damper between wheel and rail",

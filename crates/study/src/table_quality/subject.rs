@@ -127,7 +127,7 @@ impl TableSource {
                     ..item
                 }),
                 None => notes.push(format!(
-                    "SPLINE/{} has a single curve, so it is no influence table",
+                    "SPLINE/{} has a single curve, so it is not an influence table",
                     table.id
                 )),
             }
@@ -196,7 +196,7 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
             given.id
         );
         return Err(Diagnostic::of_file(file, wrong)
-            .hint("which units are these?")
+            .hint("check the units")
             .into());
     }
     for points in [curves.x(), curves.z()] {

@@ -146,7 +146,7 @@ fn exact_values(found: &TableQuality, units: Words) -> String {
             )
         }
         ExactValues::None => {
-            "readings; no beam in bending has this table, so errors are unknown: check the grid file"
+            "readings; the table is not that of a beam in bending, so errors are unknown: check the grid file"
                 .to_owned()
         }
     }
@@ -377,7 +377,7 @@ fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
             short(spectrum.largest)
         ),
         TableVerdict::Error(method, error, tolerance) => format!(
-            "{} errs by {} %, the tolerance is {} %: use more stations or another reading",
+            "the error of {} is {} %, the tolerance is {} %: use more stations or another reading",
             method.word(),
             short(100.0 * error),
             short(100.0 * tolerance)

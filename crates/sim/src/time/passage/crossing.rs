@@ -88,23 +88,23 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
     let mounted = !system.mechanics.carried.is_empty()
         || system.foundations.iter().any(|f| f.carrier.is_some());
     let troubles = [
-        (!together, "wheels that travel together"),
-        (!uniform, "a uniform speed"),
-        (!system.traits.has_linear_laws, "linear contacts"),
-        (system.traits.is_uneven, "even rails"),
+        (!together, "wheels with the same speed"),
+        (!uniform, "a constant speed"),
+        (!system.traits.has_linear_laws, "linear contact laws"),
+        (system.traits.is_uneven, "rails without irregularities"),
         (
             !system.traits.has_constant_rows || mounted,
-            "structures without mass, on the ground",
+            "massless structures supported on the ground",
         ),
         (!symmetric, "a symmetric compliance"),
         (
             !scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(),
             "no loads or events",
         ),
-        (system.elements.len() > WIDEST, "eight contacts at most"),
+        (system.elements.len() > WIDEST, "at most eight contacts"),
         (
             system.mechanics.dofs > system.elements.len(),
-            "no more freedoms than contacts",
+            "no more degrees of freedom than contacts",
         ),
     ];
     troubles
