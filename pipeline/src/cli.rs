@@ -504,7 +504,7 @@ pub struct ImportArgs {
     /// Ignore and list data that do not affect static results, such as optimisation, aeroelasticity and damping
     #[arg(long)]
     pub skip_unused: bool,
-    /// Mass distribution of NASTRAN elements [default: beams distributed, rods lumped unless PARAM COUPMASS > 0]
+    /// Mass distribution of NASTRAN elements [default: beams distributed, rods lumped unless PARAM COUPMASS is positive]
     #[arg(long, value_name = "WHERE")]
     pub mass: Option<MassArg>,
 }
