@@ -1,40 +1,20 @@
-//! numpy loads what is written, and writes what is loaded. Needs a Python with numpy: the environment of the other
-//! codes, or the system's.
+//! numpy, in the environment of the other codes, loads what is written, and writes what is loaded.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use formats::tables::{TableFormat, read, write};
-use girderway::crosscheck::Environment;
 
 #[allow(dead_code, reason = "the tests of tables use the rest")]
 #[path = "../tables/sets.rs"]
 mod sets;
 
+use crate::crosscheck::environment;
 use sets::{Dice, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
 
-/// A Python that can import numpy.
+/// The Python of the environment of the other codes, which have numpy.
 fn python() -> PathBuf {
-    let cache = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("python")
-        .join("girderway");
-    let own = Environment {
-        python: "python3".into(),
-        cache,
-    };
-    let made = [Some(own), Environment::of_user().ok()]
-        .into_iter()
-        .flatten();
-    let made = made.map(|environment| environment.folder().join("bin").join("python"));
-    let works = |python: &PathBuf| {
-        let run = Command::new(python)
-            .args(["-I", "-c", "import numpy"])
-            .output();
-        run.is_ok_and(|run| run.status.success())
-    };
-    made.chain([PathBuf::from("python3")])
-        .find(works)
-        .expect("a Python with numpy")
+    environment().folder().join("bin").join("python")
 }
 
 fn run(python: &Path, folder: &Path, script: &str) -> String {
