@@ -136,7 +136,7 @@ fn decks_refuse_drives_brakes_and_loads_by_name() {
         fs::write(folder.path().join("scene.json"), given).expect("written");
         let run = girderway(&folder, &["deck", "scene.json"]);
         assert_eq!(run.status.code(), Some(2));
-        let wanted = format!("body \"bogie\": a deck cannot have its {what}");
+        let wanted = format!("body \"bogie\": decks do not support {what}s");
         assert!(text(&run.stderr).contains(&wanted), "{}", text(&run.stderr));
         assert!(run.stdout.is_empty());
     }

@@ -293,7 +293,7 @@ fn specs_without_units_are_refused_with_a_hint() {
     let run = girderway(&folder, &["fea", "given.json"]);
     assert_eq!(run.status.code(), Some(2));
     assert!(
-        text(&run.stderr).contains("missing key `units`  hint: units are not guessed"),
+        text(&run.stderr).contains("missing key `units`  hint: units have no default"),
         "{}",
         text(&run.stderr)
     );

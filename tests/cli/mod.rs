@@ -371,9 +371,10 @@ fn an_imported_deck_can_be_solved_at_once() {
         spec["rails"]["crane"]["stations"],
         serde_json::json!([0.0, 6.0, 12.0])
     );
-    let told = "warning: deck.bdf:15:1: mass: of rods and tubes is lumped at their ends, as NASTRAN does unless PARAM \
-                COUPMASS is above 0; that of beams acts along them  hint: --mass distributed spreads it along them\n\
-                warning: deck.bdf:18:1: CELAS2 6: is left out, because all its ends are restrained\n";
+    let told = "warning: deck.bdf:15:1: mass: the mass of rods and tubes is lumped at their ends, as in NASTRAN unless \
+                PARAM COUPMASS is positive; the mass of beams is distributed  hint: use --mass distributed to \
+                distribute it along all elements\n\
+                warning: deck.bdf:18:1: CELAS2 6: is ignored, because it has no free end\n";
     assert_eq!(text(&run.stderr), told);
     let run = girderway(&folder, &[&deck[..], &["-o", "spec.json"]].concat());
     assert_eq!((run.status.code(), run.stdout.len()), (Some(0), 0));

@@ -223,7 +223,7 @@ fn a_composite_rail_is_a_part_of_the_plane_section() {
     let (plain, _) = solved(&folder, &girder(by_hand), &[]);
     assert_grids_agree(&named, &plain, 1e-12);
     assert!(
-        said.contains("with the rail A75 as one plane section, A = 26938 mm^2"),
+        said.contains("composite with the rail A75, A = 26938 mm^2"),
         "{said}"
     );
 }

@@ -108,9 +108,7 @@ fn rotations_that_nothing_resists_are_refused_by_name() {
     });
     assert_eq!(status, Some(2));
     assert!(
-        errors.contains(
-            "bodies.trolley: missing key `inertia`: pitch is free, and no mass has inertia in this motion"
-        ),
+        errors.contains("bodies.trolley: missing key `inertia`: pitch is free, but has no inertia"),
         "{errors}"
     );
 }

@@ -487,7 +487,7 @@ fn tables_at_the_fewest_stations_hold_what_the_solver_gives_there() {
     assert_eq!((run.status.code(), text(&run.stdout)), (Some(0), ""));
     // Regression: the number in the book.
     assert!(
-        text(&run.stderr).starts_with("rail rail: 16 stations, akispl errs by 9."),
+        text(&run.stderr).starts_with("rail rail: 16 stations, akispl has an error of at most 9."),
         "{}",
         text(&run.stderr)
     );

@@ -750,7 +750,11 @@ fn rails_lie_on_the_elements_named() {
             Some([0.0, 0.0, 1.0]),
             "refers to the set girder",
         ),
-        ("top=101", Some([0.0, 0.0, 1.0]), "not parallel to up"),
+        (
+            "top=101",
+            Some([0.0, 0.0, 1.0]),
+            "not parallel to the upward direction",
+        ),
         (
             "top=103,101",
             Some([0.0, 0.0, 1.0]),
@@ -761,7 +765,7 @@ fn rails_lie_on_the_elements_named() {
             Some([0.0, 0.0, 1.0]),
             "is perpendicular to it",
         ),
-        ("top=103", None, "needs --up"),
+        ("top=103", None, "requires --up"),
     ] {
         let options = ImportOptions {
             up,
@@ -834,8 +838,7 @@ fn modes_of_imported_rods_need_no_rail_that_carries_wheels() {
         let refused = program(&format!("{import} r=1,2"));
         assert_eq!(refused.status.code(), Some(2));
         assert!(
-            String::from_utf8_lossy(&refused.stderr)
-                .contains("leave out elements along which no wheel")
+            String::from_utf8_lossy(&refused.stderr).contains("omit elements along which no wheel")
         );
         assert!(program(&format!("{import} r=2")).status.success());
         assert_eq!(

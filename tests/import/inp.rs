@@ -135,7 +135,7 @@ fn supports_springs_masses_and_links_become_what_they_say() {
     assert_eq!(spec["point_sets"]["ends"], value!([0, 4]));
     let warned = told(&imported.warnings);
     assert!(
-        warned.contains("*CLOAD: is left out, once") && warned.contains("*STATIC"),
+        warned.contains("*CLOAD: is ignored (occurs once)") && warned.contains("*STATIC"),
         "{warned}"
     );
 }
@@ -160,7 +160,10 @@ fn parts_are_read_in_the_flat_form_and_files_are_included() {
         flat["supports"]
     );
     let moved = body.replace("part=P\n*End", "part=P\n1., 0., 0.\n*End");
-    assert!(told(&input(&moved, &plain()).expect_err("moved")).contains("must not be moved"));
+    assert!(
+        told(&input(&moved, &plain()).expect_err("moved"))
+            .contains("must not be translated or rotated")
+    );
     let text = cantilever("B31", beam);
     let (head, tail) = text.split_once("*Material").expect("a material");
     let (main, rest) = (
@@ -216,23 +219,23 @@ fn what_is_not_understood_is_refused_by_name_and_left_out_where_it_cannot_matter
     let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
     let model = cantilever("B31", beam);
     for (more, part) in [
-        ("*EQUATION\n2\n", "*EQUATION: is not supported, once"),
+        (
+            "*EQUATION\n2\n",
+            "*EQUATION: is not supported (occurs once)",
+        ),
         (
             "*ELEMENT, TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n",
-            "S4: is not supported, 2 times",
+            "S4: is not supported (occurs 2 times)",
         ),
         ("*ELEMENT, TYPE=B31OS\n7,1,2\n", "B31OS: is not supported"),
-        ("*BOUNDARY\n2, 1, 1, 0.1\n", "can only be 0"),
-        (
-            "*NSET, NSET=a\nb\n",
-            "the name of a set that is defined before",
-        ),
+        ("*BOUNDARY\n2, 1, 1, 0.1\n", "displacement: must be 0"),
+        ("*NSET, NSET=a\nb\n", "the name of a previously defined set"),
         (
             "*BOUNDARY\nnowhere, 1\n",
             "refers to a set or number that does not exist",
         ),
-        ("*PLASTIC\n2.e8, 0.\n", "--skip-unused leaves it out"),
-        ("*NODE\n2, 0, 0, 0\n", "occurs twice"),
+        ("*PLASTIC\n2.e8, 0.\n", "ignore it with --skip-unused"),
+        ("*NODE\n2, 0, 0, 0\n", "is defined twice"),
         ("*NODE\n3, 0, zero, 0\n", "model.inp:"),
     ] {
         let wrong = told(&input(&format!("{model}{more}"), &plain()).expect_err(more));
@@ -247,7 +250,7 @@ fn what_is_not_understood_is_refused_by_name_and_left_out_where_it_cannot_matter
         .unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let warned = told(&taken.warnings);
     assert!(
-        warned.contains("*PLASTIC") && warned.contains("kept at rest"),
+        warned.contains("*PLASTIC") && warned.contains("displacement of the support is taken as 0"),
         "{warned}"
     );
     let shells = ImportOptions {
@@ -332,7 +335,7 @@ fn files_of_gmsh_and_meshio_need_sections_by_the_names_of_their_sets() {
         assert_eq!(model.members[14].kind, fea::MemberKind::Truss, "{file}");
         let wrong = told(&read(&options("other")).expect_err("a set without a section"));
         assert!(
-            wrong.contains("must be in one set of elements that is a section"),
+            wrong.contains("must be in exactly one set of elements that the sections file defines"),
             "{file}: {wrong}"
         );
         let wrong = told(&read(&plain()).expect_err("no sections"));

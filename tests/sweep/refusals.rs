@@ -19,7 +19,7 @@ fn faults_of_a_sweep_are_told_with_their_places() {
         ),
         (
             sweep(r#""/bodies/crane": [1]"#, grid),
-            "must lead to a number",
+            "must refer to a number",
         ),
         (sweep(r#""bodies": [1]"#, grid), "must be a JSON pointer"),
         (
@@ -47,7 +47,7 @@ fn faults_of_a_sweep_are_told_with_their_places() {
         ),
         (
             sweep(r#""/bodies/crane/weight": {"uniform": [2, 1]}"#, latin),
-            "must be above the first, 2",
+            "must be greater than the first, 2",
         ),
         (
             sweep(r#""/bodies/crane/weight": {"normal": [2, -1]}"#, latin),
@@ -99,7 +99,7 @@ fn faults_of_a_sweep_are_told_with_their_places() {
                 weight,
                 r#""sampling": "grid", "count": 5, "results": ["peaks"]"#,
             ),
-            "cannot stand beside",
+            "cannot be combined with",
         ),
         (
             sweep(weight, r#""sampling": "random", "results": ["peaks"]"#),
@@ -140,7 +140,7 @@ fn faults_of_a_sweep_are_told_with_their_places() {
                 weight,
                 r#""sampling": "grid", "results": ["peaks"], "design": "design.json""#,
             ),
-            "beside `scene`",
+            "combined with `scene`",
         ),
         (
             sweep(

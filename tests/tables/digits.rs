@@ -144,7 +144,7 @@ fn the_program_reports_rounding_to_people_and_to_programs() {
         &["splines", "grid.json", "-o", "ten.adm", "--digits", "10"],
     );
     assert!(
-        told(&run).starts_with("rounded to 10 digits: by "),
+        told(&run).starts_with("rounded to 10 digits: the largest relative change is "),
         "{}",
         told(&run)
     );

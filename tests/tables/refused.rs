@@ -30,7 +30,7 @@ fn sheets_are_refused_at_line_and_column() {
         ),
         (
             ",0,1,2\n0,1,2,3\n",
-            "a.csv:1:1: must have at least 4 x, got 3  hint: a SPLINE has four x values or more",
+            "a.csv:1:1: must have at least 4 x values, got 3  hint: a SPLINE needs at least four x values",
         ),
         (
             ",0,1,2,3\n0,1,2,x,4\n",
@@ -70,7 +70,7 @@ fn sheets_are_refused_at_line_and_column() {
         ),
         (
             ",0,\"1,2,3\n",
-            "a.csv:1:4: a quotation mark is not closed  hint: a cell cannot go over several lines",
+            "a.csv:1:4: a quotation mark is not closed  hint: a cell cannot extend over several lines",
         ),
         (
             "z,x,value,colour\n",
@@ -87,11 +87,11 @@ fn sheets_are_refused_at_line_and_column() {
         ),
         (
             "z,x,value\n0,0,1,7\n",
-            "a.csv:2:7: a row must have 3 cells, as the header",
+            "a.csv:2:7: a row must have 3 cells, like the header",
         ),
         (
             "z,x,value\n0,0,1\n,1,2\n",
-            "a.csv:3:1: must have a z, as the other rows of the table",
+            "a.csv:3:1: must have a z, like the other rows of the table",
         ),
         (
             "id,x,value\n0,0,1\n",
@@ -99,7 +99,7 @@ fn sheets_are_refused_at_line_and_column() {
         ),
         (
             "id,name,x,value\n6,a,0,1\n6,b,0,1\n",
-            "a.csv:3:1: the id is that of a table of another name",
+            "a.csv:3:1: this id belongs to a table with another name",
         ),
         (
             "z,x,value\n0,0,1\n0,1,2\n0,2,3\n0,3,4\n0,1,5\n",
@@ -193,7 +193,7 @@ fn commands_are_refused_at_line_and_column() {
     for (text, expected) in [
         (
             "data_element create spline x=0,1,2,3 y=1,2,3,4",
-            "a.cmd: has no `defaults units`  hint: such as: defaults units length=foot force=pound_force mass=slug time=sec; units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables",
+            "a.cmd: has no `defaults units`  hint: such as: defaults units length=foot force=pound_force mass=slug time=sec; or specify --length ft --force lbf, or in a scene \"units\" of the tables",
         ),
         (
             "defaults units &\n length = cubit",
@@ -305,7 +305,7 @@ fn archives_are_refused_by_array_and_index() {
         ),
         (
             vec![("vertical.npy", array("|O", "(4,)", &[]))],
-            "vertical: must be real numbers or words, got the type |O  hint: such as numpy.asarray(values, dtype=float)",
+            "vertical: must be real numbers or text, got the type |O  hint: such as numpy.asarray(values, dtype=float)",
         ),
         (
             vec![("notes.txt", b"hello".to_vec())],
@@ -325,7 +325,7 @@ fn archives_are_refused_by_array_and_index() {
                 stations(),
                 row("(4,)"),
             ],
-            "units: must be words  hint: such as numpy.array([\"ft\", \"lbf\", \"s\"])",
+            "units: must be text  hint: such as numpy.array([\"ft\", \"lbf\", \"s\"])",
         ),
         (
             vec![("tables.npy", array("|S1", "(1,)", b"q")), stations()],
@@ -381,7 +381,7 @@ fn units_are_never_guessed_nor_overruled() {
     let found = refusal("a.adm", adm.as_bytes(), None);
     assert!(
         found.starts_with("a.adm: has no UNITS statement  hint: such as UNITS/")
-            && found.contains("units are not guessed")
+            && found.contains("or specify --length ft --force lbf")
     );
     assert_eq!(
         read("a.adm", adm.as_bytes(), Some(FT_LBF)).map(|set| set.units),

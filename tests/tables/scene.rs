@@ -84,7 +84,7 @@ fn a_scene_says_the_units_of_a_file_that_does_not() {
         wrong[0]
             .hint
             .as_ref()
-            .is_some_and(|hint| hint.contains("units are not guessed")),
+            .is_some_and(|hint| hint.contains("or specify --length ft --force lbf")),
         "{wrong:?}"
     );
 }

@@ -166,7 +166,7 @@ impl fmt::Display for Buckling {
         } else {
             write!(
                 f,
-                "point {point} moves in {dof}, by the axial force of member {member}"
+                "point {point} moves in {dof}, due to the axial force of member {member}"
             )
         }
     }

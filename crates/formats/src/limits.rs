@@ -37,7 +37,7 @@ pub(crate) const ROW_NUMBERS: [f64; 3] = [10.0, 20.0, 40.0];
 /// Spans of a straight girder; each adds equations of six degrees of freedom.
 pub(crate) const SPANS: Limit = Limit {
     most: 10_000,
-    reason: "long runways are divided at their expansion joints",
+    reason: "divide long runways at their expansion joints",
 };
 
 /// Stations of a rail. The grids have n x n numbers for each direction and each coupling.
@@ -85,19 +85,19 @@ pub(crate) const ROWS: Limit = Limit {
 /// Trains of a design. Each stands in up to sixteen ways.
 pub(crate) const TRAINS: Limit = Limit {
     most: 100,
-    reason: "each train is tried in up to 16 ways",
+    reason: "each train is analysed in up to 16 arrangements",
 };
 
 /// Wheels of a train of a design.
 pub(crate) const TRAIN_WHEELS: Limit = Limit {
     most: 500,
-    reason: "every wheel is followed along every member; cranes have 4 to 64 wheels",
+    reason: "every wheel is moved along every member; cranes have 4 to 64 wheels",
 };
 
 /// Trains of a case of a design, which are tried in every order.
 pub(crate) const CASE_TRAINS: Limit = Limit {
     most: 5,
-    reason: "n trains are tried in n! orders, each turned both ways",
+    reason: "n trains have n! orders, and each train has two orientations",
 };
 
 /// Runs of a sweep. A shard of a larger one is a sweep of its own.
@@ -109,5 +109,5 @@ pub(crate) const SWEEP_RUNS: Limit = Limit {
 /// Axes of a sweep; the parameters of Sobol sequences are known for this number of dimensions.
 pub(crate) const SWEEP_AXES: Limit = Limit {
     most: 100,
-    reason: "each axis is a dimension of the space that the runs must fill",
+    reason: "each axis adds a dimension to the space that the runs must sample",
 };

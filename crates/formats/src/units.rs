@@ -178,12 +178,18 @@ const OTHER_UNITS: [(&str, &str); 22] = [
     ("feet", "write \"ft\""),
     ("inch", "write \"in\""),
     ("inches", "write \"in\""),
-    ("t", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
-    ("to", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
+    (
+        "t",
+        "tonnes are units of mass; write forces in kN: 1 t weighs 9.81 kN",
+    ),
+    (
+        "to",
+        "tonnes are units of mass; write forces in kN: 1 t weighs 9.81 kN",
+    ),
     ("tf", "write forces in kN: 1 tf = 9.80665 kN"),
     (
         "kg",
-        "kilograms are masses; forces in N: 1 kg weighs 9.81 N",
+        "kilograms are units of mass; write forces in N: 1 kg weighs 9.81 N",
     ),
     ("kgf", "write forces in N: 1 kgf = 9.80665 N"),
     ("daN", "write forces in N: 1 daN = 10 N"),
@@ -221,7 +227,7 @@ impl Units {
     /// Reads the member `units` of the object at `place`; a fault if it is missing or a keyword is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
-            let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
+            let hint = "units have no default; specify {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
                         or in, m, mm; kip, N, kN";
             faults.add(
                 Fault::new(place, "missing key `units`")

@@ -93,30 +93,25 @@ impl ImportFindings {
     #[must_use]
     pub fn errors(&self) -> Vec<Diagnostic> {
         let mut index: BTreeMap<(String, &str, &Option<String>), usize> = BTreeMap::new();
-        let mut groups: Vec<(String, Vec<&ImportFinding>)> = Vec::new();
+        let mut groups: Vec<Vec<&ImportFinding>> = Vec::new();
         for finding in &self.errors {
             let kind = kind_of(&finding.about);
-            let key = (kind.clone(), finding.expected.as_str(), &finding.hint);
+            let key = (kind, finding.expected.as_str(), &finding.hint);
             let group = *index.entry(key).or_insert_with(|| {
-                groups.push((kind, Vec::new()));
+                groups.push(Vec::new());
                 groups.len() - 1
             });
-            groups[group].1.push(finding);
+            groups[group].push(finding);
         }
         let mut errors = Vec::new();
-        for (kind, mut group) in groups {
+        for mut group in groups {
             group.sort_by_key(|finding| finding.at);
             match group.as_slice() {
                 [first, .., last] if group.len() >= GROUP => {
                     let count = group.len();
-                    let what = if kind.is_empty() {
-                        "places"
-                    } else {
-                        kind.as_str()
-                    };
                     let line = last.at.line;
                     let expected = format!(
-                        "{} ({count} {what} alike, the last in line {line})",
+                        "{} ({count} errors of this kind, the last in line {line})",
                         first.expected
                     );
                     errors.push(ImportFinding {

@@ -54,7 +54,7 @@ pub fn restrain(
             .map(|(name, _)| name.as_str())
             .collect();
         let hint = format!(
-            "sets of points: {}",
+            "known point sets: {}",
             if names.is_empty() {
                 "none".to_owned()
             } else {

@@ -74,15 +74,18 @@ impl<'a> Includes<'a> {
         let fault = match read {
             Err(error) => {
                 let expected = format!("{} {}", places[0].display(), read_error_message(&error));
-                refuse(expected, "names are relative to the file that includes")
+                refuse(
+                    expected,
+                    "names are relative to the folder of the including file or of the main file",
+                )
             }
             Ok(_) if self.stack.contains(path) => {
                 let expected = "must not include a file that is already being read".to_owned();
-                refuse(expected, "remove one of these lines").with_found(name)
+                refuse(expected, "remove an inclusion from this loop").with_found(name)
             }
             Ok(_) if Includes::is_full(findings) => refuse(
                 "includes too many files".to_owned(),
-                "a model may include up to 999 files",
+                "a model may include at most 999 files",
             ),
             Ok(bytes) => return Some((path.clone(), bytes)),
         };

@@ -181,7 +181,7 @@ fn add_requested(
     for asked in &options.rails {
         let Some(up) = options.up else {
             let message = [
-                "needs --up, because the model does not state the direction up".to_owned(),
+                "requires --up, because the model does not define the upward direction".to_owned(),
                 "add --up 0,0,1 or --up 0,1,0".to_owned(),
             ];
             wrong.push(refused("--rail", message));
@@ -252,14 +252,17 @@ fn is_bulk_data(bytes: &[u8]) -> bool {
     bytes.split(|byte| *byte == b'\n').any(begins)
 }
 
-/// Errors of the flags, among those that only bulk data have, that are given.
-fn only_for_bulk_data(flags: &[(&str, bool)]) -> Vec<Diagnostic> {
+/// Errors of the given flags, none of which applies to the format of the model.
+fn not_available(flags: &[(&str, bool)]) -> Vec<Diagnostic> {
     let given = flags.iter().filter(|(_, given)| *given);
     given
         .map(|(flag, _)| {
             refused(
                 flag,
-                ["is only available for bulk data".to_owned(), String::new()],
+                [
+                    "is not available for this file format".to_owned(),
+                    String::new(),
+                ],
             )
         })
         .collect()
@@ -279,14 +282,16 @@ fn read_input(
         ("--spc", options.spc.is_some()),
         ("--mass", options.mass.is_some()),
     ];
-    wrong.extend(only_for_bulk_data(&given));
+    wrong.extend(not_available(&given));
     if options.sections.is_some() && options.force.is_some() {
-        let message = "is not available with --sections, which states the unit of force".to_owned();
+        let message =
+            "is not available with --sections, whose file specifies the unit of force".to_owned();
         wrong.push(refused("--force", [message, String::new()]));
     }
     if options.length.is_none() || (options.force.is_none() && options.sections.is_none()) {
-        let expected = "Abaqus files have no units: --length and --force must state them";
-        let hint = "such as --length m --force N; a file without sections needs --sections in place of --force";
+        let expected =
+            "Abaqus input files contain no units: specify them with --length and --force";
+        let hint = "such as --length m --force N; a file without sections requires --sections instead of --force";
         wrong.push(Diagnostic::of_file(&name, expected).hint(hint));
     }
     if !wrong.is_empty() {
@@ -338,17 +343,17 @@ fn read_deck(
     let (Some(length), Some(force)) = (options.length, options.force) else {
         let wrong = Diagnostic::of_file(
             name,
-            "bulk data have no units: --length and --force must state them",
+            "bulk data contain no units: specify them with --length and --force",
         );
         return Err(vec![wrong.hint(
-            "such as --length m --force N; masses are force s^2 / length after WTMASS",
+            "such as --length m --force N; the unit of mass, after scaling by WTMASS, is force s^2 / length",
         )]);
     };
     if options.sections.is_some() {
         let wrong = refused(
             "--sections",
             [
-                "is only available for meshes: bulk data have their own sections".to_owned(),
+                "is not available for bulk data, which contain their own sections".to_owned(),
                 String::new(),
             ],
         );
@@ -375,17 +380,17 @@ fn read_mesh(
     if options.length.is_none() {
         let missing = Diagnostic::of_file(
             &name,
-            "a mesh has no units: --length must state that of its coordinates",
+            "a mesh contains no units: specify that of its coordinates with --length",
         );
         wrong.push(missing.hint("such as --length mm"));
     }
     if options.sections.is_none() {
         let missing = Diagnostic::of_file(
             &name,
-            "a mesh has no sections: --sections must name a file with sections",
+            "a mesh contains no sections: specify a file that defines them with --sections",
         );
         let hint = format!(
-            "a JSON file of format {} with units, materials and sections by the names of the physical groups",
+            "a JSON file of format {} with units, materials, and sections named after the physical groups",
             msh::FORMAT
         );
         wrong.push(missing.hint(hint));
@@ -397,7 +402,7 @@ fn read_mesh(
         ("--mass", options.mass.is_some()),
         ("--force", options.force.is_some()),
     ];
-    wrong.extend(only_for_bulk_data(&given));
+    wrong.extend(not_available(&given));
     let (Some(length), Some(source)) = (options.length, &options.sections) else {
         return Err(wrong);
     };

@@ -110,8 +110,8 @@ pub fn rail_along_members(
     };
     let (Some(&first), Some(&last)) = (members.first(), members.last()) else {
         return Err([
-            "must have a member".to_owned(),
-            "name elements or a set".to_owned(),
+            "contains no members".to_owned(),
+            "specify elements or a set".to_owned(),
         ]);
     };
     let [a, b] = structure.ends(first);
@@ -120,7 +120,7 @@ pub fn rail_along_members(
     } else {
         minus(middle(last), middle(first))
     };
-    let hint = "state it as /axis=X,Y,Z";
+    let hint = "specify it by /axis=X,Y,Z";
     let axis = asked
         .axis
         .or_else(|| horizontal(along, up))
@@ -128,7 +128,7 @@ pub fn rail_along_members(
         .filter(|axis| !parallel(*axis, up));
     let axis = axis.ok_or_else(|| {
         [
-            "must have an axis that is not parallel to up".to_owned(),
+            "must have an axis that is not parallel to the upward direction".to_owned(),
             hint.to_owned(),
         ]
     })?;
@@ -139,7 +139,8 @@ pub fn rail_along_members(
             let id = structure.members[member].id;
             return Err([
                 format!("must not contain element {id}, which is perpendicular to it"),
-                format!("leave out elements along which no wheel can run, or {hint}"),
+                "omit elements along which no wheel can run, or specify the axis by /axis=X,Y,Z"
+                    .to_owned(),
             ]);
         }
         ends.extend([a, b]);
@@ -160,7 +161,7 @@ pub fn rail_along_members(
     stations.dedup_by(|b, a| *b - *a <= 1e-9 * range);
     if stations.iter().any(|station| !station.is_finite()) || range <= 0.0 {
         return Err([
-            "must have coordinates within double precision".to_owned(),
+            "must have coordinates within the range of double precision".to_owned(),
             hint.to_owned(),
         ]);
     }
@@ -214,7 +215,7 @@ fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usi
                 }
                 Item::Set(name) => format!("refers to the set {name}, which does not exist"),
             };
-            return Err([what, format!("sets of cells: {}", names.join(", "))]);
+            return Err([what, format!("known element sets: {}", names.join(", "))]);
         }
         for member in found {
             if !std::mem::replace(&mut named[member], true) {

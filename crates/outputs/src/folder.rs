@@ -165,9 +165,9 @@ impl OutputFolder {
                 foreign.push(
                     Diagnostic::of_file(
                         file,
-                        "would be replaced, but was not written by girderway or was changed since",
+                        "would be overwritten, but was not written by girderway or was modified since",
                     )
-                    .hint("move it, name another folder with -o, or replace it with --force"),
+                    .hint("move it, name another folder with -o, or overwrite it with --force"),
                 );
             }
         }

@@ -331,7 +331,8 @@ impl StationChoice {
             .map(|rail| {
                 let found = &rail.stations;
                 format!(
-                    "rail {}: {} stations, {} errs by {:.2e} at most ({} of {}, x = {:.4}, z = {:.4})",
+                    "rail {}: {} stations, {} has an error of at most {:.2e} ({} deflection under {} load, x = {:.4}, \
+                     z = {:.4})",
                     rail.rail,
                     found.at.len(),
                     goal.method.word(),
@@ -353,7 +354,7 @@ impl StationChoice {
             let [(r, deflection), (c, load)] = block.paths;
             let [row, column] = [r, c].map(|rail| self.grid.rails[rail].name.as_str());
             format!(
-                "{:.2e} ({} of rail {row} from {} of rail {column})",
+                "{:.2e} ({} deflection of rail {row} under {} load on rail {column})",
                 block.error,
                 word(deflection),
                 word(load)

@@ -127,7 +127,7 @@ fn check_owner(path: &Path) -> Result<(), Failure> {
         "would be overwritten, but was not written by girderway or was modified since",
     );
     Err(fault
-        .hint("move it, name another file with -o, or replace it with --force")
+        .hint("move it, name another file with -o, or overwrite it with --force")
         .into())
 }
 

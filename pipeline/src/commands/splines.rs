@@ -87,22 +87,16 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
 /// Rejects flags that cannot be combined.
 fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     let factored = args.form == Some(TableFormArg::Factored);
-    let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
-        (
-            "--tolerance requires --reading, --check or --form factored",
-            "add --reading akispl, --check or --form factored",
-        )
+    let wrong = if args.tolerance.is_some() && args.reading.is_none() && !factored {
+        "--tolerance requires --reading, --check or --form factored"
     } else if args.rank.is_some() && !factored {
-        ("--rank requires --form factored", "add --form factored")
+        "--rank requires --form factored"
     } else if args.rank.is_some() && args.tolerance.is_some() && args.reading.is_none() {
-        (
-            "--rank and --tolerance cannot be used together without --reading: both set the number of products",
-            "use one of them",
-        )
+        "--rank and --tolerance cannot be used together without --reading: both set the number of products"
     } else {
         return Ok(());
     };
-    Err(Diagnostic::of_file("command line", wrong).hint(hint).into())
+    Err(Diagnostic::of_file("command line", wrong).into())
 }
 
 /// The tables of the input, and the exact surface with its rails if the input is a grid that has one.

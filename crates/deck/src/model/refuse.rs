@@ -25,18 +25,20 @@ fn structures(scene: &Scene, faults: &mut Faults) {
         let at = list.key(&structure.name);
         let name = &structure.name;
         if structure.longitudinal {
-            let why =
-                format!("a deck cannot have compliance along its rails: structure \"{name}\"");
+            let why = format!(
+                "decks do not support longitudinal compliance of rails: structure \"{name}\""
+            );
             faults.add(Fault::new(&at.key("longitudinal"), why).hint("leave `longitudinal` out"));
         }
         if !structure.irregularities.is_empty() {
-            let why = format!("a deck cannot have uneven rails: structure \"{name}\"");
+            let why = format!("decks do not support rail irregularities: structure \"{name}\"");
             faults
                 .add(Fault::new(&at.key("irregularities"), why).hint("leave `irregularities` out"));
         }
         if structure.carrier.is_some() {
-            let why = format!("structure \"{name}\": a deck cannot have structures on bodies");
-            let hint = "leave out the trolley, and put its mass into the bridge";
+            let why =
+                format!("structure \"{name}\": decks do not support structures carried by bodies");
+            let hint = "leave out the trolley, and add its mass to the bridge";
             faults.add(Fault::new(&at.key("on"), why).hint(hint));
         }
         match structure.foundation {
@@ -47,7 +49,7 @@ fn structures(scene: &Scene, faults: &mut Faults) {
             | scene::Foundation::Ties { .. } => {
                 let word = structure.foundation.word();
                 let why =
-                    format!("structure \"{name}\": a deck cannot have the foundation \"{word}\"");
+                    format!("structure \"{name}\": decks do not support the foundation \"{word}\"");
                 faults.add(
                     Fault::new(&at.key("foundation"), why).hint("use \"influence\" or \"rigid\""),
                 );
@@ -76,7 +78,7 @@ fn stations(scene: &Scene, faults: &mut Faults) {
                 on_scene.name
             );
             let fault = Fault::new(&list.key(&structure.name).key(key), why).got(stations);
-            faults.add(fault.hint("a SPLINE has four x values or more"));
+            faults.add(fault.hint("a SPLINE needs at least four x values"));
         }
     }
 }
@@ -90,7 +92,7 @@ fn bodies(scene: &Scene, faults: &mut Faults) {
             faults.add(
                 Fault::new(
                     &at,
-                    format!("body \"{}\": a deck cannot have {what}", body.name),
+                    format!("body \"{}\": decks do not support {what}", body.name),
                 )
                 .hint(hint),
             );
@@ -103,13 +105,13 @@ fn bodies(scene: &Scene, faults: &mut Faults) {
         }
         if body.pinned.is_some() {
             let hint =
-                "model its mass with the body that carries it, and give the truck a nested `tree`";
+                "add its mass to the body that carries it, and give the truck a nested `tree`";
             add("bodies pinned to others", hint);
         }
         let hint = "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand";
         match (&body.motion, body.brake) {
-            (BodyMotion::Driven(_), _) => add("its drive", hint),
-            (_, Some(_)) => add("its brake", hint),
+            (BodyMotion::Driven(_), _) => add("drives", hint),
+            (_, Some(_)) => add("brakes", hint),
             _ => {}
         }
     }
@@ -121,12 +123,11 @@ fn actions(scene: &Scene, faults: &mut Faults) {
         faults.add(Fault::new(&root.key(list).index(index), why).hint(hint));
     };
     for (index, rope) in scene.ropes.iter().enumerate() {
-        let hint =
-            "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand";
+        let hint = "leave `ropes` and suspended bodies out, and add an SFORCE to the deck by hand";
         add(
             "ropes",
             index,
-            format!("a deck cannot have ropes: \"{}\"", rope.name),
+            format!("decks do not support ropes: \"{}\"", rope.name),
             hint,
         );
     }
@@ -135,7 +136,7 @@ fn actions(scene: &Scene, faults: &mut Faults) {
         add(
             "events",
             index,
-            format!("a deck cannot have events: \"{}\"", event.name),
+            format!("decks do not support events: \"{}\"", event.name),
             hint,
         );
     }
@@ -144,13 +145,13 @@ fn actions(scene: &Scene, faults: &mut Faults) {
         add(
             "stops",
             index,
-            format!("a deck cannot have stops: \"{}\"", stop.name),
+            format!("decks do not support stops: \"{}\"", stop.name),
             hint,
         );
     }
     for (index, load) in scene.loads.iter().enumerate() {
         let why = format!(
-            "body \"{}\": a deck cannot have its load",
+            "body \"{}\": decks do not support loads",
             scene.bodies[load.body].name
         );
         add(
@@ -163,7 +164,7 @@ fn actions(scene: &Scene, faults: &mut Faults) {
     let motions = root.key("motions");
     for spin in &scene.spins {
         let why = format!(
-            "a deck cannot have prescribed spins: truck \"{}\"",
+            "decks do not support prescribed wheel rotation: truck \"{}\"",
             scene.trucks[spin.truck].name
         );
         let hint = "leave the motion out, and add a MOTION to the deck by hand";

@@ -65,7 +65,7 @@ pub(super) fn read(
         raw.hoist_speed,
         &at.key("hoist_speed"),
         Dimension::SPEED,
-        "rated",
+        "rated speed",
     );
     let metric = Scale {
         from: units,
@@ -76,12 +76,12 @@ pub(super) fn read(
     if combinations && raw.code.is_none() {
         let fault = Fault::new(
             &at.key("combinations"),
-            "needs the code whose groups of loads are meant",
+            "requires a design code, which defines the load groups",
         );
         check.faults.add(
             fault
                 .of_value()
-                .hint("give `code`, such as \"EN 1991-3\", \"ASCE 7\" or \"AIST TR-13\""),
+                .hint("specify `code`, such as \"EN 1991-3\", \"ASCE 7\" or \"AIST TR-13\""),
         );
     }
     DesignPractice {
@@ -129,9 +129,9 @@ fn limits(
         return limits;
     }
     let allowed = match name {
-        "AIST TR-13" => "the building by the code: \"A\", \"B\", \"C\" or \"D\"",
+        "AIST TR-13" => "\"A\", \"B\", \"C\" or \"D\" (mill building)",
         "IS 800" => "\"manual\", \"electric\" (up to 50 t) or \"heavy\" (electric, above 50 t)",
-        _ => "the crane by CMAA 70: \"A\" to \"F\"",
+        _ => "\"A\" to \"F\" (service class of CMAA 70)",
     };
     match class {
         Some(class) => {
@@ -146,7 +146,7 @@ fn limits(
             let fault = Fault::new(at, format!("missing key `{key}`"));
             check
                 .faults
-                .add(fault.hint(format!("limits of {name} depend on the class of {allowed}")));
+                .add(fault.hint(format!("limits of {name} depend on the class: {allowed}")));
         }
     }
     Vec::new()

@@ -32,21 +32,22 @@ pub(crate) struct RawDesign {
     pub units: Option<RawUnits>,
     /// File of the beam spec, relative to the folder of this file.
     pub spec: Option<String>,
-    /// Whether the weight of the structure acts, or an object with `weight` and loads along rails; by default false.
+    /// Whether the self-weight of the structure acts, or an object with `weight` and loads along rails; by default
+    /// false.
     pub dead_load: Option<RawDead>,
     /// Acceleration of gravity, length / time^2, by default 9.80665 m/s2.
     pub gravity: Option<f64>,
     /// Wheel trains.
     pub trains: Option<Vec<RawTrain>>,
-    /// Load cases: trains that stand on the rails at once; by default each train by itself.
+    /// Load cases: trains that are on the rails at the same time; by default each train alone.
     pub cases: Option<Vec<RawCase>>,
-    /// Sections of members elsewhere whose internal forces are asked for.
+    /// Further sections of members at which internal forces are evaluated.
     #[serde(default)]
     pub sections: Vec<RawSectionCut>,
-    /// Coordinates between which the spans of each rail lie, by the name of the rail; in the short form of a spec by
-    /// default its supports.
+    /// Coordinates of the ends of the spans of each rail, by the name of the rail; by default, in the short form of a
+    /// spec, its supports.
     pub spans: Option<Entries<Vec<f64>>>,
-    /// Design code and the data that its rows need.
+    /// Design code and the data that its checks require.
     pub practice: Option<RawDesignPractice>,
 }
 
@@ -60,27 +61,28 @@ pub(crate) struct RawTrain {
     pub rail: Option<String>,
     /// Distances from the outermost wheels to the ends of the train, before and behind, length; by default 0.
     pub ends: Option<[f64; 2]>,
-    /// The wheels; the first is the one whose coordinate is the position of the train.
+    /// The wheels; the coordinate of the first wheel is the position of the train.
     pub wheels: Option<Vec<RawTrainWheel>>,
     /// Lateral force on each wheel, along +z.
     pub lateral: Option<f64>,
     /// Longitudinal force of the whole train along +x, shared equally by its wheels.
     pub longitudinal: Option<f64>,
-    /// Buffer force on the whole train along +x, shared equally by its wheels; acts only with a factor of its own.
+    /// Buffer force on the whole train along +x, shared equally by its wheels; acts only in cases with a factor
+    /// for it.
     pub buffer: Option<f64>,
-    /// Distance of the forces of each wheel from the line of the rail along +z, length.
+    /// Eccentricity of the forces of each wheel from the axis of the rail, along +z, length.
     pub eccentricity: Option<f64>,
-    /// Whether the train is tried the other way round as well; by default true.
+    /// Whether the train is also placed in the reversed orientation; by default true.
     pub turned: Option<bool>,
-    /// Whether wheels may stand beyond the ends of the rail, where they carry nothing; by default false.
+    /// Whether wheels may be beyond the ends of the rail, where they exert no force; by default false.
     pub enters: Option<bool>,
     /// Signs of lateral and longitudinal forces and eccentricities: "both" (default) or "given".
     pub signs: Option<String>,
-    /// Weight of the hoisted load, force; for rows of codes.
+    /// Weight of the hoisted load, force; for checks of design codes.
     pub hoist_load: Option<f64>,
-    /// Weight of the trolley with its lifting gear, force; for rows of codes.
+    /// Weight of the trolley with its lifting gear, force; for checks of design codes.
     pub trolley: Option<f64>,
-    /// Weight of the bridge without trolley, force; for rows of codes.
+    /// Weight of the bridge without trolley, force; for checks of design codes.
     pub bridge: Option<f64>,
 }
 
@@ -96,12 +98,12 @@ pub(crate) struct RawTrainWheel {
     pub lateral: Option<f64>,
     /// Longitudinal force of this wheel along +x, in place of its share in that of the train.
     pub longitudinal: Option<f64>,
-    /// Lateral force of this wheel along +z from skewing of the crane; acts only with a factor of its own.
+    /// Lateral force of this wheel along +z from skewing of the crane; acts only in cases with a factor for it.
     pub skewing: Option<f64>,
-    /// Lateral force of this wheel along +z while the crane tilts against an obstacle; acts only with a factor of its own, like
-    /// the part `tilting` of `vertical`.
+    /// Lateral force of this wheel along +z while the crane tilts against an obstacle; like the part `tilting` of
+    /// `vertical`, it acts only in cases with a factor for it.
     pub tilting: Option<f64>,
-    /// Distance of its forces from the line of the rail along +z, length, in place of that of the train.
+    /// Eccentricity of its forces from the axis of the rail, along +z, length, in place of that of the train.
     pub eccentricity: Option<f64>,
     /// Rail on which it stands, by default that of the train.
     pub rail: Option<String>,
@@ -113,9 +115,9 @@ pub(crate) struct RawTrainWheel {
 pub(crate) struct RawNamedCase {
     /// Its name; by default its trains.
     pub name: Option<String>,
-    /// Names of the trains that stand on the rails at once; a name may occur several times.
+    /// Names of the trains that are on the rails at the same time; a name may occur several times.
     pub trains: Option<Vec<String>>,
-    /// Least clear distance between the ends of two trains on a rail, length; by default 0.
+    /// Minimum clear distance between the ends of two trains on a rail, length; by default 0.
     pub gap: Option<f64>,
     /// Order of the trains along the rail: "any" (default) or "given".
     pub order: Option<String>,
@@ -129,14 +131,14 @@ pub(crate) struct RawNamedCase {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawDeadLoads {
-    /// Whether everything that has mass weighs; by default false.
+    /// Whether the self-weight of the structure acts; by default false.
     pub weight: Option<bool>,
     /// Load per length of each rail, force / length, downwards, by the name of the rail.
     #[serde(default)]
     pub line: Entries<f64>,
 }
 
-/// A section of a member elsewhere.
+/// A further section of a member at which an internal force is evaluated.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSectionCut {
@@ -144,7 +146,7 @@ pub(crate) struct RawSectionCut {
     pub name: Option<String>,
     /// Block and index of the cell, in the general form of a spec.
     pub cell: Option<[usize; 2]>,
-    /// Place along the flexible part of the cell, as a fraction of its length from end a.
+    /// Position along the flexible part of the cell, as a fraction of its length from end a.
     pub place: Option<f64>,
     /// Coordinate along the girder, length, in the short form of a spec.
     pub x: Option<f64>,
@@ -164,7 +166,7 @@ pub(crate) struct RawDesignPractice {
     pub s_class: Option<String>,
     /// Class of the mill building in AIST TR-13, "A" to "D".
     pub building_class: Option<String>,
-    /// Whether every case without factors of its own is also calculated with the groups of loads of the code.
+    /// Whether every case without `factors` is also calculated with the load groups of the code.
     pub combinations: Option<bool>,
     /// Operation of the crane, for the impact of ASCE 7: "cab" (default), "monorail", "pendant" or "hand-geared".
     pub operation: Option<String>,
@@ -176,13 +178,13 @@ pub(crate) struct RawDesignPractice {
     pub drives: Option<String>,
     /// Release of the load by grabs or magnets, for phi3: "slow" or "rapid".
     pub release: Option<String>,
-    /// What resists lateral moments in stresses: "whole section" (default) or "top flange".
+    /// Part of the section that resists lateral moments in stresses: "whole section" (default) or "top flange".
     pub lateral_section: Option<String>,
     /// How crane rails are fastened to their flanges: "rigid", "loose" or "pad".
     pub rail_fastening: Option<String>,
     /// Guidance of the crane: "flanges" or "rollers".
     pub guide: Option<String>,
-    /// Least distance between hook and rail, length.
+    /// Minimum distance between hook and rail, length.
     pub approach: Option<f64>,
     /// Width of the rail head, length.
     pub rail_head: Option<f64>,

@@ -91,7 +91,7 @@ fn read(
             given,
             &root.key("gravity"),
             Dimension::ACCELERATION,
-            "a magnitude",
+            "a magnitude: it always acts downwards",
         ),
         None => standard,
     };
@@ -273,7 +273,7 @@ fn train(
             end,
             &place.index(k),
             Dimension::LENGTH,
-            "beyond the outermost wheel",
+            "distance beyond the outermost wheel",
         );
     }
     let list = check
@@ -429,7 +429,7 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
                             .at_key();
                     check
                         .faults
-                        .add(fault.hint("it names another load in the factors of a case"));
+                        .add(fault.hint("`factors` of a case use this name for another load"));
                 }
                 out.push((name.clone(), check.number(*force, &here, Dimension::FORCE)));
             }
@@ -448,7 +448,7 @@ fn check_order(wheels: &[DesignWheel], places: &Place<'_>, faults: &mut Faults) 
         if let Some(before) = before.filter(|before| before.x >= wheel.x && before.x.is_finite()) {
             let here = places.index(k);
             let expected = format!(
-                "must be above that of the wheel before it, {}",
+                "must be greater than that of the previous wheel, {}",
                 number(before.x)
             );
             let fault = Fault::new(&here.key("x"), expected).got(number(wheel.x));
@@ -494,11 +494,11 @@ fn check_fit(
             let [low, high] = rails[first].range;
             let fault = Fault::new(&list.index(k), "must fit on its rails with all wheels");
             let fault = fault.got(format!(
-                "wheels that reach {} beyond",
+                "a train that is {} too long",
                 number(range[0] - range[1])
             ));
             check.faults.add(fault.hint(format!(
-                "rail \"{}\" is covered from {} to {}; `\"enters\": true` lets wheels stand beyond its ends",
+                "rail \"{}\" is covered from {} to {}; `\"enters\": true` allows wheels beyond its ends",
                 rails[first].name,
                 number(low),
                 number(high)
@@ -654,8 +654,7 @@ fn require_parts(
                 &here.key("vertical"),
                 "must be given in the parts `crane` and `hoist`",
             );
-            let hint =
-                "`combinations` of the code factor them apart: {\"crane\": 60, \"hoist\": 120}";
+            let hint = "`combinations` of the code apply different factors to them: {\"crane\": 60, \"hoist\": 120}";
             faults.add(fault.of_value().hint(hint));
         }
     }
@@ -676,7 +675,10 @@ fn refuse_missing_parts(
     for &train in chosen {
         let whole = |wheel: &DesignWheel| wheel.vertical.iter().any(|(part, _)| part == WHOLE);
         if let Some(wheel) = trains[train].wheels.iter().position(whole) {
-            let fault = Fault::new(at, "needs the vertical forces of all wheels in parts");
+            let fault = Fault::new(
+                at,
+                "requires the vertical forces of all wheels to be given in parts",
+            );
             faults.add(
                 fault
                     .got(format!(
@@ -685,7 +687,7 @@ fn refuse_missing_parts(
                         trains[train].name
                     ))
                     .hint(format!(
-                        "give its parts by name: {}; or give a factor of `vertical`",
+                        "give its parts by name: {}; or specify a factor for `vertical`",
                         parts.join(", ")
                     )),
             );

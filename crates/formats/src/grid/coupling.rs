@@ -124,7 +124,8 @@ impl Coupling {
         };
         Some(format!(
             "coupling: the vertical-lateral coefficients are up to {relative:.3} of sqrt(Gvv Gll); under a side load \
-             of {} of the wheel load, leaving them out changes the lateral deflection by {}, the vertical by {}",
+             of {} of the wheel load, neglecting them changes the lateral deflection by {} and the vertical deflection \
+             by {}",
             number(LATERAL_LOAD_FRACTION),
             percent(cost.lateral),
             percent(cost.vertical),

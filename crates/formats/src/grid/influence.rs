@@ -126,7 +126,7 @@ impl StationGrid {
             if start(axis).is_none() {
                 let word = direction(axis);
                 notes.push(format!(
-                    "no {word} grids: the structure does not resist {word} loads at every rail"
+                    "no {word} grids: the structure has no {word} stiffness on at least one rail"
                 ));
             }
         }
@@ -157,7 +157,8 @@ impl StationGrid {
         let Some(state) = spec.preloaded()? else {
             return Ok(self);
         };
-        let reach = "about the state of the preload; axial forces alone, lateral-torsional buckling not included";
+        let reach =
+            "for the preloaded state; axial forces only, lateral-torsional buckling not included";
         let (critical, note) = match &state.critical {
             CriticalFactor::At(factor, mode) => {
                 let mode = spec.buckling_words(&mode.most);

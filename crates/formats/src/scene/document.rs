@@ -280,7 +280,7 @@ fn check_changes(changes: &Tree<'_>) -> Result<(), Vec<Diagnostic>> {
     for key in FIXED {
         if changes.root().member(key).is_some() {
             faults.add(
-                Fault::new(&root.key(key), format!("changes cannot concern `{key}`")).at_key(),
+                Fault::new(&root.key(key), format!("changes cannot include `{key}`")).at_key(),
             );
         }
     }

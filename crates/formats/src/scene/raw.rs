@@ -145,8 +145,8 @@ pub(crate) struct RawStructure {
     pub irregularities: Vec<RawIrregularity>,
     /// Whether friction, drives and brakes load the structure along its rails; by default false.
     pub longitudinal: Option<bool>,
-    /// Whether the wheels at rest at the start are part of the preload of the spec; by default false. The state under them is
-    /// that of the whole run.
+    /// Whether the preload of the spec includes the wheel forces of the initial equilibrium; by default false. This
+    /// preloaded state is kept for the whole run.
     pub preload: Option<bool>,
     /// Name of the body that carries the structure; by default the ground carries it.
     pub on: Option<String>,
@@ -364,7 +364,7 @@ pub(crate) struct RawWheel {
     pub lateral: Option<RawLateral>,
     /// Longitudinal friction; by default the wheel rolls without tangential force.
     pub friction: Option<RawFriction>,
-    /// Moment of inertia about the axle, mass length^2; by default the wheel rolls without inertia of its own.
+    /// Moment of inertia about the axle, mass length^2; by default the rotational inertia of the wheel is neglected.
     pub spin_inertia: Option<f64>,
     /// Whether the drive of the body acts on wheels of this type; by default false.
     #[serde(default)]
@@ -414,7 +414,7 @@ pub(crate) struct RawFriction {
     pub law: Option<String>,
     /// Coefficient of friction.
     pub mu: Option<f64>,
-    /// Sliding speed at which friction is full ("step") or 76 % of mu N ("coulomb"), length / time.
+    /// Sliding speed at which friction reaches mu N ("step") or 76 % of mu N ("coulomb"), length / time.
     pub slip: Option<f64>,
 }
 
@@ -564,7 +564,7 @@ pub(crate) struct RawStop {
     pub side: Option<String>,
     /// Name of the other body of a buffer.
     pub against: Option<String>,
-    /// Distance of the bodies before they touch the buffer, length; by default 0.
+    /// Initial clearance before the buffer is compressed, length; by default 0.
     pub gap: Option<f64>,
     /// Stiffness, force / length.
     pub k: Option<f64>,
@@ -669,7 +669,7 @@ pub(crate) struct RawOutput {
     pub stresses: Option<RawColumns>,
     /// Settings of the fatigue assessment.
     pub fatigue: Option<RawFatigue>,
-    /// Whether these columns include the own weight of the structures; by default false.
+    /// Whether these columns include the self-weight of the structures; by default false.
     #[serde(default)]
     pub dead_load: bool,
     /// Coordinates of the ends of the spans whose deflection is evaluated, by rail, length.
@@ -716,7 +716,7 @@ pub(crate) struct RawPractice {
     pub release: Option<String>,
     /// Guidance of the crane: "flanges" (default) or "rollers".
     pub guide: Option<String>,
-    /// Least distance between hook and rail, length; by default that of the run.
+    /// Minimum distance between hook and rail, length; by default that of the run.
     pub approach: Option<f64>,
     /// Width of the rail head, length.
     pub rail_head: Option<f64>,
@@ -730,7 +730,8 @@ pub(crate) struct RawPractice {
     pub bumper_stroke: Option<f64>,
     /// Ratio of the mean force of the bumpers to their largest force, at most 1; by default 0.5, a spring.
     pub bumper_efficiency: Option<f64>,
-    /// What resists lateral moments in stresses of girders, "whole section" or "top flange"; requests these stresses.
+    /// Part of the section that resists lateral moments in stresses of girders, "whole section" or "top flange"; if it
+    /// is given, these stresses are evaluated.
     pub lateral_section: Option<String>,
 }
 

@@ -126,7 +126,7 @@ fn changes(scene: &Value) -> Value {
         }
         members.insert(
             "label".to_owned(),
-            json!({ "type": "string", "description": "Name of the variant, a part of the names of its files." }),
+            json!({ "type": "string", "description": "Name of the variant, which is part of the names of its files." }),
         );
     }
     json!({

@@ -188,12 +188,13 @@ impl Carrier {
     ) -> Result<CrossSection, Unmet> {
         let own = &model.members[member];
         let section = model.sections[own.section];
-        let hint = "leave `composite` out and give the properties of the whole section as numbers";
+        let hint =
+            "leave `composite` out and give the properties of the composite section as numbers";
         if own.kind != MemberKind::Beam {
             return Err(("the members of a composite rail must be beams", hint));
         }
         if self.taken {
-            return Err(("a member can be a plane section with one rail only", hint));
+            return Err(("a member can be composite with one rail only", hint));
         }
         let Some(axis) = self.axis.filter(|axis| parallel(*axis, self.along)) else {
             return Err((
@@ -216,7 +217,7 @@ impl Carrier {
         let is_z_up = parallel(normal, self.up) && length(normal) > 0.0;
         if !is_y_up && !is_z_up {
             return Err((
-                "a local axis of the members of a composite rail must be upright",
+                "a local axis of the members of a composite rail must be vertical",
                 hint,
             ));
         }

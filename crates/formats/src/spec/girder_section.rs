@@ -16,12 +16,15 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
     let mut girder = raw.numbers();
     let units = check.scale.from;
     if let (Some(_), Some(_)) = (&raw.section, &raw.shape) {
-        let fault = Fault::new(&at.key("shape"), "`shape` and `section` exclude each other")
-            .at_key()
-            .of_value();
-        check
-            .faults
-            .add(fault.hint("a rolled section has a name, a built-up one dimensions"));
+        let fault = Fault::new(
+            &at.key("shape"),
+            "`shape` cannot be combined with `section`",
+        )
+        .at_key()
+        .of_value();
+        check.faults.add(fault.hint(
+            "`section` names a rolled section, `shape` gives the dimensions of a built-up one",
+        ));
     }
     match (&raw.section, &raw.shape) {
         (Some(name), _) => {
@@ -50,9 +53,9 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
             let fault = Fault::new(&at.key("density"), "`density` needs `section` or `shape`")
                 .at_key()
                 .of_value();
-            check
-                .faults
-                .add(fault.hint("a girder of numbers has `mass_per_length`"));
+            check.faults.add(
+                fault.hint("a girder whose properties are given as numbers has `mass_per_length`"),
+            );
         }
         (None, None) => {}
     }

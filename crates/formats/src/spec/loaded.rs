@@ -32,9 +32,9 @@ impl Spec {
             && *factor < SMALL_FACTOR
         {
             all.push(format!(
-                "the critical factor on the preload ({}) is {factor:.4}, below 10: {}. EN 1993-1-1, 5.2.1(3), asks for an \
-                 analysis of second order there, under the design loads; this one is about the state of the preload \
-                 alone, of axial forces alone, without lateral-torsional buckling",
+                "the critical factor of the preload ({}) is {factor:.4}, below 10: {}. EN 1993-1-1, 5.2.1(3), then \
+                 requires a second-order analysis under the design loads; this factor is for the preloaded state and \
+                 axial forces only, without lateral-torsional buckling",
                 self.preload_words(),
                 self.buckling_words(&mode.most)
             ));
@@ -48,18 +48,20 @@ impl Spec {
                      buckling is not included"
                 ),
                 fea::CautionKind::Twist => format!(
-                    "{member}: N i_p^2/GJ is {ratio} under the preload; what axial forces do to twist is not included"
+                    "{member}: N i_p^2/GJ is {ratio} under the preload; the effect of axial forces on torsion is not \
+                     included"
                 ),
                 fea::CautionKind::TrussBuckles => format!(
-                    "{member}: its compression under the preload is {ratio} of its own Euler load; a truss stays \
-                     straight here: make it a beam with releases"
+                    "{member}: its compression under the preload is {ratio} of its Euler load; buckling of trusses \
+                     between their ends is not included: define it as a beam with releases"
                 ),
                 fea::CautionKind::Shear => format!(
-                    "{member}: its axial force under the preload is {ratio} of its shear stiffness, where theories differ"
+                    "{member}: its axial force under the preload is {ratio} of its shear stiffness, for which \
+                     theories of columns with shear deformation differ"
                 ),
                 fea::CautionKind::Slender => format!(
-                    "{member}: L sqrt(N/EI) is {:.0} under the preload, so strong a tension that values between its ends have \
-                     only about {:.0} digits; divide it into {:.0} members",
+                    "{member}: L sqrt(N/EI) is {:.0} under the preload; the tension is so large that values between \
+                     its ends are accurate to only about {:.0} digits; divide it into {:.0} members",
                     caution.ratio,
                     (15.5 - 0.5 * caution.ratio * std::f64::consts::LOG10_E).max(0.0),
                     (caution.ratio / 12.0).ceil()
@@ -76,7 +78,7 @@ impl Spec {
         };
         let mut words = Vec::new();
         if preload.weight {
-            words.push("own weight".to_owned());
+            words.push("self-weight".to_owned());
         }
         match preload.loads.len() {
             0 => {}
@@ -96,7 +98,7 @@ impl Spec {
             format!("{member} buckles between its ends")
         } else {
             format!(
-                "{} moves in {}, by the axial force of {member}",
+                "{} moves in {}, due to the axial force of {member}",
                 self.point_words(most.point),
                 most.dof
             )

@@ -48,9 +48,9 @@ impl Spec {
                 point,
                 dof,
             } => SolveError::NoSolution(format!(
-                "{}: the condition {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy of \
-                     {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or join the \
-                     shortest members, or request less with --accuracy",
+                "{}: the condition number {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy \
+                     of {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or merge the \
+                     shortest members, or specify a larger error with --accuracy",
                 source.name,
                 self.point_words(*point),
                 meaning(*dof)
@@ -62,8 +62,7 @@ impl Spec {
                 if *end == 0 { "a" } else { "b" }
             )),
             Error::Buckled { factor, mode } => SolveError::NoSolution(format!(
-                "{}: the structure buckles at {} times its preload: {}  hint: the factor is that of axial forces \
-                 alone",
+                "{}: the structure buckles at {} times its preload: {}  hint: the factor is for axial forces only",
                 source.name,
                 number(rounded(*factor, 4)),
                 self.buckling_words(mode)
@@ -178,7 +177,7 @@ impl Spec {
                 let kind = if index < frame.points {
                     format!("point {index}{set}")
                 } else {
-                    "a cut".to_owned()
+                    "an intermediate point".to_owned()
                 };
                 format!(
                     "{kind} at [{}, {}, {}] {unit}",

@@ -151,7 +151,7 @@ fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
             ];
             let words = listed(&numbers, units).unwrap_or_default();
             notes.push(format!(
-                "girder: with the rail {} as one plane section, {words}",
+                "girder: composite with the rail {}, {words}",
                 rail.name
             ));
         }
@@ -165,7 +165,7 @@ fn flange_height(raw: &RawGirder, units: Units) -> Option<String> {
     let height = 0.5 * section.dimensions.height * Length::Millimetre.in_units_of(units.length);
     let height = quantity(height, Dimension::LENGTH, units);
     Some(format!(
-        " (the file states none; the upper flange of {} lies {height} above the elastic axis)",
+        " (not specified in the file; the upper flange of {} lies {height} above the elastic axis)",
         section.name
     ))
 }
@@ -206,7 +206,7 @@ fn of_section(raw: &RawSection, units: Units) -> Option<String> {
 fn of_rail(name: &str, raw: &RawRail, units: Units) -> Option<String> {
     let rail = crane_rail(raw.crane_rail.as_deref()?)?;
     let part = if raw.composite == Some(true) {
-        "; it is a part of their plane sections"
+        "; the members are composite with it"
     } else {
         ""
     };

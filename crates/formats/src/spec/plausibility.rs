@@ -210,7 +210,7 @@ impl Spec {
             .filter(|(name, _)| **name != unit)
             .find(|(_, value)| is_plausible(*value));
         let meant = meant.map_or_else(
-            || "check its unit, that of `A` and the spans".to_owned(),
+            || "check its unit and those of `A` and the spans".to_owned(),
             |(name, value)| {
                 format!(
                     "if it is meant in {name}, write {}",
@@ -219,7 +219,8 @@ impl Spec {
             },
         );
         format!(
-            "the girder's `I_vertical` is {} {unit}, which does not fit its area and its span of {} {}: {meant}",
+            "the girder's `I_vertical` is {} {unit}, which is not plausible for its area and its span of {} {}: \
+             {meant}",
             short(given),
             short(span),
             self.units.label(Dimension::LENGTH)
@@ -237,8 +238,8 @@ fn shape(name: &str, section: &CrossSection, units: Units) -> Option<String> {
     let ratio = largest / (section.area * section.area);
     (largest > 0.0 && section.area > 0.0 && !within(SHAPES, ratio)).then(|| {
         format!(
-            "section \"{name}\" has A = {} {} and a second moment of area of {} {}: they do not fit each other, check \
-             their units",
+            "section \"{name}\" has A = {} {} and a second moment of area of {} {}: these values are \
+             inconsistent, check their units",
             short(section.area),
             units.label(Dimension::AREA),
             short(largest),
@@ -293,7 +294,7 @@ fn heavy(name: &str, section: &CrossSection, units: Units, scale: Scale) -> Opti
     let steel = 7850.0 / scale.factor(Dimension::DENSITY);
     (own > 0.0 && !(DENSITIES[0]..=DENSITIES[1]).contains(&si)).then(|| {
         format!(
-            "`density` of section \"{name}\" is {} {unit}, {} kg/m3: it is mass by volume, steel has about {} {unit}",
+            "`density` of section \"{name}\" is {} {unit}, {} kg/m3: it is mass per volume, steel has about {} {unit}",
             short(own),
             short(si),
             short(steel)
@@ -387,7 +388,7 @@ mod tests {
             (
                 "0.01978",
                 "197.8",
-                "check its unit, that of `A` and the spans",
+                "check its unit and those of `A` and the spans",
             ),
             ("0.1555", "155.5", "a density of 7860000 kg/m3"),
             (

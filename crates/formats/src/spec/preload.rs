@@ -126,7 +126,7 @@ pub(super) fn read(
             gravity,
             &at.key("gravity"),
             Dimension::ACCELERATION,
-            "a magnitude",
+            "a magnitude: it always acts downwards",
         ),
         None => {
             STANDARD_GRAVITY
@@ -151,8 +151,8 @@ pub(super) fn read(
     }
     if given.loads.as_ref().is_none_or(Vec::is_empty) && !(weight && has_mass) {
         let fault = if weight {
-            Fault::new(&at, "needs `loads`, or something that has mass")
-                .hint("the weight is that of densities, masses per length and `masses`")
+            Fault::new(&at, "needs `loads` or a structure with mass")
+                .hint("the weight follows from densities, masses per length and `masses`")
         } else {
             Fault::new(&at, "must have `weight` or `loads`").of_value()
         };
@@ -203,9 +203,9 @@ fn point_of_girder(
         .position(|known| (known - own).abs() <= ROUNDING * length);
     if found.is_none() && !places.is_empty() {
         let fault = Fault::new(&place, "must be a support or an end of the girder").got(number(x));
-        check
-            .faults
-            .add(fault.hint("elsewhere a force needs a point of the general form"));
+        check.faults.add(
+            fault.hint("for a force at another position, use the general form with a point there"),
+        );
     }
     found
 }

@@ -79,17 +79,18 @@ pub(crate) struct RawSpec {
     pub parts: Option<usize>,
     /// Sections of members at which internal forces are evaluated.
     pub effects: Option<Vec<RawCut>>,
-    /// Forces under which the structure is at rest: everything is computed about this state, of second order.
+    /// Permanent loads under which the structure is at rest: all results are second-order results about this state.
     pub preload: Option<RawPreload>,
 }
 
-/// Forces under which the structure is at rest.
+/// Permanent loads under which the structure is at rest.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPreload {
-    /// Whether everything that has mass weighs; by default false.
+    /// Whether the self-weight of the structure acts; by default false.
     pub weight: Option<bool>,
-    /// Acceleration of gravity, a magnitude, length / time^2; by default 9.80665 m/s2. In a scene its own holds.
+    /// Acceleration of gravity, a magnitude, length / time^2; by default 9.80665 m/s2. In a scene, the gravity of
+    /// the scene is used.
     pub gravity: Option<f64>,
     /// Forces on points.
     pub loads: Option<Vec<RawPreloadLoad>>,
@@ -154,7 +155,7 @@ pub(crate) struct RawGirder {
     pub fy: Option<f64>,
     /// Name of a crane rail, such as "A75" or "ASCE 85": its height is added to `rail_height`, its mass to that of the girder.
     pub crane_rail: Option<String>,
-    /// Whether girder and crane rail resist bending as one plane section; by default false.
+    /// Whether girder and crane rail resist bending as one composite section; by default false.
     pub composite: Option<bool>,
     /// Points of the cross section at which stresses are evaluated.
     #[serde(default)]
@@ -191,8 +192,8 @@ pub(crate) struct RawBlock {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
-    /// Kind of the member: "beam" (default), "truss" (axial force alone), "rod" (axial force and torsion) or "cable" (tension
-    /// alone, under a `preload`).
+    /// Kind of the member: "beam" (default), "truss" (axial force only), "rod" (axial force and torsion) or "cable"
+    /// (tension only, under a `preload`).
     pub kind: Option<Vec<Block<String>>>,
     /// Name or index of the section; may be left out if there is only one section.
     pub section: Option<Vec<Block<Reference>>>,
@@ -454,7 +455,7 @@ pub(crate) struct RawRail {
     /// Name of a crane rail, such as "A75" or "ASCE 85": its height is added to the offsets of the segments, its mass to that of their
     /// members.
     pub crane_rail: Option<String>,
-    /// Whether the members and the crane rail resist bending as one plane section; by default false.
+    /// Whether the members and the crane rail resist bending as one composite section; by default false.
     pub composite: Option<bool>,
 }
 

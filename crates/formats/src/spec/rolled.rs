@@ -19,8 +19,7 @@ pub(super) fn section(
     let found = rolled(name);
     if found.is_none() {
         let near = nearest_rolled(name);
-        let such =
-            "names are such as \"HEA 300\", \"HEB 400\", \"HEM 300\", \"IPE 300\", \"W24X94\"";
+        let such = "examples are \"HEA 300\", \"HEB 400\", \"HEM 300\", \"IPE 300\", \"W24X94\"";
         unknown(
             "must be the name of a rolled section",
             name,
@@ -42,7 +41,7 @@ fn rail(name: &str, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'static Ra
             "must be the name of a crane rail",
             name,
             &near,
-            "names are such as \"A75\", \"CR 135\", \"ASCE 85\"",
+            "examples are \"A75\", \"CR 135\", \"ASCE 85\"",
             at,
             check,
         );
@@ -68,7 +67,7 @@ fn unknown(
         .of_value();
     check
         .faults
-        .add(fault.hint(format!("{hint}; \"girderway sections\" lists all")));
+        .add(fault.hint(format!("{hint}; \"girderway sections\" lists all names")));
 }
 
 /// The crane rail of an object with the keys `crane_rail` and `composite`, and whether it is a part of the section.
@@ -84,7 +83,7 @@ pub(super) fn carried(
             .of_value();
         check
             .faults
-            .add(fault.hint("it says whether the rail is a part of the section"));
+            .add(fault.hint("it specifies whether the rail is part of the section"));
     }
     let rail = rail(name.as_ref()?, &at.key("crane_rail"), check)?;
     Some((rail, composite.unwrap_or(false)))
@@ -117,10 +116,10 @@ pub(super) fn plane_section(
         Err(missing) => {
             let fault = Fault::new(
                 &at.key("composite"),
-                format!("the tables lack the {missing} of {}", rail.name),
+                format!("the tables do not contain the {missing} of {}", rail.name),
             );
             check.faults.add(fault.at_key().hint(
-                "leave `composite` out and give the properties of the whole section as numbers",
+                "leave `composite` out and give the properties of the composite section as numbers",
             ));
             None
         }

@@ -87,7 +87,7 @@ impl<'r> Tapers<'r> {
     ) -> Option<Taper> {
         let (a, b) = (&model.sections[member.section], &model.sections[other]);
         if (a.e, a.g) != (b.e, b.g) {
-            let fault = Fault::new(item, "must be of the material of the cell's `section`");
+            let fault = Fault::new(item, "must have the same material as the cell's `section`");
             check
                 .faults
                 .add(fault.hint("a tapered cell has one material"));
@@ -99,7 +99,7 @@ impl<'r> Tapers<'r> {
             if member.kind == MemberKind::Beam && pair[0].is_some() != pair[1].is_some() {
                 let fault = Fault::new(
                     item,
-                    format!("must have `{name}` where the cell's `section` has it"),
+                    format!("must have `{name}` if and only if the cell's `section` has it"),
                 );
                 let hint =
                     "shear areas vary linearly between two values, or are absent at both ends";
@@ -131,7 +131,7 @@ fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
             .of_value();
         check
             .faults
-            .add(fault.hint("errors fall with the square of the number of parts"));
+            .add(fault.hint("errors decrease with the square of the number of parts"));
     }
 }
 

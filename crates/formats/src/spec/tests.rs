@@ -269,7 +269,7 @@ fn a_composite_rail_stiffens_the_plane_that_is_upright() {
     assert_eq!(faults[0].path, "rails.two.composite");
     assert_eq!(
         faults[0].expected,
-        "a member can be a plane section with one rail only"
+        "a member can be composite with one rail only"
     );
 }
 

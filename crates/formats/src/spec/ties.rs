@@ -46,7 +46,7 @@ const SAME: f64 = 1e-9;
 /// assert_eq!((model.springs.len(), rails[0].segments.len()), (11, 20));
 ///
 /// let few = on_ground("track", Units::SI, &ties, [0.0, 0.5]).expect_err("one tie");
-/// assert_eq!(few.to_string(), "must put at least two ties on the rail from 0 to 0.5");
+/// assert_eq!(few.to_string(), "must place at least two ties on the rail, which extends from 0 to 0.5");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ties {
@@ -100,13 +100,13 @@ impl Ties {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum TiesError {
     /// Fewer than two ties on a rail.
-    #[error("must put at least two ties on the rail from {} to {}", range[0], range[1])]
+    #[error("must place at least two ties on the rail, which extends from {} to {}", range[0], range[1])]
     Few {
         /// First and last coordinate of the rail.
         range: [f64; 2],
     },
     /// More than [`MAX_ELEMENTS`] elements of a rail.
-    #[error("must lead to at most {MAX_ELEMENTS} elements of rail, got {bays}")]
+    #[error("must result in at most {MAX_ELEMENTS} rail elements, got {bays}")]
     Many {
         /// Number of elements that would be required.
         bays: f64,

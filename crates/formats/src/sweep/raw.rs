@@ -11,7 +11,7 @@ use crate::text::entries::Entries;
 
 crate::text::object::objects!(RawSweep, RawLaw);
 
-/// A sweep: one scene or design, axes over values of its files, and the results that are wanted of each run.
+/// A sweep: one scene or design, axes over values of its files, and the results of each run.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSweep {
@@ -23,8 +23,8 @@ pub(crate) struct RawSweep {
     pub scene: Option<String>,
     /// Design file, relative to the folder of this file, in place of `scene`.
     pub design: Option<String>,
-    /// Values of each axis, by its JSON pointer into the scene or design, or, after the name of a file and `#`, into a
-    /// file that it names, such as `spec.json#/girder/E`.
+    /// Values of each axis, by its JSON pointer into the scene or design or, after a file name and `#`, into a file to
+    /// which it refers, such as `spec.json#/girder/E`.
     pub axes: Option<Entries<RawAxis>>,
     /// How runs are chosen: "grid" (every combination), "latin" (Latin hypercube) or "sobol" (Sobol sequence).
     pub sampling: Option<String>,
@@ -49,7 +49,7 @@ pub(crate) enum RawAxis {
 pub(crate) struct RawLaw {
     /// First value, last value, and number of equally spaced values.
     pub range: Option<[f64; 3]>,
-    /// Least and largest value of a uniform distribution.
+    /// Smallest and largest value of a uniform distribution.
     pub uniform: Option<[f64; 2]>,
     /// Mean and standard deviation of a normal distribution.
     pub normal: Option<[f64; 2]>,

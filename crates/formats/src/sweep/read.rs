@@ -90,7 +90,7 @@ fn input(raw: &RawSweep, root: &Place<'_>, faults: &mut Faults) -> Option<SweepI
             None
         }
         (Some(_), Some(_)) => {
-            let fault = Fault::new(&root.key("design"), "cannot stand beside `scene`").at_key();
+            let fault = Fault::new(&root.key("design"), "cannot be combined with `scene`").at_key();
             faults.add(fault.hint("a sweep runs one scene or one design"));
             None
         }
@@ -164,8 +164,9 @@ fn axes(
             .flatten()
             .find(|other| other.place == place_in_file)
         {
-            let fault = Fault::new(&place, "leads to the value of another axis").at_key();
-            faults.add(fault.got(format!("{:?} as well", other.pointer)));
+            let fault =
+                Fault::new(&place, "must not refer to the same value as another axis").at_key();
+            faults.add(fault.got(format!("the value of {:?}", other.pointer)));
         }
         check_kind(&values, &old, &place, faults);
         all.push(Some(SweepAxis {
@@ -285,7 +286,7 @@ fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisV
         } else if (levels == 1.0) != (from == to) {
             let fault = Fault::new(
                 &place,
-                "must have several values between two ends, or one value at both",
+                "must have several values between different ends, or one value if its ends are equal",
             )
             .of_value();
             faults.add(fault);
@@ -296,7 +297,7 @@ fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisV
             let place = at.key("uniform");
             let fault = Fault::new(
                 &place.index(1),
-                format!("must be above the first, {}", number(low)),
+                format!("must be greater than the first, {}", number(low)),
             );
             faults.add(fault.got(number(high)).of_value());
         }
@@ -342,7 +343,8 @@ fn count(
     let at = root.key("count");
     match (sampling?, raw.count) {
         (Sampling::Grid, Some(_)) => {
-            let fault = Fault::new(&at, "cannot stand beside `\"sampling\": \"grid\"`").at_key();
+            let fault =
+                Fault::new(&at, "cannot be combined with `\"sampling\": \"grid\"`").at_key();
             faults.add(fault.hint("a grid has every combination of its values"));
             None
         }

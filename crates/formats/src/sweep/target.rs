@@ -89,7 +89,7 @@ impl SweepTarget {
                 .map(|k| k + 1)
                 .ok_or_else(|| PointerError {
                     expected: format!(
-                        "must name a file of the {}, \"{name}\" is none",
+                        "must name a file of the {}, which \"{name}\" is not",
                         self.word()
                     ),
                     hint: match all
@@ -98,14 +98,17 @@ impl SweepTarget {
                         .map(|input| input.name.as_str())
                         .collect::<Vec<_>>()
                     {
-                        names if names.is_empty() => "it names no file".to_owned(),
+                        names if names.is_empty() => "it refers to no file".to_owned(),
                         names => format!("its files: {}", names.join(", ")),
                     },
                 })?,
         };
         let Ok(source) = all[index].source() else {
             return Err(PointerError {
-                expected: format!("must lead into a JSON file, {} is none", all[index].name),
+                expected: format!(
+                    "must refer to a value in a JSON file, which {} is not",
+                    all[index].name
+                ),
                 hint: "values of tables cannot be varied".to_owned(),
             });
         };
@@ -127,7 +130,7 @@ impl SweepTarget {
         }
         if file == 0 && (pointer == "/compare" || pointer.starts_with("/compare/")) {
             return Err(PointerError {
-                expected: "must lead into the scene itself".to_owned(),
+                expected: "must refer to a value outside `compare`".to_owned(),
                 hint: "comparisons are not run in a sweep".to_owned(),
             });
         }
@@ -153,12 +156,12 @@ impl SweepTarget {
             Value::Null | Value::List(_) | Value::Object(_) => {
                 return Err(PointerError {
                     expected: format!(
-                        "must lead to a number, a string, true or false in {}",
+                        "must refer to a number, a string, true or false in {}",
                         source.name
                     ),
                     hint: match below(node) {
                         below if below.is_empty() => "the value there is empty".to_owned(),
-                        below => format!("below it: {below}"),
+                        below => format!("it contains {below}"),
                     },
                 });
             }
@@ -198,13 +201,13 @@ fn nowhere(node: &TreeNode<'_>, walked: &str, key: &str, file: &str) -> PointerE
         walked
     };
     let hint = match below(node) {
-        below if below.is_empty() => format!("{above} has nothing below it"),
+        below if below.is_empty() => format!("{above} contains no values"),
         below => format!(
-            "{above} has {below}; a key that the file leaves out cannot be varied until it is written there"
+            "{above} contains {below}; to vary a key that the file leaves out, write it there first"
         ),
     };
     PointerError {
-        expected: format!("must lead to a value of {file}, \"{key}\" is not in {above}"),
+        expected: format!("must refer to a value of {file}, but \"{key}\" is not in {above}"),
         hint,
     }
 }

@@ -53,8 +53,8 @@ pub(super) fn checked(
     values: Vec<Vec<f64>>,
 ) -> Result<SplineValues, Defect> {
     if x.len() < SplineValues::MIN_POINTS {
-        let expected = format!("must have at least {} x", SplineValues::MIN_POINTS);
-        let hint = Some("a SPLINE has four x values or more");
+        let expected = format!("must have at least {} x values", SplineValues::MIN_POINTS);
+        let hint = Some("a SPLINE needs at least four x values");
         return Err(Defect {
             hint,
             ..Defect::of(Part::Xs, expected, x.len())
@@ -96,7 +96,7 @@ pub(super) fn checked(
 pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
     match rows {
         [.., before, last] if last[0] < before[0] => Some(format!(
-            "x must not decrease: the row before is at {}",
+            "x must not decrease: the previous row is at {}",
             number(before[0])
         )),
         [.., first, _, last] if last[0] == first[0] => {

@@ -104,7 +104,7 @@ pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, 
         (Some(units), _) | (None, Some(units)) => units,
         (None, None) => {
             let [missing, hint] = parsed.missing_units;
-            let more = "units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
+            let more = "or specify --length ft --force lbf, or in a scene \"units\" of the tables";
             return Err(vec![
                 Diagnostic::of_file(name, missing).hint(format!("{hint}; {more}")),
             ]);

@@ -330,7 +330,7 @@ fn read_products(
                 let expected = match x_of(id) {
                     None => "must be the id of a table of one curve",
                     Some(x) if Some(x) != x_of(terms[0][side]) => {
-                        "must have the x of the first term"
+                        "must have the same x as the first term"
                     }
                     Some(_) => continue,
                 };

@@ -52,7 +52,8 @@ impl Rounding {
         };
         let (digits, largest) = (self.digits, self.largest);
         format!(
-            "rounded to {digits} digits: by {largest:.2e} of a number at most, SPLINE/{id} at x = {x}{z}{stations}"
+            "rounded to {digits} digits: the largest relative change is {largest:.2e}, SPLINE/{id} at \
+             x = {x}{z}{stations}"
         )
     }
 

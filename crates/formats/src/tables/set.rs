@@ -68,8 +68,7 @@ impl TableSet {
     pub fn left_out_message(&self) -> Option<String> {
         let named = |table: &ModifiedSpline| format!("{} (line {})", table.name, table.line);
         let list: Vec<String> = self.left_out.iter().map(named).collect();
-        let message =
-            "left out, because a later command `data_element modify spline` changes their values";
+        let message = "tables left out, because a later command `data_element modify spline` changes their values";
         (!list.is_empty()).then(|| format!("{message}: {}", list.join(", ")))
     }
 

@@ -273,7 +273,7 @@ fn distance(a: &str, b: &str) -> usize {
 const OTHER_FORMATS: [(&str, &str); 9] = [
     (
         "girderway-beam/1",
-        "this is a beam spec, which `fea` and `crosscheck` read; scenes and designs name theirs",
+        "this is a beam spec, which `fea` and `crosscheck` read; scenes and designs refer to it by `spec`",
     ),
     (
         "girderway-scene/1",

@@ -179,7 +179,7 @@ impl Inputs {
     }
 }
 
-/// Reads a regular file or a pipe of at most the largest size of an input.
+/// Reads a regular file or a pipe of at most the maximum size of an input file.
 ///
 /// # Errors
 /// The file cannot be read or is too large.
@@ -202,7 +202,7 @@ fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     }
     if bytes.len() as u64 > most {
         return Err(format!(
-            "cannot be read: it has more than {} MB, the largest size of an input",
+            "cannot be read: it has more than {} MB, the maximum size of an input file",
             most >> 20
         ));
     }

@@ -105,7 +105,8 @@ impl Source {
                 if !written.contains('.') && !is_negative {
                     let (line, column) = line_and_column(&self.text, pair[0].start);
                     found.push(format!(
-                        "{}:{line}:{column}: {path}: {written} is read as two numbers; a decimal point makes it one: {}",
+                        "{}:{line}:{column}: {path}: {written} is read as two numbers; if it is one number, use a \
+                         decimal point: {}",
                         self.name,
                         written.replace(',', ".")
                     ));

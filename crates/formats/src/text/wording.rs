@@ -104,12 +104,12 @@ const HABITS: [(&str, &str, &str); 31] = [
     (
         "section",
         "girder",
-        "the name of a rolled section stands in the girder: {\"spans\": [6], \"section\": \"HEB 400\"}",
+        "the name of a rolled section is given in the girder: {\"spans\": [6], \"section\": \"HEB 400\"}",
     ),
     (
         "spans",
         "girder",
-        "the short form keeps spans and section in it: {\"spans\": [6, 6], \"section\": \"HEB 400\"}",
+        "in the short form it contains the spans and the section: {\"spans\": [6, 6], \"section\": \"HEB 400\"}",
     ),
     (
         "length",
@@ -124,14 +124,14 @@ const HABITS: [(&str, &str, &str); 31] = [
     (
         "mass",
         "mass_per_length",
-        "mass, not weight, for each unit of length",
+        "mass, not weight, per unit length",
     ),
     (
         "weight",
         "mass_per_length",
-        "mass, not weight, for each unit of length",
+        "mass, not weight, per unit length",
     ),
-    ("rho", "density", "mass, not weight, per volume"),
+    ("rho", "density", "mass, not weight, per unit volume"),
     (
         "fixed",
         "fix",
@@ -157,7 +157,7 @@ const HABITS: [(&str, &str, &str); 31] = [
     (
         "speed",
         "v0",
-        "the speed at the start; a prescribed speed stands in `motions`",
+        "the speed at the start; a prescribed speed is given in `motions`",
     ),
     ("diameter", "radius", "half the diameter"),
     ("P", "vertical", "the force that presses on the rail"),
@@ -165,14 +165,13 @@ const HABITS: [(&str, &str, &str); 31] = [
 ];
 
 /// Which second moment of area is which, in a girder.
-const BENDING: &str =
-    "`I_vertical` bends the girder under vertical loads (its strong axis), `I_lateral` sideways";
+const BENDING: &str = "`I_vertical` is for bending under vertical loads (strong axis), `I_lateral` for lateral bending";
 
 /// Examples of values whose type is often wrong, by their key.
 const EXAMPLES: [(&str, &str); 16] = [
     (
         "stations",
-        "such as [0, 1.5, 3, 4.5, 6], where tables have their values",
+        "such as [0, 1.5, 3, 4.5, 6], the coordinates at which tables have values",
     ),
     (
         "spans",
@@ -213,16 +212,16 @@ fn number_hint(text: &str) -> Option<String> {
     if let Ok(number) = text.parse::<f64>() {
         return number
             .is_finite()
-            .then(|| format!("without quotes: {text}"));
+            .then(|| format!("write it without quotes: {text}"));
     }
     let point = text.replacen(',', ".", 1);
     if point.parse::<f64>().is_ok() {
-        return Some(format!("a decimal point, without quotes: {point}"));
+        return Some(format!("use a decimal point and no quotes: {point}"));
     }
     let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)))?;
     let is_with_unit =
         text[..end].parse::<f64>().is_ok() && text[end..].trim().starts_with(char::is_alphabetic);
-    is_with_unit.then(|| "a number alone: its unit follows from `units`".to_owned())
+    is_with_unit.then(|| "give the number only: its unit follows from `units`".to_owned())
 }
 
 /// The number with a decimal comma that ends a text in the middle of it: at `offset` the part behind the comma begins.
@@ -286,11 +285,12 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
         return ("not valid JSON".to_owned(), Some(hint.to_owned()));
     }
     if message == "number out of range" {
-        let hint = "double precision ends at 1.8e308";
+        let hint = "the largest number in double precision is 1.8e308";
         return ("the number is too large".to_owned(), Some(hint.to_owned()));
     }
     if message == TOO_MANY_VALUES {
-        let hint = "an input may have 20 million numbers, words and items; a grid has n x n numbers for n stations";
+        let hint =
+            "an input may have at most 20 million values; a grid has n x n numbers for n stations";
         return (
             "the file has too many values".to_owned(),
             Some(hint.to_owned()),
@@ -309,7 +309,7 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
         );
     }
     let hint = match message {
-        "key must be a string" => Some("JSON has no comments, and keys stand in double quotes"),
+        "key must be a string" => Some("JSON has no comments, and keys are in double quotes"),
         "trailing comma" => Some("JSON has no comma after the last item"),
         "expected value" => Some("JSON has no NaN, Infinity, comments or single quotes"),
         "recursion limit exceeded" => Some("lists and objects may be nested 128 deep"),

@@ -54,9 +54,10 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             let name = parts.head.trim_end_matches('*').trim_end().to_owned();
             lost = !plain(&name);
             if lost {
-                let finding = ImportFinding::new(line.at, "", "must be the name of a card")
-                    .with_found(&parts.head);
-                let hint = "a name is letters and digits; `=` and `/` are not supported";
+                let finding =
+                    ImportFinding::new(line.at, "", "must be a card name").with_found(&parts.head);
+                let hint = "a name consists of letters and digits; replication by `=` and deletion by `/` are not \
+                            supported";
                 findings.error(finding.hint(hint));
             } else {
                 cards.push(Card {
@@ -72,30 +73,34 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             Some(card) if !lost => card,
             _ => {
                 if cards.is_empty() {
-                    let finding = ImportFinding::new(line.at, "", "does not continue a card");
+                    let expected = "must not be a continuation, because no card precedes it";
+                    let finding = ImportFinding::new(line.at, "", expected);
                     findings.error(finding.hint(
-                        "a line that begins with blanks, `+` or `*` continues the one above",
+                        "a line that begins with blanks, `+` or `*` continues the preceding line",
                     ));
                 }
                 continue;
             }
         };
         if line.gap && parts.head.is_empty() {
-            let finding =
-                ImportFinding::new(line.at, &card.name, "must not continue over a blank line");
-            findings.error(finding.hint("mark a blank continuation with + in its first column"));
+            let finding = ImportFinding::new(
+                line.at,
+                &card.name,
+                "must not be continued after a blank line",
+            );
+            findings.error(finding.hint("begin the continuation line with + in column 1"));
         }
         let expected = tail.trim_start_matches(['+', '*']).trim();
         if !expected.is_empty() && !marker.is_empty() && expected != marker {
             let finding = ImportFinding::new(
                 line.at,
                 &card.name,
-                format!("must continue with the marker {expected}"),
+                format!("must be continued by a line with the marker {expected}"),
             );
             findings.error(
                 finding
                     .with_found(marker)
-                    .hint("put each continuation right after its card"),
+                    .hint("continuation lines must directly follow their card"),
             );
         }
         let whole = if parts.large { 4 } else { 8 };
@@ -190,12 +195,12 @@ fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     let marker = tail.is_empty() || tail.starts_with('+') || number(&tail).is_none();
     if fields.len() > count + 1 || !marker {
         let what = if large {
-            "four fields in a line of large fields"
+            "four fields in a line of large field format"
         } else {
             "eight fields in a line"
         };
         let finding = ImportFinding::new(fields[count].at, &head, format!("has more than {what}"));
-        findings.error(finding.hint("continue in the next line, which begins with a comma or +"));
+        findings.error(finding.hint("continue on the next line, beginning with a comma or +"));
         return None;
     }
     fields.resize(
@@ -307,10 +312,13 @@ mod tests {
     #[test]
     fn lost_continuations_are_refused() {
         for (text, expected) in [
-            ("+A      1", "does not continue a card"),
+            (
+                "+A      1",
+                "must not be a continuation, because no card precedes it",
+            ),
             (
                 "GRID    1                                                               +A\n+B      1",
-                "must continue with the marker A",
+                "must be continued by a line with the marker A",
             ),
             (
                 "GRID,1,,0.,0.,0.,,,,7",
@@ -318,10 +326,10 @@ mod tests {
             ),
             (
                 "GRID*,1,,0.,0.,,0.",
-                "has more than four fields in a line of large fields",
+                "has more than four fields in a line of large field format",
             ),
-            ("=       1", "must be the name of a card"),
-            ("GR.ID   1", "must be the name of a card"),
+            ("=       1", "must be a card name"),
+            ("GR.ID   1", "must be a card name"),
         ] {
             let errors = read(text).1.errors();
             assert_eq!(

@@ -233,7 +233,7 @@ impl<'d> CoordinateSystems<'d> {
             } else if open.iter().any(|need| waiting.contains(need)) || !waiting.insert(top) {
                 self.refuse(
                     top,
-                    "must be defined by systems or grids that do not depend on it",
+                    "must not be defined by systems or grids that depend on it",
                     findings,
                 );
                 self.known.insert(top, None);
@@ -300,8 +300,7 @@ impl<'d> CoordinateSystems<'d> {
                         grid.and_then(|grid| Some((grid, frame_of(self.system_of(grid))?)))
                     else {
                         let about = format!("{} {id}", card.name);
-                        let expected =
-                            "refers to a grid that does not exist or has no coordinate system";
+                        let expected = "refers to a grid that does not exist or whose coordinate system does not exist";
                         findings.error(
                             ImportFinding::new(card.card, about, expected).with_found(number),
                         );
@@ -315,7 +314,7 @@ impl<'d> CoordinateSystems<'d> {
         let z = unit(minus(b, a));
         let y = z.and_then(|z| unit(cross(z, minus(c, a))));
         let (Some(y), Some(z)) = (y, z) else {
-            self.refuse(id, "its three points must not lie on one line", findings);
+            self.refuse(id, "its three points must not be collinear", findings);
             return None;
         };
         Some(CoordinateFrame {

@@ -117,12 +117,12 @@ impl BulkDeck {
             findings.warn(ImportFinding::new(
                 at,
                 name,
-                format!("is left out, {}", cards_of(number)),
+                format!("is ignored ({})", cards_of(number)),
             ));
         }
         for (name, (at, number)) in unused {
             let message = format!(
-                "is left out, {}; it cannot change the stiffness",
+                "is ignored ({}): it does not affect the stiffness",
                 cards_of(number)
             );
             findings.warn(ImportFinding::new(at, name, message));
@@ -130,13 +130,13 @@ impl BulkDeck {
         for (name, (at, number)) in unknown {
             let hint = if role(name) == Some(CardRole::NoStiffness) {
                 format!(
-                    "it cannot change the stiffness: --skip-unused leaves it out, or --skip {name}"
+                    "it does not affect the stiffness: ignore it with --skip-unused or --skip {name}"
                 )
             } else {
                 format!("{}; if it can be ignored, add --skip {name}", advice(name))
             };
             findings.error(
-                ImportFinding::new(at, name, format!("is not supported, {}", cards_of(number)))
+                ImportFinding::new(at, name, format!("is not supported ({})", cards_of(number)))
                     .hint(hint),
             );
         }
@@ -188,8 +188,9 @@ impl BulkDeck {
         let Some(&begin) = begins.first() else {
             if let Some(line) = lines.iter().find(|line| word(line, 0) == "CEND") {
                 findings.error(
-                    ImportFinding::new(line.at, "CEND", "must be followed by BEGIN BULK")
-                        .hint("bulk data follow BEGIN BULK; a deck of bulk data alone has neither"),
+                    ImportFinding::new(line.at, "CEND", "must be followed by BEGIN BULK").hint(
+                        "a deck that consists of bulk data only has neither CEND nor BEGIN BULK",
+                    ),
                 );
                 return &[];
             }
@@ -218,14 +219,14 @@ impl BulkDeck {
                 }
                 ("MPC", _) if !omit.skips("MPC") => {
                     self.equations = true;
-                    let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them \
-                            out, add --skip MPC";
+                    let hint = "constraint equations are not supported; supported rigid links are RBE2 and RBAR; to \
+                            ignore the equations, add --skip MPC";
                     findings
                         .error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
                 }
                 ("K2GG" | "K2PP", _) if !omit.skips(&key) => {
                     let hint = format!(
-                        "matrices of direct input are not supported; to leave them out, add --skip {key},DMIG"
+                        "direct matrix input is not supported; to ignore it, add --skip {key},DMIG"
                     );
                     findings.error(ImportFinding::new(line.at, key, "is not supported").hint(hint));
                 }
@@ -350,7 +351,7 @@ impl BulkDeck {
                 if let Some((set, parts)) = support::spcadd(fields)
                     && self.adds.insert(set, parts).is_some()
                 {
-                    fields.refuse(1, "SID", "must differ from the other sets of SPCADD", "");
+                    fields.refuse(1, "SID", "must differ from that of every other SPCADD", "");
                 }
             }
             _ => return false,
@@ -377,7 +378,7 @@ fn put<T>(
             format!(" of {}", findings.files[other.file])
         };
         let expected = format!(
-            "must have a unique number: line {}{file} has the same",
+            "must have a unique number; line {}{file} uses the same",
             other.line
         );
         findings.error(ImportFinding::new(at, format!("{name} {id}"), expected));
@@ -392,7 +393,7 @@ fn once<'c>(
     findings: &mut ImportFindings,
 ) {
     if let Some(other) = seen.insert(&card.name, card.at) {
-        let expected = format!("must occur only once; line {} already has one", other.line);
+        let expected = format!("must occur only once; the first is in line {}", other.line);
         findings.error(ImportFinding::new(card.at, &card.name, expected));
     }
 }

@@ -163,7 +163,7 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
             5,
             "X1",
             "is missing",
-            "state the orientation as vector X1, X2, X3 or grid G0",
+            "specify the orientation by the vector X1, X2, X3 or the grid G0",
         );
     }
     let systems = systems(card).map(|own| own.or(defaults.systems).unwrap_or_default());

@@ -161,17 +161,20 @@ impl CardFields<'_, '_> {
                 );
             }
             Some(Number::Integer(value)) => {
-                let hint = format!("write {value}. for {value}, and check the columns");
+                let hint = format!("write {value}. instead of {value}, and check the columns");
                 self.refuse(
                     index,
                     name,
-                    "must be a real number, with its decimal point",
+                    "must be a real number with a decimal point",
                     &hint,
                 );
             }
-            Some(Number::Huge) => {
-                self.refuse(index, name, "must be a number within double precision", "")
-            }
+            Some(Number::Huge) => self.refuse(
+                index,
+                name,
+                "must be within the range of double precision",
+                "",
+            ),
             None => self.refuse(
                 index,
                 name,
@@ -225,7 +228,7 @@ impl CardFields<'_, '_> {
             self.refuse(
                 index,
                 name,
-                "must be digits from 1 to 6, each once",
+                "must consist of digits from 1 to 6, each at most once",
                 "such as 123456",
             );
         }
@@ -239,7 +242,7 @@ impl CardFields<'_, '_> {
             _ => self.real_or(index, name, 0.0)?,
         };
         if value != 0.0 {
-            let fault = self.fault(index, name, "can only be 0 or blank").hint(hint);
+            let fault = self.fault(index, name, "must be 0 or blank").hint(hint);
             self.findings.error(ImportFinding {
                 found: Some(written(value)),
                 ..fault

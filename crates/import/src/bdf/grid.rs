@@ -43,12 +43,7 @@ pub fn grid(card: &mut CardFields<'_, '_>) -> Option<(u64, GridCard)> {
     let cd = match card.text(6) {
         "" => Some(None),
         "-1" => {
-            card.refuse(
-                6,
-                "CD",
-                "must not be -1",
-                "points of a fluid are not supported",
-            );
+            card.refuse(6, "CD", "must not be -1", "fluid points are not supported");
             None
         }
         _ => card.whole(6, "CD").map(Some),

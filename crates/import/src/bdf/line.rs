@@ -85,9 +85,12 @@ impl Reader<'_> {
 
     fn include(&mut self, name: Result<&str, ()>, at: FilePlace, findings: &mut ImportFindings) {
         let Ok(name) = name else {
-            let fault =
-                ImportFinding::new(at, "INCLUDE", "must name a file between quotation marks");
-            findings.error(fault.hint("write INCLUDE 'file name' in one line"));
+            let fault = ImportFinding::new(
+                at,
+                "INCLUDE",
+                "must be followed by a file name in quotation marks",
+            );
+            findings.error(fault.hint("write INCLUDE 'file name' on one line"));
             return;
         };
         match self.includes.open(name, at, findings) {

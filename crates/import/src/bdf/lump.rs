@@ -99,14 +99,19 @@ pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
             _ => None,
         };
         let Some(dof) = dof else {
-            card.refuse(first + 1, "C", "must be one digit from 1 to 6", "");
+            card.refuse(first + 1, "C", "must be a single digit from 1 to 6", "");
             return None;
         };
         ends[end] = Some((grid, dof));
     }
     card.end(9);
     if ends == [None; 2] {
-        card.refuse(3, "G1", "is missing", "a spring needs a grid");
+        card.refuse(
+            3,
+            "G1",
+            "is missing",
+            "a spring must be connected to at least one grid",
+        );
         return None;
     }
     Some(SpringCard {

@@ -79,27 +79,27 @@ pub fn add(
         findings.error(ImportFinding::new(
             at,
             "mass of elements",
-            "must be within double precision",
+            "must be within the range of double precision",
         ));
         return;
     }
     let first = masses.iter().find(|mass| mass.per_length > 0.0);
     if let Some(first) = first {
-        let of_rods = "of rods and tubes is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0; that of \
-                       beams acts along them";
-        let of_all =
-            "of elements is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
+        let of_rods = "the mass of rods and tubes is lumped at their ends, as in NASTRAN unless PARAM COUPMASS is \
+                       positive; the mass of beams is distributed";
+        let of_all = "the mass of elements is lumped at their ends, as in NASTRAN unless PARAM COUPMASS is positive";
         let message = if mass == MassDistribution::LumpedRods {
             of_rods
         } else {
             of_all
         };
         let finding = ImportFinding::new(first.card, "mass", message);
-        findings.warn(finding.hint("--mass distributed spreads it along them"));
+        findings.warn(finding.hint("use --mass distributed to distribute it along all elements"));
     }
     if let Some((card, count)) = skew {
-        let message = format!("of {count} CBEAM that are not along a global axis is left out");
-        findings.warn(ImportFinding::new(card, "inertia in twist", message));
+        let message =
+            format!("is ignored for {count} CBEAM that are not parallel to a global axis");
+        findings.warn(ImportFinding::new(card, "torsional inertia", message));
     }
     structure.masses.extend(places.into_values());
 }

@@ -30,13 +30,13 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
                 index,
                 name,
                 "must be positive",
-                "leave it blank if the other two of E, G and NU are given",
+                "leave it blank if the other two of E, G and NU are specified",
             );
             return None;
         }
     }
     if nu.is_some_and(|nu| !(nu > -1.0 && nu <= 0.5)) {
-        card.refuse(4, "NU", "must be above -1 and up to 0.5", "");
+        card.refuse(4, "NU", "must be greater than -1 and at most 0.5", "");
         return None;
     }
     let ratio = |nu: f64| 2.0 * (1.0 + nu);
@@ -46,13 +46,18 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
         (Some(e), None, None) => (e, None),
         (None, Some(g), Some(nu)) => (ratio(nu) * g, Some(g)),
         (None, ..) => {
-            card.refuse(2, "E", "is missing", "state E, or G and NU");
+            card.refuse(2, "E", "is missing", "specify E, or G and NU");
             return None;
         }
     };
     let finite = e.is_finite() && g.is_none_or(|g| g.is_finite() && g > 0.0);
     if !finite {
-        card.refuse(2, "E", "must lead to moduli within double precision", "");
+        card.refuse(
+            2,
+            "E",
+            "must give moduli within the range of double precision",
+            "",
+        );
     }
     finite.then_some((
         id,

@@ -23,7 +23,7 @@ impl<'d> Resolver<'d, '_> {
                     file: 0,
                 },
                 "",
-                "has no member",
+                "contains no members",
             );
             self.findings
                 .error(finding.hint("supported members are CBAR, CBEAM, CROD, CTUBE and CONROD"));
@@ -126,28 +126,23 @@ impl<'d> Resolver<'d, '_> {
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + offsets[end][axis]);
         let along = minus(tip(1), tip(0));
         if along == [0.0; 3] {
-            let finding = ImportFinding::new(
-                element.card,
-                about,
-                "must have a positive length between its ends",
-            );
+            let finding = ImportFinding::new(element.card, about, "must have a positive length");
             self.findings
-                .error(finding.hint("its ends coincide after the offsets are added"));
+                .error(finding.hint("its ends, including offsets, coincide"));
             return None;
         }
         let bends = property.bending[0] > 0.0;
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
-            let hint = "X1, X2, X3 or G0 define the side of the local y axis";
+            let hint = "X1, X2, X3 or G0 defines the local x-y plane of the element";
             let finding = match element.orientation_default {
                 Some((at, name)) => {
-                    let expected =
-                        "must not be zero or along an element that states no orientation itself";
+                    let expected = "must not be zero or parallel to an element that uses this default orientation";
                     ImportFinding::new(at, format!("{name}: X1"), expected)
                 }
                 None => ImportFinding::new(
                     element.card,
                     about,
-                    "its orientation must not be zero or along it",
+                    "its orientation vector must not be zero or parallel to it",
                 ),
             };
             self.findings.error(finding.hint(hint));
@@ -202,10 +197,12 @@ impl<'d> Resolver<'d, '_> {
             let axes =
                 orientation.and_then(|vector| LocalAxes::new(minus(ends[1], ends[0]), vector));
             if axes.is_none() {
-                let expected = "must have element axes, in which its offsets are stated";
+                let expected = "must have defined element axes, because its offsets refer to them";
                 let finding = ImportFinding::new(element.card, about, expected);
                 self.findings.error(
-                    finding.hint("the orientation must not be along the line from GA to GB"),
+                    finding.hint(
+                        "the orientation vector must not be parallel to the line from GA to GB",
+                    ),
                 );
             }
             Some(axes?)
@@ -246,9 +243,8 @@ impl<'d> Resolver<'d, '_> {
         let is_uneven = |pins: &[bool; 6]| pins[1] != pins[2] || pins[4] != pins[5];
         if property.turn != 0.0 {
             if member.releases.iter().any(is_uneven) {
-                let expected =
-                    "must be pinned in both planes or none, because its principal axes are turned";
-                let hint = "state the principal second moments, and pins in their planes";
+                let expected = "must have pin flags in both planes or neither, because its principal axes are rotated";
+                let hint = "specify principal second moments of area, and pin flags in the principal planes";
                 self.findings
                     .error(ImportFinding::new(card, about, expected).hint(hint));
                 return None;
@@ -260,7 +256,7 @@ impl<'d> Resolver<'d, '_> {
         }
         if member.releases != [[false; 6]; 2] {
             let expected =
-                "must not be pinned, because its neutral axis is off the axis of shear centres";
+                "must not have pin flags, because its neutral axis is offset from its shear centre";
             self.findings
                 .error(ImportFinding::new(card, about, expected));
             return None;

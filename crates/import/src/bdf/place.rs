@@ -93,7 +93,7 @@ pub fn resolve(
             findings.error(ImportFinding::new(
                 grid.card,
                 format!("GRID {id}"),
-                "must lie at finite coordinates",
+                "must have finite coordinates in the basic system",
             ));
         }
     }

@@ -39,9 +39,9 @@ pub struct Property {
 }
 
 const NO_PRODUCT: &str =
-    "state the principal second moments, and rotate the orientation of the elements";
+    "specify the principal second moments of area, and rotate the orientation of the elements";
 const SHEAR: &str =
-    "sections with a product of inertia need equal shear factors K1 and K2, or none";
+    "sections with a product of inertia require equal shear factors K1 and K2, or neither";
 
 /// Principal second moments of a section with I1, I2 and the product I12, and the angle from the y axis to the axis of
 /// the first of them: tan 2a = 2 I12 / (I1 - I2). `None` if they are not positive.
@@ -107,7 +107,7 @@ pub fn tube(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
             4,
             "T",
             "must be at most half of OD",
-            "a blank T is a solid rod",
+            "a blank T means a solid rod",
         );
         return None;
     }
@@ -183,7 +183,7 @@ fn turned(
         card.refuse(
             index,
             "I12",
-            "must be below the root of I1 I2 in magnitude",
+            "must be less than the square root of I1 I2 in magnitude",
             "",
         );
         return false;
@@ -199,13 +199,14 @@ fn turned(
 /// Checks that a bar has bending stiffness in both planes or in none.
 fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
-    let hint = "state both second moments, or neither for a bar without bending stiffness";
+    let hint =
+        "specify both second moments of area, or neither for a bar without bending stiffness";
     if i1 != i2 {
         let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
         card.refuse(
             index,
             name,
-            "must be positive if the other second moment is",
+            "must be positive if the other second moment of area is",
             hint,
         );
     } else if !i1 && property.j > 0.0 {
@@ -216,7 +217,7 @@ fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
 }
 
 const STATIONS: &str =
-    "beams vary linearly from end A to end B: divide other beams at their stations";
+    "only linear variation from end A to end B is supported: divide other beams at their stations";
 
 /// Reads PBEAM, whose properties must vary linearly between the ends.
 pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -252,7 +253,7 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         let fault = card.fault(
             index,
             "",
-            "inertia and offset of the non-structural mass are left out",
+            "the inertia and the offset of the non-structural mass are ignored",
         );
         card.findings.warn(fault);
     }
@@ -299,7 +300,7 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         card.refuse(
             3,
             "A",
-            "must be positive like I1, I2 and J at both ends of a tapered beam",
+            "must be positive at both ends of a tapered beam, as must I1, I2 and J",
             "",
         );
     }
@@ -318,11 +319,11 @@ fn neutral_axis(card: &mut CardFields<'_, '_>, first: usize) -> Option<[f64; 2]>
         card.real_or(first + 3, "N2(B)", a[1])?,
     ];
     if a != b {
-        let hint = "neutral axes at an angle to the axis of shear centres are not supported";
+        let hint = "the neutral axis must be parallel to the axis of shear centres";
         card.refuse(
             first + 2,
             "N1(B)",
-            "must be equal to the value at end A, like N2(B)",
+            "must be equal to N1(A), and N2(B) to N2(A)",
             hint,
         );
     }
@@ -349,8 +350,13 @@ fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 5], nsm: f64) -> Option<([f64
             .optional(first + 8, "NSM")?
             .is_some_and(|value| value != nsm)
         {
-            let hint = "the non-structural mass cannot vary";
-            card.refuse(first + 8, "NSM", "must be equal to that of end A", hint);
+            let hint = "the non-structural mass must be uniform";
+            card.refuse(
+                first + 8,
+                "NSM",
+                "must be equal to the value at end A",
+                hint,
+            );
             return None;
         }
         if x == 1.0 {
@@ -410,9 +416,12 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         let known = SHAPES.map(|(name, _)| name);
         let hint = match nearest(&shape, &known) {
             Some(near) => format!("did you mean {near}? known: {}", known.join(", ")),
-            None => format!("known: {}; others as PBAR or PBEAM", known.join(", ")),
+            None => format!(
+                "known: {}; specify others by PBAR or PBEAM",
+                known.join(", ")
+            ),
         };
-        card.refuse(4, "TYPE", "is not known", &hint);
+        card.refuse(4, "TYPE", "is not a supported section type", &hint);
         return None;
     };
     let mut dimensions = Vec::new();
@@ -434,7 +443,7 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
             card.refuse(
                 4,
                 "TYPE",
-                "must have its principal axes along y and z if it is tapered",
+                "must have its principal axes along y and z if the beam is tapered",
                 NO_PRODUCT,
             );
             return None;
@@ -447,10 +456,11 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         ]
         .contains(&shape.as_str())
     {
-        let message = "is taken with its shear centre at its centroid, like PBARL";
+        let message = "the shear centre is assumed at the centroid, as for PBARL";
         let fault = card.fault(4, "TYPE", message);
-        card.findings
-            .warn(fault.hint("state PBEAM with N1, N2 where the distance of the two matters"));
+        card.findings.warn(
+            fault.hint("use PBEAM with N1 and N2 if the distance between them is significant"),
+        );
     }
     spread(card, &property, 9 + count).then_some((id, property))
 }
@@ -462,7 +472,7 @@ fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> b
         .as_ref()
         .is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
-        let hint = "state the non-structural mass as CONM2";
+        let hint = "specify the non-structural mass by CONM2";
         card.refuse(
             index,
             "NSM",
@@ -484,13 +494,8 @@ fn section(
     let section = match section_properties(shape, dimensions) {
         Ok(section) => section,
         Err(ShapeError::Dimensions | ShapeError::Unknown) => {
-            let hint = "the dimensions leave no space between the plates";
-            card.refuse(
-                9,
-                "DIM1",
-                "must be the first of valid dimensions of a section",
-                hint,
-            );
+            let hint = "dimensions must be positive, and plates must not overlap";
+            card.refuse(9, "dimensions", "must form a valid section", hint);
             return None;
         }
     };
@@ -537,8 +542,8 @@ fn stations(
             card.refuse(
                 first + 2 + count,
                 "NSM",
-                "must be equal to that of end A",
-                "the non-structural mass cannot vary",
+                "must be equal to the value at end A",
+                "the non-structural mass must be uniform",
             );
             return None;
         }

@@ -180,8 +180,8 @@ impl<'d> Resolver<'d, '_> {
     /// Adds the error of components that are along directions other than the global axes.
     fn refuse_skew(&mut self, at: FilePlace, about: &str) {
         let expected =
-            "must be along the global axes at a grid whose displacement system is turned";
-        let hint = "supports, springs and links of a beam spec are along the global axes";
+            "must act along the global axes, but the displacement system of the grid is rotated";
+        let hint = "supports, springs and links of a beam spec act along the global axes";
         self.findings
             .error(ImportFinding::new(at, about, expected).hint(hint));
     }
@@ -192,8 +192,8 @@ impl<'d> Resolver<'d, '_> {
         for (link, at, label) in std::mem::take(&mut self.partial) {
             if !links::add(&mut self.structure, link, &all) {
                 let expected =
-                    "must join all degrees of freedom, or be replaceable by a hinge or a support";
-                let hint = "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
+                    "must connect all degrees of freedom, or be equivalent to a hinge or a support";
+                let hint = "a hinge has a single beam at the dependent grid; a support has a fixed independent grid";
                 self.findings
                     .error(ImportFinding::new(at, label, expected).hint(hint));
             }
@@ -224,7 +224,7 @@ impl<'d> Resolver<'d, '_> {
                 self.findings.error(ImportFinding::new(
                     mass.at,
                     &mass.label,
-                    "must be a mass within double precision",
+                    "must have a mass within the range of double precision",
                 ));
             }
         }
@@ -247,7 +247,7 @@ impl<'d> Resolver<'d, '_> {
         )?;
         let has_direction = mass.offset != [0.0; 3] || mass.inertia != [[0.0; 3]; 3];
         if !frame.is_rectangular() && has_direction {
-            let expected = "must be stated in a rectangular system";
+            let expected = "must be specified in a rectangular coordinate system";
             self.findings
                 .error(ImportFinding::new(mass.at, &mass.label, expected));
             return None;
@@ -270,13 +270,12 @@ impl<'d> Resolver<'d, '_> {
         {
             let about = format!("{}: I21", mass.label);
             if self.asked.unused {
-                let message =
-                    "is left out with I31 and I32; products of inertia cannot change the stiffness";
+                let message = "is ignored, as are I31 and I32: products of inertia do not affect the stiffness";
                 self.findings
                     .warn(ImportFinding::new(mass.at, about, message));
             } else {
-                let expected = "must be 0 about the global axes, like I31 and I32";
-                let hint = "a beam spec has principal inertias about the global axes; --skip-unused leaves the products out";
+                let expected = "must be 0 in the global axes, as must I31 and I32";
+                let hint = "a beam spec has no products of inertia; --skip-unused ignores them";
                 self.findings
                     .error(ImportFinding::new(mass.at, about, expected).hint(hint));
                 return None;
@@ -356,7 +355,7 @@ impl<'d> Resolver<'d, '_> {
             self.findings.warn(ImportFinding::new(
                 at,
                 format!("SPC set {set}"),
-                "is not the selected set and is left out",
+                "is not selected and is ignored",
             ));
         }
     }
@@ -408,7 +407,7 @@ impl<'d> Resolver<'d, '_> {
                     let finding = ImportFinding::new(
                         spring.card,
                         &spring.label,
-                        "is left out, because all its ends are restrained",
+                        "is ignored, because it has no free end",
                     );
                     self.findings.warn(finding);
                 }
@@ -416,10 +415,10 @@ impl<'d> Resolver<'d, '_> {
                     let finding = ImportFinding::new(
                         spring.card,
                         &spring.label,
-                        "must have one end at ground or restrained",
+                        "must have one end grounded or restrained",
                     );
                     self.findings
-                        .error(finding.hint("springs between two moving grids are not supported"));
+                        .error(finding.hint("springs between two free grids are not supported"));
                 }
             }
         }

@@ -41,7 +41,7 @@ pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
         return None;
     }
     if to.is_empty() {
-        card.refuse(4, "GM1", "is missing", "state the dependent grids");
+        card.refuse(4, "GM1", "is missing", "specify the dependent grids");
         return None;
     }
     Some(Rigid {
@@ -75,7 +75,7 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
             card.refuse(
                 4,
                 "CNA",
-                "must be 123456, with CNB blank, or the other way round",
+                "must be 123456 with CNB blank, or blank with CNB 123456",
                 PARTIAL,
             );
             return None;

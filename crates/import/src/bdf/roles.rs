@@ -98,11 +98,11 @@ pub fn advice(name: &str) -> &'static str {
         "PBCOMP" | "PBMSECT" | "PBRSECT" | "PBEND" => {
             "supported properties are PBAR, PBARL, PBEAM and PBEAML"
         }
-        "DMIG" => "matrices of direct input are not supported",
+        "DMIG" => "direct matrix input is not supported",
         _ if name.starts_with('C') => {
             "a beam spec consists of members, rigid links, masses and springs to ground"
         }
-        _ => "this card is not known",
+        _ => "this card is unknown",
     }
 }
 

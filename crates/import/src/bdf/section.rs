@@ -108,7 +108,7 @@ impl SectionTable {
             material = format!("{material} and NSM of {name}");
         }
         if !density.is_finite() {
-            let expected = "must have a mass within double precision";
+            let expected = "must have a mass within the range of double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
             return None;
         }
@@ -130,7 +130,7 @@ impl SectionTable {
             .flatten()
             .all(|value| value.is_finite() && *value > 0.0);
         if !positive || section.j.is_some_and(|j| !j.is_finite()) {
-            let expected = "must have properties within double precision";
+            let expected = "must have properties within the range of double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
             return None;
         }
@@ -193,13 +193,13 @@ fn material_of<'d>(
     };
     let is_shear_flexible = property.bending[0] > 0.0 && property.shear.iter().any(|k| *k > 0.0);
     if material.g.is_none() && (property.j > 0.0 || is_shear_flexible) {
-        let expected = format!("is missing, and {name} of {about} needs it");
+        let expected = format!("is missing, but {name} of {about} requires it");
         let finding = ImportFinding::new(
             material.card,
             format!("MAT1 {}: G", property.material),
             expected,
         );
-        findings.error(finding.hint("state G or NU"));
+        findings.error(finding.hint("specify G or NU"));
         return None;
     }
     Some(material)
@@ -211,14 +211,16 @@ fn warn_of_conversions(property: &Property, name: &str, findings: &mut ImportFin
         let expected = "has no J: its members have no torsional stiffness";
         let finding = ImportFinding::new(property.card, name, expected);
         findings.warn(
-            finding.hint("state J if loads beside the axis of these members are to be carried"),
+            finding.hint(
+                "specify J if these members are subjected to torsion, as under eccentric loads",
+            ),
         );
     }
     if property.end.is_some() {
-        let expected = format!("is tapered, and each member is solved in {PARTS} uniform parts");
+        let expected = format!("is tapered: each member is divided into {PARTS} uniform parts");
         findings.warn(
             ImportFinding::new(property.card, name, expected)
-                .hint("another number can be stated in `parts` of the spec"),
+                .hint("`parts` of the spec can specify another number"),
         );
     }
 }

@@ -36,13 +36,16 @@ pub fn spc(card: &mut CardFields<'_, '_>, without_loads: bool) -> Vec<SupportCar
         let moved = if without_loads {
             card.real_or(first + 2, "D", 0.0).map(|value| {
                 if value != 0.0 {
-                    let left =
-                        card.fault(first + 2, "D", "is left out: the support is kept at rest");
+                    let left = card.fault(
+                        first + 2,
+                        "D",
+                        "is ignored: the displacement of the support is taken as 0",
+                    );
                     card.findings.warn(left);
                 }
             })
         } else {
-            let hint = "prescribed displacements are not supported; --skip-unused keeps the support at rest";
+            let hint = "prescribed displacements are not supported; --skip-unused takes them as 0";
             card.zero(first + 2, "D", hint)
         };
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
@@ -83,7 +86,12 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
         if card.text(index + 1) == "THRU" {
             let to = card.id(index + 2, "G")?;
             if to < from {
-                card.refuse(index + 2, "G", "must not be below the grid before THRU", "");
+                card.refuse(
+                    index + 2,
+                    "G",
+                    "must not be less than the grid number before THRU",
+                    "",
+                );
                 return None;
             }
             support.ranges.push([from, to]);
@@ -98,7 +106,7 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
             3,
             "G1",
             "is missing",
-            "state the grids that the set restrains",
+            "specify the grids that the set restrains",
         );
     }
     Some(support)

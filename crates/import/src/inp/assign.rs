@@ -63,7 +63,7 @@ impl Resolver<'_, '_> {
                 .flatten()
                 .any(|value| !value.is_finite() || *value <= 0.0)
             {
-                let expected = "must have properties within double precision";
+                let expected = "must have properties within the range of double precision";
                 self.findings
                     .error(ImportFinding::new(section.set.at, &section.label, expected));
                 continue;
@@ -84,7 +84,7 @@ impl Resolver<'_, '_> {
                     let finding = ImportFinding::new(
                         section.set.at,
                         &about,
-                        "must not assign a second section",
+                        "must not assign a second section to an element",
                     );
                     self.findings
                         .error(finding.with_found(format!("element {number}")));
@@ -118,7 +118,7 @@ impl Resolver<'_, '_> {
                     return None;
                 };
                 let Some([e, nu]) = material.elastic else {
-                    let expected = "needs *ELASTIC";
+                    let expected = "requires *ELASTIC";
                     self.findings
                         .error(ImportFinding::new(material.at, "*MATERIAL", expected));
                     return None;
@@ -132,7 +132,7 @@ impl Resolver<'_, '_> {
             }
         };
         if !(g.is_finite() && g > 0.0) {
-            let expected = "must lead to moduli within double precision";
+            let expected = "must give moduli within the range of double precision";
             self.findings
                 .error(ImportFinding::new(section.set.at, &section.label, expected));
             return None;

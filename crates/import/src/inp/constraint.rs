@@ -15,15 +15,15 @@ impl InpModel {
     ) {
         if self.steps > 1 {
             let message =
-                "of a later step is left out: supports are those of the model and the first step";
+                "is ignored in later steps: supports are those of the model and the first step";
             if omit.unused {
                 findings.warn(ImportFinding::new(block.at, block.label(), message));
             } else {
-                let hint = "supports are those of the model and the first step; --skip-unused leaves out the others";
+                let hint = "supports are those of the model and the first step; --skip-unused ignores all others";
                 let finding = ImportFinding::new(
                     block.at,
                     block.label(),
-                    "must be in the model or the first step",
+                    "must be in the model data or the first step",
                 );
                 findings.error(finding.hint(hint));
             }
@@ -79,7 +79,7 @@ impl InpModel {
             })
             .collect();
         if found.is_empty() || block.parameter("ELSET").is_some() {
-            let expected = "must name its nodes by TIE NSET or PIN NSET alone";
+            let expected = "must specify its nodes by TIE NSET or PIN NSET only";
             findings.error(ImportFinding::new(block.at, block.label(), expected));
         }
         self.joints.extend(found);
@@ -148,7 +148,7 @@ impl InpModel {
                     "T" => release[3] = true,
                     "ALLM" => release[3..].fill(true),
                     other => {
-                        let expected = "must be M1, M2, T, joined by hyphens, or ALLM";
+                        let expected = "must be ALLM, or M1, M2 and T joined by hyphens";
                         let finding = ImportFinding::new(words.at, "*RELEASE: rotations", expected);
                         findings.error(finding.with_found(other));
                     }
@@ -180,13 +180,13 @@ fn restrained(
     };
     let displacement = real(block, line, 3, ("displacement", Some(0.0)), findings)?;
     if displacement != 0.0 {
-        let finding = ImportFinding::new(line[0].at, "*BOUNDARY: displacement", "can only be 0");
+        let finding = ImportFinding::new(line[0].at, "*BOUNDARY: displacement", "must be 0");
         if !omit.unused {
-            let hint = "prescribed displacements are not supported; --skip-unused keeps the support at rest";
+            let hint = "prescribed displacements are not supported; --skip-unused takes them as 0";
             findings.error(finding.with_found(displacement).hint(hint));
             return None;
         }
-        let message = "is left out: the support is kept at rest";
+        let message = "is ignored: the displacement of the support is taken as 0";
         findings.warn(
             ImportFinding::new(line[0].at, "*BOUNDARY: displacement", message)
                 .with_found(displacement),

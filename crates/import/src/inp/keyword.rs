@@ -62,8 +62,11 @@ impl KeywordBlock {
     pub fn required(&self, name: &str, findings: &mut ImportFindings) -> Option<&InpField> {
         let found = self.parameter(name).filter(|value| !value.text.is_empty());
         if found.is_none() {
-            let finding =
-                ImportFinding::new(self.at, self.label(), format!("needs the parameter {name}"));
+            let finding = ImportFinding::new(
+                self.at,
+                self.label(),
+                format!("requires the parameter {name}"),
+            );
             findings.error(finding);
         }
         found
@@ -123,9 +126,12 @@ impl Reader<'_> {
             } else if let Some(block) = self.blocks.last_mut() {
                 block.data.push(fields);
             } else {
-                let finding =
-                    ImportFinding::new(at, "", "must follow a keyword, which begins with *");
-                findings.error(finding.hint("is this an Abaqus input file?"));
+                let finding = ImportFinding::new(
+                    at,
+                    "",
+                    "must be preceded by a keyword line, which begins with *",
+                );
+                findings.error(finding.hint("check that the file is an Abaqus input file"));
                 break;
             }
         }

@@ -82,9 +82,9 @@ pub fn read_mesh(
         let finding = ImportFinding::new(
             section.set.at,
             &section.label,
-            "must not be in a file with --sections",
+            "must not occur in a file that is read with --sections",
         );
-        findings.error(finding.hint("leave out --sections: the file has sections of its own"));
+        findings.error(finding.hint("omit --sections: the file contains its own sections"));
     }
     if findings.has_errors() {
         return Ok(empty);

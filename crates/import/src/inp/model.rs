@@ -167,12 +167,12 @@ impl InpModel {
             findings.warn(ImportFinding::new(
                 at,
                 name,
-                format!("is left out, {}", times(number)),
+                format!("is ignored ({})", times(number)),
             ));
         }
         for (name, (at, number)) in unused {
             let message = format!(
-                "is left out, {}; it cannot change the stiffness",
+                "is ignored ({}): it does not affect the stiffness",
                 times(number)
             );
             findings.warn(ImportFinding::new(at, name, message));
@@ -181,7 +181,7 @@ impl InpModel {
             let word = name.trim_start_matches('*');
             let hint = if role(word) == Some(KeywordRole::NoStiffness) {
                 format!(
-                    "it cannot change the stiffness: --skip-unused leaves it out, or --skip \"{word}\""
+                    "it does not affect the stiffness: ignore it with --skip-unused or --skip \"{word}\""
                 )
             } else {
                 format!(
@@ -190,7 +190,7 @@ impl InpModel {
                 )
             };
             let finding =
-                ImportFinding::new(at, name, format!("is not supported, {}", times(number)));
+                ImportFinding::new(at, name, format!("is not supported ({})", times(number)));
             findings.error(finding.hint(hint));
         }
         model
@@ -244,7 +244,7 @@ impl InpModel {
                         });
                     }
                     _ => {
-                        let expected = "must have a degree of freedom from 1 to 6 and, in the next line, a stiffness";
+                        let expected = "must have a degree of freedom from 1 to 6 and, on the next line, a stiffness";
                         findings.error(ImportFinding::new(block.at, block.label(), expected));
                     }
                 }
@@ -254,7 +254,8 @@ impl InpModel {
             "INSTANCE" => {
                 self.instances += 1;
                 if self.instances > 1 || !block.data.is_empty() {
-                    let expected = "must be the only one, and must not be moved";
+                    let expected =
+                        "must be the only instance, and must not be translated or rotated";
                     let hint = "write the model as a flat input file (without parts)";
                     findings
                         .error(ImportFinding::new(block.at, block.label(), expected).hint(hint));
@@ -273,7 +274,7 @@ impl InpModel {
             let finding = ImportFinding::new(
                 system.at,
                 "*NODE: SYSTEM",
-                "must be R, rectangular coordinates",
+                "must be R (rectangular coordinates)",
             );
             findings.error(finding.with_found(&system.text));
         }
@@ -285,11 +286,11 @@ impl InpModel {
                 continue;
             };
             if self.nodes.insert(number, at).is_some() {
-                let finding = ImportFinding::new(line[0].at, "*NODE: node", "occurs twice");
+                let finding = ImportFinding::new(line[0].at, "*NODE: node", "is defined twice");
                 findings.error(
                     finding
                         .with_found(number)
-                        .hint("numbers of nodes must differ in all parts"),
+                        .hint("node numbers must be unique in the whole model"),
                 );
             }
             if let Some(set) = &set {
@@ -349,11 +350,12 @@ impl InpModel {
                 continue;
             }
             if self.elements.insert(number, element).is_some() {
-                let finding = ImportFinding::new(line[0].at, "*ELEMENT: element", "occurs twice");
+                let finding =
+                    ImportFinding::new(line[0].at, "*ELEMENT: element", "is defined twice");
                 findings.error(
                     finding
                         .with_found(number)
-                        .hint("numbers of elements must differ in all parts"),
+                        .hint("element numbers must be unique in the whole model"),
                 );
             }
             if let Some(set) = &set {
@@ -370,7 +372,8 @@ impl InpModel {
         };
         let [line] = block.data.as_slice() else {
             findings.error(
-                refuse("must have one data line").hint("properties must not depend on temperature"),
+                refuse("must have one data line")
+                    .hint("temperature-dependent properties are not supported"),
             );
             return;
         };
@@ -392,8 +395,10 @@ impl InpModel {
         let nu = real(block, line, 1, ("Poisson's ratio", Some(0.0)), findings);
         let (Some(e), Some(nu)) = (e, nu) else { return };
         if !(nu > -1.0 && nu <= 0.5) {
-            findings
-                .error(refuse("must have a Poisson's ratio above -1 and up to 0.5").with_found(nu));
+            findings.error(
+                refuse("must have a Poisson's ratio greater than -1 and at most 0.5")
+                    .with_found(nu),
+            );
             return;
         }
         material.elastic = Some([e, nu]);
@@ -416,7 +421,7 @@ impl InpModel {
                 findings.error(ImportFinding::new(
                     block.at,
                     block.label(),
-                    "must follow the section of beams",
+                    "must follow a beam section",
                 ));
             }
             _ => {}
@@ -449,8 +454,7 @@ impl InpModel {
         if values[..3].iter().any(|moment| *moment < 0.0)
             || values[3..].iter().any(|product| *product != 0.0)
         {
-            let expected =
-                "must have moments of inertia that are not negative, and no products of inertia";
+            let expected = "must have non-negative moments of inertia and no products of inertia";
             findings.error(ImportFinding::new(block.at, block.label(), expected));
             return;
         }
@@ -484,8 +488,8 @@ impl InpModel {
 
 fn times(number: usize) -> String {
     if number == 1 {
-        "once".to_owned()
+        "occurs once".to_owned()
     } else {
-        format!("{number} times")
+        format!("occurs {number} times")
     }
 }

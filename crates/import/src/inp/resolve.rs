@@ -109,7 +109,7 @@ impl Resolver<'_, '_> {
                 line: 1,
                 column: 1,
             };
-            let finding = ImportFinding::new(at, "", "has no member");
+            let finding = ImportFinding::new(at, "", "contains no members");
             self.findings
                 .error(finding.hint("supported members are B31, B33 and T3D2"));
         }
@@ -136,14 +136,16 @@ impl Resolver<'_, '_> {
         }
         let Some(&[section, place]) = self.section_of.get(&number) else {
             let finding = ImportFinding::new(element.at, "element", "must have a section");
-            let hint = "assign *BEAM SECTION or *SOLID SECTION to a set with the element; a file without sections needs --sections";
+            let hint = "assign *BEAM SECTION or *SOLID SECTION to a set that contains the element; a file without \
+                        sections requires --sections";
             self.findings.error(finding.hint(hint));
             return None;
         };
         let given = &self.model.sections[place];
         let is_beam = matches!(element.kind, InpKind::Beam { .. });
         if given.is_beam != is_beam {
-            let expected = "must have *BEAM SECTION for beams and *SOLID SECTION for trusses";
+            let expected =
+                "must have *BEAM SECTION if it is a beam, *SOLID SECTION if it is a truss";
             self.findings
                 .error(ImportFinding::new(element.at, about, expected));
             return None;
@@ -210,9 +212,9 @@ impl Resolver<'_, '_> {
             let finding = ImportFinding::new(
                 element.at,
                 about,
-                "its n1 direction must not be zero or along it",
+                "its n1 direction must not be zero or parallel to it",
             );
-            let hint = "state n1 in the second data line of its section; the default is 0, 0, -1";
+            let hint = "specify n1 on the second data line of its section; the default is 0, 0, -1";
             self.findings.error(finding.hint(hint));
             return None;
         }
@@ -263,7 +265,8 @@ impl Resolver<'_, '_> {
                 .elements
                 .get(&number)
                 .map_or(FilePlace::default(), |element| element.at);
-            let expected = "must be released in both planes or none, because its section has I12";
+            let expected =
+                "must be released in both planes or neither, because its section has I12";
             self.findings.error(ImportFinding::new(
                 at,
                 format!("element {number}"),
@@ -360,7 +363,7 @@ impl Resolver<'_, '_> {
             self.findings.error(ImportFinding::new(
                 at,
                 "*MASS",
-                "must have sums within double precision",
+                "must have sums within the range of double precision",
             ));
         }
         self.structure.masses.extend(masses.into_values());
@@ -379,7 +382,7 @@ impl Resolver<'_, '_> {
                 self.findings,
             );
             let &[leader] = leaders.as_slice() else {
-                let expected = "must be joined to one node";
+                let expected = "must have exactly one independent node";
                 self.findings
                     .error(ImportFinding::new(request.leader.at, "joint", expected));
                 continue;
@@ -402,9 +405,10 @@ impl Resolver<'_, '_> {
                 let coincide = self.structure.points[from].at == self.structure.points[to].at;
                 match request.joint {
                     Joint::Tied if !coincide => {
-                        let finding = ImportFinding::new(at, about, "must join nodes at one place");
+                        let finding =
+                            ImportFinding::new(at, about, "must connect coincident nodes");
                         self.findings
-                            .error(finding.hint("*MPC BEAM joins nodes at a distance"));
+                            .error(finding.hint("*MPC BEAM connects nodes at a distance"));
                     }
                     Joint::Rigid | Joint::Tied => self.structure.links.push([from, to]),
                     Joint::Pinned => {
@@ -417,8 +421,8 @@ impl Resolver<'_, '_> {
         let all: Vec<PartialLink> = pinned.iter().map(|(link, ..)| *link).collect();
         for (link, at, about) in pinned {
             if !links::add(&mut self.structure, link, &all) {
-                let expected = "must be rigid, or be replaceable by a hinge or a support";
-                let hint = "a hinge has one beam at the node that follows; a support has a fixed node that leads";
+                let expected = "must be rigid, or be equivalent to a hinge or a support";
+                let hint = "a hinge has a single beam at the dependent node; a support has a fixed independent node";
                 self.findings
                     .error(ImportFinding::new(at, about, expected).hint(hint));
             }

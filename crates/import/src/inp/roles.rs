@@ -105,17 +105,17 @@ pub fn advice(name: &str) -> &'static str {
             "supported links are *RIGID BODY with NSET and *MPC BEAM, TIE and PIN"
         }
         "NORMAL" | "ORIENTATION" | "SYSTEM" | "TRANSFORM" => {
-            "coordinates and directions are those of the global axes"
+            "coordinates and directions must refer to the global axes"
         }
         "SHELL SECTION" | "SHELL GENERAL SECTION" | "MEMBRANE SECTION" => {
-            "members have *BEAM SECTION"
+            "shells and membranes are not supported"
         }
         "CONNECTOR SECTION" | "CONNECTOR BEHAVIOR" | "CONNECTOR ELASTICITY" => {
             "supported springs are SPRING1"
         }
         "BEAM SECTION OFFSET" | "BEAM ADDED INERTIA" | "BEAM FLUID INERTIA" => {
-            "the nodes of beams must be on their axes"
+            "the nodes of beams must be on their centroidal axes"
         }
-        _ => "this keyword is not supported",
+        _ => "a beam spec consists of members, rigid links, masses and springs to ground",
     }
 }

@@ -152,7 +152,7 @@ fn general_numbers(
     let j = positive(block, line, 4, "J", findings);
     let (area, iy, iz, product, j) = (area?, iy?, iz?, product?, j?);
     if product * product >= iy * iz {
-        let expected = "must be below the root of I11 I22 in magnitude";
+        let expected = "must be less than the square root of I11 I22 in magnitude";
         findings.error(ImportFinding::new(
             block.at,
             format!("{}: I12", block.label()),
@@ -186,7 +186,7 @@ fn shape_numbers(
         _ => {
             let hint = match shape {
                 "L" => {
-                    "the node of an L section is at its corner, not at its centroid: state *BEAM GENERAL SECTION"
+                    "the node of an L section is at its corner, not at its centroid: use *BEAM GENERAL SECTION"
                 }
                 _ => "known: RECT, CIRC, PIPE, BOX, I, and GENERAL in *BEAM GENERAL SECTION",
             };
@@ -217,7 +217,8 @@ fn shape_numbers(
         [r, t] => (section_properties("TUBE2", &[r, t]), 0.53, false),
         [a, b, t1, t2, t3, t4] => {
             if t1 != t3 || t2 != t4 {
-                let hint = "the node of a box is at the middle of its outline: state *BEAM GENERAL SECTION";
+                let hint =
+                    "the node of a box is at the centre of its outline: use *BEAM GENERAL SECTION";
                 refuse("t1", "must be equal to t3, and t2 to t4", hint);
                 return None;
             }
@@ -229,7 +230,11 @@ fn shape_numbers(
             let first = b1 * t1 * t1 / 2.0 + b2 * t2 * (h - t2 / 2.0) + web * t3 * (t1 + web / 2.0);
             if (l - first / area).abs() > 1e-6 * h {
                 let expected = format!("must be the height of the centroid, {}", first / area);
-                refuse("l", &expected, "the nodes of beams must be on their axes");
+                refuse(
+                    "l",
+                    &expected,
+                    "the nodes of beams must be on their centroidal axes",
+                );
                 return None;
             }
             // the web of the other drawing is along y
@@ -244,8 +249,8 @@ fn shape_numbers(
     let Ok(found) = found else {
         refuse(
             "dimensions",
-            "must form a section",
-            "the dimensions leave no space between the walls",
+            "must form a valid section",
+            "the walls must not overlap",
         );
         return None;
     };

@@ -63,8 +63,7 @@ impl InpSets {
         let generates = block.parameter("GENERATE").is_some();
         for line in &block.data {
             if self.entries > MOST_ENTRIES {
-                let expected =
-                    format!("must have at most {MOST_ENTRIES} entries in all sets together");
+                let expected = format!("exceeds the limit of {MOST_ENTRIES} entries of all sets");
                 findings.error(ImportFinding::new(block.at, block.label(), expected));
                 return;
             }
@@ -89,7 +88,7 @@ impl InpSets {
                         self.add_range(&name, range);
                     }
                 } else {
-                    let expected = "must be a number or the name of a set that is defined before";
+                    let expected = "must be a number or the name of a previously defined set";
                     let finding = ImportFinding::new(field.at, block.label(), expected);
                     findings.error(finding.with_found(&field.text));
                 }

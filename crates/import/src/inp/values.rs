@@ -36,7 +36,7 @@ pub fn field<'b>(
         findings.error(ImportFinding::new(
             at,
             about(block, what),
-            "is missing in this line",
+            "is missing on this line",
         ));
     }
     found

@@ -106,7 +106,7 @@ impl<'b> Bytes<'b> {
         let before = self.at;
         let line = self.line()?;
         line.parse().map_err(|_| Broken {
-            expected: "must have its number of entries".to_owned(),
+            expected: "must begin with its number of entries".to_owned(),
             byte: before,
         })
     }
@@ -142,7 +142,7 @@ pub fn read(mesh: &mut Mesh, all: &[u8], version: MeshVersion, findings: &mut Im
         let Some(name) = name else {
             let expected = "must have sections between $Name and $EndName";
             let finding = ImportFinding::new(WHOLE_FILE, format!("byte {}", bytes.at), expected);
-            findings.error(finding.hint("the file is damaged; write the mesh again"));
+            findings.error(finding.hint("the file is damaged; save the mesh again"));
             return;
         };
         let result = if seen.contains(&name) {
@@ -153,7 +153,7 @@ pub fn read(mesh: &mut Mesh, all: &[u8], version: MeshVersion, findings: &mut Im
         if let Err(Broken { expected, byte }) = result {
             let about = format!("${name}, byte {byte}");
             let finding = ImportFinding::new(WHOLE_FILE, about, expected);
-            findings.error(finding.hint("the file is damaged; write the mesh again"));
+            findings.error(finding.hint("the file is damaged; save the mesh again"));
             return;
         }
         seen.push(name);
@@ -180,7 +180,7 @@ fn section(
             match bytes.int()? {
                 1 => {}
                 one if one.swap_bytes() == 1 => bytes.is_big = true,
-                _ => return Err(bytes.broken("must state the order of bytes by the integer 1")),
+                _ => return Err(bytes.broken("must indicate the byte order by the integer 1")),
             }
         }
         ("PhysicalNames", _) => {
@@ -197,7 +197,7 @@ fn section(
         ("Nodes", MeshVersion::Two) => nodes_2(mesh, bytes, findings)?,
         ("Elements", MeshVersion::Two) => elements_2(mesh, bytes, findings)?,
         ("PartitionedEntities", _) => {
-            return Err(bytes.broken("is not supported: write the mesh without partitions"));
+            return Err(bytes.broken("is not supported: save the mesh without partitions"));
         }
         _ => {}
     }
@@ -207,7 +207,7 @@ fn section(
     let is_read = ["MeshFormat", "Entities", "Nodes", "Elements"].contains(&name);
     if is_read && rest.iter().any(|byte| !byte.is_ascii_whitespace()) {
         return Err(Broken {
-            expected: "has more bytes than its entries".to_owned(),
+            expected: "has more bytes than its entries require".to_owned(),
             byte: after,
         });
     }
@@ -231,9 +231,9 @@ fn entities(mesh: &mut Mesh, bytes: &mut Bytes<'_>) -> Result<(), Broken> {
                 }
             }
             if mesh.groups.insert((dimension, tag), list).is_some() {
-                return Err(
-                    bytes.broken(format!("has entity {tag} of dimension {dimension} twice"))
-                );
+                return Err(bytes.broken(format!(
+                    "defines entity {tag} of dimension {dimension} twice"
+                )));
             }
         }
     }
@@ -376,7 +376,7 @@ fn elements_2(
 }
 
 fn unknown(kind: u64) -> String {
-    format!("has elements of type {kind}, which is not known")
+    format!("has elements of the unknown type {kind}")
 }
 
 /// Number of nodes of a type of element.

@@ -38,7 +38,7 @@ pub fn format(text: &str, findings: &mut ImportFindings) -> Option<MeshFormat> {
         let line = first.map_or(0, |(line, _)| line);
         findings.error(
             ImportFinding::new(at(line), "", "must begin with $MeshFormat")
-                .hint("is this a gmsh mesh?"),
+                .hint("check that the file is a gmsh mesh"),
         );
         return None;
     }

@@ -55,7 +55,7 @@ impl Mesh {
                 "PartitionedEntities" => {
                     let finding =
                         ImportFinding::new(section.at, "$PartitionedEntities", "is not supported");
-                    findings.error(finding.hint("write the mesh without partitions"));
+                    findings.error(finding.hint("save the mesh without partitions"));
                     None
                 }
                 _ => Some(()),
@@ -85,7 +85,7 @@ impl Mesh {
                 findings.error(ImportFinding::new(
                     record.at,
                     "name",
-                    "must be between quotation marks",
+                    "must be in quotation marks",
                 ));
                 return None;
             };
@@ -127,7 +127,7 @@ impl Mesh {
                 }
                 if self.groups.insert((dimension, tag), list).is_some() {
                     findings.error(
-                        ImportFinding::new(record.at, "entity", "occurs twice").with_found(tag),
+                        ImportFinding::new(record.at, "entity", "is defined twice").with_found(tag),
                     );
                 }
             }
@@ -227,11 +227,11 @@ impl Mesh {
             findings.error(ImportFinding::new(
                 at,
                 format!("element {tag}"),
-                "must join two nodes",
+                "must connect two different nodes",
             ));
         }
         if self.lines.insert(tag, (curve, nodes, at)).is_some() {
-            findings.error(ImportFinding::new(at, "element", "occurs twice").with_found(tag));
+            findings.error(ImportFinding::new(at, "element", "is defined twice").with_found(tag));
         }
     }
 
@@ -244,7 +244,7 @@ impl Mesh {
         findings: &mut ImportFindings,
     ) {
         if self.nodes.insert(tag, place).is_some() {
-            findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));
+            findings.error(ImportFinding::new(at, "node", "is defined twice").with_found(tag));
         }
     }
 }
@@ -263,7 +263,7 @@ pub(super) fn report_others(others: OtherElements, findings: &mut ImportFindings
             findings.warn(ImportFinding::new(
                 at,
                 about,
-                format!("{name} are left out, {count} of them"),
+                format!("{name} are ignored ({count} in total)"),
             ));
         }
     }

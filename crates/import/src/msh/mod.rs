@@ -90,9 +90,9 @@ pub fn structure_of(
         {
             if reported.insert(curve) {
                 let hint = format!(
-                    "state the `orientation` of \"{name}\" in `members` of the sections file"
+                    "specify the `orientation` of \"{name}\" in `members` of the sections file"
                 );
-                let expected = "must have an orientation that is not parallel to it";
+                let expected = "must have an orientation vector that is not parallel to it";
                 findings.error(ImportFinding::new(at, about, expected).hint(hint));
             }
             continue;
@@ -117,8 +117,8 @@ pub fn structure_of(
             line: 1,
             column: 1,
         };
-        let hint = "mesh the curves (gmsh -1), and put them in physical groups";
-        findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));
+        let hint = "mesh the curves (gmsh -1), and assign them to physical groups";
+        findings.error(ImportFinding::new(at, "", "contains no line elements").hint(hint));
     }
     structure.cell_sets = sets
         .into_iter()
@@ -162,10 +162,10 @@ fn group_of<'m>(
         let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
         let [entity, set] = mesh.group_words;
         let expected = format!(
-            "must be in one {set} that is a section or in `members`, {}",
+            "must be in exactly one {set} that the sections file defines, {}",
             list(names)
         );
-        let hint = format!("in the sections file: {}", known.join(", "));
+        let hint = format!("the sections file defines {}", known.join(", "));
         findings.error(ImportFinding::new(at, format!("{entity} {curve}"), expected).hint(hint));
     }
     None
@@ -174,9 +174,9 @@ fn group_of<'m>(
 /// Part of a message that lists the physical groups of a curve.
 fn list(names: &[&str]) -> String {
     if names.is_empty() {
-        "but is in none with a name".to_owned()
+        "but is in none that has a name".to_owned()
     } else {
-        format!("and is in {}", names.join(", "))
+        format!("but is in {}", names.join(", "))
     }
 }
 

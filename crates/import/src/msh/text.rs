@@ -58,7 +58,7 @@ impl<'t> MeshRecord<'t> {
             .map(|&(column, word)| (FilePlace { column, ..self.at }, word));
         if word.is_none() {
             findings.error(
-                ImportFinding::new(self.at, what, "is missing in this line")
+                ImportFinding::new(self.at, what, "is missing on this line")
                     .with_found(format!("{} words", self.len())),
             );
         }
@@ -128,9 +128,9 @@ impl<'t> MeshBlock<'t> {
         self.next += 1;
         if record.is_none() {
             let finding = ImportFinding::new(self.at, format!("${}", self.name), "ends too early");
-            findings.error(finding.hint(
-                "the stated numbers of entries do not match the section; write the mesh again",
-            ));
+            findings.error(
+                finding.hint("the section has fewer entries than stated; save the mesh again"),
+            );
         }
         record
     }
@@ -148,7 +148,7 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
                     findings.error(ImportFinding::new(
                         record.at,
                         format!("$End{name}"),
-                        "must end a section that was begun",
+                        "has no matching beginning",
                     ));
                     continue;
                 }
@@ -181,9 +181,9 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
             }
             None if record.len() > 0 => {
                 let finding = ImportFinding::new(record.at, "", "must be within a section");
-                findings.error(
-                    finding.hint("sections are between $Name and $EndName; is this a gmsh mesh?"),
-                );
+                findings.error(finding.hint(
+                    "sections are between $Name and $EndName; check that the file is a gmsh mesh",
+                ));
                 return sections;
             }
             None => {}
@@ -191,7 +191,7 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
     }
     if let Some(section) = sections.last().filter(|_| open) {
         let finding = ImportFinding::new(section.at, format!("${}", section.name), "has no end");
-        findings.error(finding.hint("the file is cut off; write the mesh again"));
+        findings.error(finding.hint("the file is incomplete; save the mesh again"));
     }
     sections
 }

@@ -142,7 +142,7 @@ fn files_of_others_are_refused_by_name_and_replaced_by_force_alone() {
     let told = message(&open(path, false, &planned).expect_err("files of others"));
     assert_eq!(told.lines().count(), 2, "{told}");
     assert!(
-        told.contains("history.csv: would be replaced") && told.contains("plots/path-b.svg"),
+        told.contains("history.csv: would be overwritten") && told.contains("plots/path-b.svg"),
         "{told}"
     );
     assert!(told.contains("--force"), "{told}");

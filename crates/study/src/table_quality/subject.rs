@@ -105,7 +105,7 @@ impl TableSource {
                 &Place::root().key("rails"),
                 "must have a rail of at least four stations",
             );
-            let fault = fault.hint("a SPLINE has four x values or more");
+            let fault = fault.hint("a SPLINE needs at least four x values");
             return Err(Error::Input(source.diagnose(&Faults(vec![fault]))));
         }
         Ok(TableSource {

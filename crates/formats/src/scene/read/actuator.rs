@@ -89,7 +89,7 @@ pub(super) fn read_drive(
         at,
         "gain",
         Dimension::DAMPING,
-        "drive force per difference of speed",
+        "drive force per unit of speed difference",
     );
     let max_force = motion.max_force.map(|force| {
         check.not_negative(

@@ -74,8 +74,8 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
         (None, Some(weight)) => {
             let weight = check.positive(weight, &at.key("weight"), Dimension::FORCE, "");
             if gravity == Some(0.0) {
-                let fault =
-                    Fault::new(&at.key("weight"), "needs a gravity above 0").hint("or give `mass`");
+                let fault = Fault::new(&at.key("weight"), "requires a positive `gravity`")
+                    .hint("or specify `mass`");
                 check.faults.add(fault);
             }
             weight / gravity.filter(|g| *g > 0.0).unwrap_or(1.0)
@@ -188,7 +188,7 @@ pub(super) fn read_motions(
         if bodies[body].in_space {
             let fault = Fault::new(
                 &at.key("body"),
-                format!("body {} runs on no rail", bodies[body].name),
+                format!("body {} is not on a rail", bodies[body].name),
             );
             check
                 .faults

@@ -50,10 +50,7 @@ pub(super) fn check(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mu
     let (bodies, dof) = (root.key("bodies"), dof as usize);
     let at = bodies.key(name);
     let inertia = at.key("inertia");
-    let why = format!(
-        "{} is free, and no mass has inertia in this motion",
-        DOFS[dof]
-    );
+    let why = format!("{} is free, but has no inertia", DOFS[dof]);
     let fault = match (given.inertia, dof.checked_sub(3)) {
         (Some(values), Some(k)) => {
             Fault::new(&inertia.index(k), format!("must be positive: {why}")).got(number(values[k]))

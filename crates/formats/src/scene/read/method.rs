@@ -31,7 +31,7 @@ pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> S
         let fault = Fault::new(root, "missing key `step`");
         check
             .faults
-            .add(fault.hint("\"gauss2\" and \"gauss3\" integrate with steps of one size"));
+            .add(fault.hint("\"gauss2\" and \"gauss3\" use a constant step size"));
     }
     Stepping { method, step }
 }
@@ -69,9 +69,9 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
                 Foundation::Parts {
                     handover: Handover::PerPart { .. },
                     ..
-                } => Some("one contact force for each wheel"),
+                } => Some("one contact force per wheel"),
                 Foundation::Parts { .. } if has_mass(structure) => {
-                    Some("natural modes, or parts without mass")
+                    Some("natural modes, or massless parts")
                 }
                 Foundation::Ties {
                     has_mass: true, c, ..
@@ -84,7 +84,7 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
         let fault =
             Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
         faults.add(
-            fault.hint("\"sdirk4\" and \"esdirk5\" integrate every scene, \"auto\" chooses a method that suits the scene"),
+            fault.hint("\"sdirk4\" and \"esdirk5\" can integrate every scene; \"auto\" chooses a suitable method"),
         );
     }
 }

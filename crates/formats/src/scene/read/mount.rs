@@ -44,14 +44,16 @@ pub(super) fn read(
             continue;
         };
         if matches!(structure.foundation, Foundation::Ties { .. }) {
-            check
-                .faults
-                .unavailable(&at.key("foundation"), "ties on a body");
+            check.faults.unavailable(
+                &at.key("foundation"),
+                "a foundation on ties for a structure on a body",
+            );
         }
         match &structure.origin {
-            Origin::Tables { .. } => check
-                .faults
-                .unavailable(&at.key("tables"), "tables of a structure on a body"),
+            Origin::Tables { .. } => check.faults.unavailable(
+                &at.key("tables"),
+                "a foundation from tables for a structure on a body",
+            ),
             Origin::Spec { spec, .. } => refuse(spec, &at, check),
         }
         structure.carrier = carrier.map(|body| CarriedBy {
@@ -86,7 +88,7 @@ fn refuse(spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) {
     {
         check.faults.unavailable(
             &at.key("spec"),
-            "a rail that is not level, or another `up` than y, on a body",
+            "an inclined rail, or an `up` other than y, of a structure on a body",
         );
     }
 }
@@ -120,11 +122,14 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) {
             faults.add(fault.got(format!("rail {}", scene.rails[truck.rail].name)));
         } else if let Some(other) = scene.trucks.iter().find(apart) {
             let expected = format!(
-                "all wheels of \"{}\" must run on structures of one body",
+                "all wheels of \"{}\" must run on structures that are carried by the same body",
                 name(own)
             );
             let fault = Fault::new(&at, expected);
-            faults.add(fault.got(format!("others on rail {}", scene.rails[other.rail].name)));
+            faults.add(fault.got(format!(
+                "other wheels on rail {}",
+                scene.rails[other.rail].name
+            )));
         } else if scene
             .trucks
             .iter()
@@ -133,7 +138,7 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) {
             faults.unavailable(
                 &at,
                 &format!(
-                    "\"{}\", which itself runs on a carried structure, as a carrier",
+                    "a structure on a body that itself runs on a carried structure (\"{}\")",
                     name(below)
                 ),
             );

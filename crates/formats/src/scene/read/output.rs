@@ -73,19 +73,21 @@ pub(super) fn read(
         &raw.reactions,
         "reactions",
         0,
-        "a structure, or `<structure>.<support>` or `.<dof>` of it",
+        "a structure, `<structure>.<support>` or `<structure>.<support>.<dof>`",
     );
     let sections = pick(
         &raw.sections,
         "sections",
         1,
-        "a structure, or `<structure>.<section>` or `.<component>` of it, of the spec's `effects`",
+        "a structure, `<structure>.<section>` or `<structure>.<section>.<component>`, with a section of the spec's \
+         `effects`",
     );
     let stresses = pick(
         &raw.stresses,
         "stresses",
         2,
-        "a structure, or `<structure>.<section>` or `.<point>` of it, of the `points` of the spec's sections",
+        "a structure, `<structure>.<section>` or `<structure>.<section>.<point>`, with one of the `points` of the \
+         spec's sections",
     );
     let fatigue = read_fatigue(&raw.fatigue, &at.key("fatigue"), check);
     let spans = read_spans(raw, rails, &at.key("spans"), check);
@@ -128,7 +130,7 @@ fn read_columns(
         if let Some(near) = nearest(name, &words) {
             fault = fault.hint(format!("did you mean \"{near}\"?"));
         } else if words.is_empty() {
-            fault = fault.hint("no beam spec of this scene has any");
+            fault = fault.hint("no beam spec of this scene defines any such name");
         }
         check.faults.add(fault.got(format!("\"{name}\"")));
     }

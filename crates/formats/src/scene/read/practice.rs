@@ -60,7 +60,8 @@ fn efficiency(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     if !(LEAST_EFFICIENCY..=1.0).contains(&efficiency) {
         let place = at.key("bumper_efficiency");
         let fault = Fault::new(&place, format!("must be between {LEAST_EFFICIENCY} and 1"));
-        let hint = "mean over largest force: 0.5 for a spring, about 0.8 for a hydraulic bumper";
+        let hint =
+            "ratio of mean to largest force: 0.5 for a spring, about 0.8 for a hydraulic bumper";
         check
             .faults
             .add(fault.got(number(efficiency)).of_value().hint(hint));
@@ -146,17 +147,27 @@ pub(super) fn read(
         raw.rail_head,
         "rail_head",
         Dimension::LENGTH,
-        "width of the rail's head",
+        "width of the rail head",
     );
     let speeds = [
-        size(raw.bridge_speed, "bridge_speed", Dimension::SPEED, "rated"),
+        size(
+            raw.bridge_speed,
+            "bridge_speed",
+            Dimension::SPEED,
+            "rated speed",
+        ),
         size(
             raw.trolley_speed,
             "trolley_speed",
             Dimension::SPEED,
-            "rated",
+            "rated speed",
         ),
-        size(raw.hoist_speed, "hoist_speed", Dimension::SPEED, "rated"),
+        size(
+            raw.hoist_speed,
+            "hoist_speed",
+            Dimension::SPEED,
+            "rated speed",
+        ),
     ];
     let bumper_stroke = size(
         raw.bumper_stroke,
@@ -269,7 +280,7 @@ fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<us
                 .collect();
             let fault = Fault::new(at, "missing key `crane`");
             check.faults.add(fault.hint(format!(
-                "name the body that is the crane: {}",
+                "specify the body that is the crane: {}",
                 names.join(", ")
             )));
             None
@@ -303,7 +314,7 @@ fn rails_of(
             let found = match rails.len() {
                 2 => {
                     format!(
-                        "trucks on both at z = {}",
+                        "trucks on both rails at z = {}",
                         number(mean_lateral_position(scene, crane, rails[0]))
                     )
                 }

@@ -87,7 +87,10 @@ fn read(
         .any(|left| left <= 0.0)
         && length > 0.0
     {
-        let fault = Fault::new(&place, "hoists more rope than its length before the end");
+        let fault = Fault::new(
+            &place,
+            "must not hoist more than the length of the rope before the end of the run",
+        );
         check
             .faults
             .add(fault.hint("positive speeds shorten the rope"));

@@ -305,14 +305,14 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
         check.faults.add(
             Fault::new(root, "must have at least one truck in `trucks`")
                 .of_value()
-                .hint("bodies run on their rails with trucks"),
+                .hint("trucks carry the bodies on the rails"),
         );
     }
     let wheels: usize = raw.trucks.iter().map(truck::count).sum();
     if wheels > WHEELS.most {
         let fault = Fault::new(
             &place,
-            format!("must have at most {} wheels in all", WHEELS.most),
+            format!("must have at most {} wheels in total", WHEELS.most),
         );
         check.faults.add(fault.got(wheels).hint(WHEELS.reason));
         return;
@@ -377,7 +377,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
             );
             check
                 .faults
-                .add(fault.hint("prescribe a motion of x, or take \"x\" out of `dof`"));
+                .add(fault.hint("prescribe a motion of x, or remove \"x\" from `dof`"));
         }
     }
     scene.trucks = trucks;

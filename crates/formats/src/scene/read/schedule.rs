@@ -57,14 +57,11 @@ fn are_apart(times: &[f64], place: &Place<'_>, check: &mut Check<'_>) -> bool {
     let least = TIME_RESOLUTION * largest;
     let close = times.windows(2).position(|pair| pair[1] - pair[0] < least);
     if let Some(first) = close {
-        let expected = format!(
-            "must be at least {} after the time before it",
-            number(least)
-        );
+        let expected = format!("must be at least {} after the previous time", number(least));
         let fault =
             Fault::new(&place.index(first + 1).index(0), expected).got(number(times[first + 1]));
         let hint = format!(
-            "the time before it is {}; for a jump take a short ramp",
+            "the previous time is {}; represent a jump by a short ramp",
             number(times[first])
         );
         check.faults.add(fault.hint(hint));

@@ -174,7 +174,7 @@ fn buffer(
         gap,
         &at.key("gap"),
         Dimension::LENGTH,
-        "distance of the bodies before they touch",
+        "initial clearance before the buffer is compressed",
     );
     if let Some(side) = &raw.side {
         let fault = Fault::new(&at.key("side"), "a buffer between bodies has no `side`").at_key();
@@ -248,7 +248,7 @@ fn on_rail(
                 let expected = format!("no wheel of body {} is on that rail", scene.bodies[b].name);
                 check.faults.add(
                     Fault::new(&at.key("body"), expected)
-                        .hint("with `at` a point of the body meets the stop"),
+                        .hint("specify by `at` the point of the body that meets the stop"),
                 );
             }
             continue;

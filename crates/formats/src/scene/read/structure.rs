@@ -98,7 +98,7 @@ pub(super) fn read(
         && !spec.has_mass()
     {
         let expected = format!(
-            "\"{}\" needs mass, and the spec has none",
+            "\"{}\" needs mass, but the spec has none",
             foundation.word()
         );
         let fault = Fault::new(&at.key("foundation"), expected);
@@ -195,7 +195,7 @@ fn read_preload(
         Some(tables @ Origin::Tables { .. }) if asked => {
             let fault = Fault::new(
                 &at.key("preload"),
-                "needs a `spec`: tables hold for one state",
+                "needs a `spec`: tables describe only one state",
             )
             .at_key();
             check.faults.add(fault);
@@ -286,7 +286,7 @@ fn read_couplings(
     {
         let fault = Fault::new(
             &place,
-            "couplings can be left out only with the foundation \"influence\"",
+            "couplings can be neglected only with the foundation \"influence\"",
         )
         .at_key();
         check.faults.add(
@@ -314,13 +314,12 @@ fn read_longitudinal(
             .add(fault.hint("tables contain only the vertical and the lateral compliance"));
     }
     if longitudinal && raw.on.is_some() {
-        check.faults.unavailable(
-            &place,
-            "compliance along the rails of a structure on a body",
-        );
+        check
+            .faults
+            .unavailable(&place, "longitudinal compliance of a structure on a body");
     }
     if longitudinal && matches!(word, FoundationWord::Parts) {
-        let fault = Fault::new(&place, "\"parts\" have no compliance along the rail").at_key();
+        let fault = Fault::new(&place, "\"parts\" has no longitudinal compliance").at_key();
         check
             .faults
             .add(fault.hint("use \"influence\" or \"modal\""));
@@ -442,7 +441,7 @@ fn windows_fit(
         let fault = Fault::new(&at.key("blend"), expected).got(number(length));
         check
             .faults
-            .add(fault.hint("the windows about neighbouring joints must not overlap"));
+            .add(fault.hint("the transition lengths at adjacent joints must not overlap"));
     }
 }
 

@@ -41,8 +41,7 @@ pub(super) fn read(
         Dimension::STIFFNESS,
         "stiffness of one tie, force per length",
     );
-    let hint =
-        "lateral stiffness of one tie, force per length; leave it out if nothing moves laterally";
+    let hint = "lateral stiffness of one tie, force per length; leave it out if the rail is laterally fixed";
     let lateral_k = check.optional_positive(
         given.lateral_k,
         &at.key("lateral_k"),
@@ -121,7 +120,9 @@ fn read_rail(
         let fault = Fault::new(at, format!("missing key `{key}`"));
         check
             .faults
-            .add(fault.hint("`I_lateral` of the rail and `lateral_k` of the ties need each other"));
+            .add(fault.hint(
+                "`I_lateral` of the rail and `lateral_k` of the ties must be given together",
+            ));
     }
     let mass = raw.mass_per_length;
     let mass = mass
@@ -180,9 +181,9 @@ pub(super) fn on_structure(
 ) -> Option<Origin> {
     if raw.range.is_some() {
         let fault = Fault::new(&at.key("range"), "`range` cannot be combined with `spec`").at_key();
-        check.faults.add(
-            fault.hint("the rails on ties above a structure have the ranges of its own rails"),
-        );
+        check.faults.add(fault.hint(
+            "rails on ties above a structure have the same ranges as the rails of the structure",
+        ));
     }
     is_right(check)?;
     let Origin::Spec { file, spec } = origin else {
@@ -211,7 +212,7 @@ fn refuse(refusal: TiesError, at: &Place<'_>, check: &mut Check<'_>) -> Option<O
         ),
         TiesError::Many { .. } => (ties.key("spacing"), "shorten the rail or reduce `elements`"),
         TiesError::Hinge { .. } => (ties, "change `first`, the coordinate of the first tie"),
-        TiesError::Oblique { .. } | TiesError::Model => (ties, "use \"influence\""),
+        TiesError::Oblique { .. } | TiesError::Model => (ties, "use the foundation \"influence\""),
     };
     check
         .faults

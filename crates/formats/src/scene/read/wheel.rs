@@ -177,7 +177,7 @@ fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Fr
             at,
             "mu",
             Dimension::NUMBER,
-            "leave `friction` out for none",
+            "leave `friction` out for a wheel without friction",
         ),
         slip: check.required_positive(
             raw.slip,
@@ -185,8 +185,8 @@ fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Fr
             "slip",
             Dimension::SPEED,
             match law {
-                FrictionLaw::Step => "sliding speed at which the friction is full",
-                FrictionLaw::Coulomb => "sliding speed at which the friction is 76 % of mu N",
+                FrictionLaw::Step => "sliding speed at which friction reaches mu N",
+                FrictionLaw::Coulomb => "sliding speed at which friction is 76 % of mu N",
             },
         ),
     }

@@ -55,7 +55,7 @@ impl<'s> Sheet<'s> {
             });
             sheet.rows.push(cells(line, mark, k + 1).map_err(|cell| {
                 let fault = sheet.fault(&cell, "a quotation mark is not closed");
-                Box::new(fault.hint("a cell cannot go over several lines"))
+                Box::new(fault.hint("a cell cannot extend over several lines"))
             })?);
         }
         sheet.decimal_comma = matches!(separator.flatten(), Some(';' | '\t'));

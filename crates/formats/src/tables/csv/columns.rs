@@ -76,7 +76,7 @@ impl<'s> CsvColumns<'s> {
         match row.get(column) {
             Some(cell) => self.sheet.number(cell),
             None => {
-                let expected = format!("the row must have {} cells at least", column + 1);
+                let expected = format!("the row must have at least {} cells", column + 1);
                 let mut fault = self.sheet.fault(&row[0], expected);
                 fault.found = Some(row.len().to_string());
                 Err(Box::new(fault))
@@ -117,7 +117,7 @@ mod tests {
         let faults = rows("x,y\n0,1\n0,two\n-1,2\n4\n", [0, 1]).expect_err("three faults");
         assert_eq!(
             faults,
-            "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not decrease: the row before is at 0\nt.csv:5:1: the row must have 2 cells at least, got 1"
+            "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not decrease: the previous row is at 0\nt.csv:5:1: the row must have at least 2 cells, got 1"
         );
         assert_eq!(
             rows("x,y\n", [0, 1]),

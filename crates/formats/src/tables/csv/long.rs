@@ -124,7 +124,7 @@ pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec
                         .and_then(|column| row.get(column))
                         .unwrap_or(&row[0]);
                     return Err(vec![
-                        sheet.fault(cell, "the id is that of a table of another name"),
+                        sheet.fault(cell, "this id belongs to a table with another name"),
                     ]);
                 }
                 groups.push(Group {
@@ -159,7 +159,7 @@ fn entry<'s>(
         return Err(sheet
             .fault(
                 &row[width],
-                format!("a row must have {width} cells, as the header"),
+                format!("a row must have {width} cells, like the header"),
             )
             .into());
     }
@@ -215,7 +215,7 @@ fn draft(
         return Err(sheet
             .fault(
                 &cell(entry, z),
-                "must have a z, as the other rows of the table",
+                "must have a z, like the other rows of the table",
             )
             .into());
     }

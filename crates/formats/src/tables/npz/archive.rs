@@ -51,7 +51,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
                 at("must be an .npy array".to_owned()).hint("numpy.savez writes them")
             }
             Refusal::Kind(descr) => {
-                let mut fault = at("must be real numbers or words".to_owned());
+                let mut fault = at("must be real numbers or text".to_owned());
                 fault.found = Some(format!("the type {descr}"));
                 fault.hint("such as numpy.asarray(values, dtype=float)")
             }

@@ -36,7 +36,7 @@ impl Pack<'_> {
             None => Ok(None),
             Some(Data::Words(words)) => Ok(Some(words.clone())),
             Some(Data::Numbers(_)) => Err(self
-                .fault(name, "must be words")
+                .fault(name, "must be text")
                 .hint("such as numpy.array([\"ft\", \"lbf\", \"s\"])")
                 .into()),
         }

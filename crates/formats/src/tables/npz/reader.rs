@@ -272,7 +272,11 @@ impl Pack<'_> {
                             ));
                         }
                         Some(x) if Some(x) != x_of(first) => {
-                            return Err(self.got(&place, "must have the x of the first term", id));
+                            return Err(self.got(
+                                &place,
+                                "must have the same x as the first term",
+                                id,
+                            ));
                         }
                         Some(_) => term[side] = id,
                     }
