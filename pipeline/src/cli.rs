@@ -128,9 +128,9 @@ pub struct DesignArgs {
     /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long)]
     pub force: bool,
-    /// Exit with status 1 if a code limit or a strength is exceeded
-    #[arg(long)]
-    pub fail_on_limit: bool,
+    /// Exit with status 1 if a check fails; with `strict` also if nothing was checked or a check of the named code was not done
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "limit", value_name = "WHEN")]
+    pub fail_on_limit: Option<FailOnLimit>,
 }
 
 /// Arguments of `sweep`.
@@ -636,4 +636,16 @@ pub struct SceneArgs {
     /// Overwrite files in the output folder that girderway did not write or that were modified since
     #[arg(long)]
     pub force: bool,
+    /// Exit with status 1 if a check of a run fails; with `strict` also if nothing was checked or a check of the named code was not done
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "limit", value_name = "WHEN")]
+    pub fail_on_limit: Option<FailOnLimit>,
+}
+
+/// When a verdict fails a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FailOnLimit {
+    /// A check failed.
+    Limit,
+    /// A check failed, there was nothing to check against, or a check of a named code was not done.
+    Strict,
 }

@@ -4,7 +4,7 @@
 //! The libraries perform the work itself: `formats` reads files, `foundations` and `results` compute, and `deck`,
 //! `report` and `study` produce the output, which `outputs` writes.
 //!
-//! Wings, lowest first: cli, exit, progress, interrupt, output, crosscheck, commands
+//! Wings, lowest first: cli, exit, verdict, progress, interrupt, output, crosscheck, commands
 
 pub mod cli;
 pub mod commands;
@@ -13,3 +13,4 @@ pub mod exit;
 pub mod interrupt;
 pub mod output;
 pub mod progress;
+pub mod verdict;

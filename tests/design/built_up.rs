@@ -327,7 +327,7 @@ fn group_10_has_the_forces_of_a_crane_that_tilts() {
     let said = found["left_out"].to_string();
     assert!(!said.contains("group 10"), "{said}");
     assert!(
-        said.contains("group 7: the part eta of the hoisted load"),
+        said.contains("part eta of the hoisted load that remains after release, in group 7"),
         "{said}"
     );
 }

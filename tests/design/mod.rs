@@ -7,6 +7,7 @@ mod lines;
 mod mill;
 mod moving;
 mod published;
+mod verdict;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -325,7 +326,7 @@ fn groups_of_a_code_become_cases_with_their_factors() {
     // What the design lacks is named.
     let left_out = found["left_out"].to_string();
     assert!(
-        left_out.contains("group 9: no train has a `buffer` force"),
+        left_out.contains("group 9 (EN 1991-3:2006): no train has a `buffer` force"),
         "{left_out}"
     );
 }

@@ -186,6 +186,7 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
         form: Form::Girder(girder),
         effects: Vec::new(),
         notes: Vec::new(),
+        incomplete: Vec::new(),
         outlines: Vec::new(),
         crane_rails: Vec::new(),
         preload: None,

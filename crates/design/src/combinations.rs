@@ -3,6 +3,7 @@
 use formats::design::{
     CODE_PARTS, Design, DesignCase, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
 };
+use formats::verdict::OmittedCheck;
 use practice::combination::{
     CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups,
 };
@@ -23,12 +24,12 @@ pub fn with_combinations(design: &Design) -> Design {
 }
 
 /// The groups that a design cannot form, with the reasons.
-pub(crate) fn groups_left_out(design: &Design) -> Vec<String> {
+pub(crate) fn groups_left_out(design: &Design) -> Vec<OmittedCheck> {
     combined(design).1
 }
 
 /// The cases of the groups, and the groups that are left out.
-fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
+fn combined(design: &Design) -> (Vec<DesignCase>, Vec<OmittedCheck>) {
     let mut cases = Vec::new();
     let mut left_out = Vec::new();
     if !design.practice.combinations {
@@ -37,7 +38,8 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
     let (groups, dynamic) = match groups(design) {
         Ok(found) => found,
         Err(why) => {
-            left_out.push(why);
+            let code = design.practice.code.clone().unwrap_or_default();
+            left_out.push(OmittedCheck::new("load groups", why).of_code(code, None));
             return (cases, left_out);
         }
     };
@@ -62,7 +64,8 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
                     ..case.clone()
                 }),
                 Err(why) => {
-                    let line = format!("{code}, group {}: {why}", group.name);
+                    let line =
+                        OmittedCheck::new(format!("group {}", group.name), why).of_code(code, None);
                     if !left_out.contains(&line) {
                         left_out.push(line);
                     }
@@ -74,20 +77,18 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
 }
 
 /// The groups whose wind in service is left out.
-fn wind(groups: &[LoadGroup]) -> Option<String> {
+fn wind(groups: &[LoadGroup]) -> Option<OmittedCheck> {
     let with_wind = groups
         .iter()
         .filter(|group| group.loads.iter().any(|own| own.load == CraneLoad::Wind));
     let names: Vec<&str> = with_wind.clone().map(|group| group.name).collect();
     let code = with_wind.map(|group| group.clause.standard).next()?;
-    Some(format!(
-        "{code}, groups {}: in-service wind is not included, because a design has no wind loads",
-        names.join(", ")
-    ))
+    let check = format!("in-service wind in groups {}", names.join(", "));
+    Some(OmittedCheck::new(check, "a design has no wind loads").of_code(code, None))
 }
 
 /// The groups whose hoisted load is the part that remains without the payload, which is left out.
-fn remaining(groups: &[LoadGroup]) -> Option<String> {
+fn remaining(groups: &[LoadGroup]) -> Option<OmittedCheck> {
     let remains = |group: &&LoadGroup| {
         group
             .loads
@@ -95,11 +96,12 @@ fn remaining(groups: &[LoadGroup]) -> Option<String> {
             .any(|own| own.factor == LoadFactor::Remaining)
     };
     let group = groups.iter().find(remains)?;
-    Some(format!(
-        "{}, group {}: the part eta of the hoisted load that remains after release of the payload is not specified in \
-         a design and is taken as 0",
-        group.clause.standard, group.name
-    ))
+    let check = format!(
+        "part eta of the hoisted load that remains after release, in group {}",
+        group.name
+    );
+    let reason = "it is not specified in a design and is taken as 0";
+    Some(OmittedCheck::new(check, reason).of_code(group.clause.standard, None))
 }
 
 /// The groups of the code, with the dynamic factors of the crane.
@@ -114,7 +116,7 @@ fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
             let phi2 = design
                 .practice
                 .phi2()
-                .ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
+                .ok_or("give `hoisting` and `hoist_speed` for phi2")?;
             let [_, phi5] = phi5(design.practice.drives);
             let factors = DynamicFactors::of_crane(
                 phi2,

@@ -2,6 +2,7 @@
 
 use fea::{Model, Rail};
 use formats::design::Design;
+use formats::verdict::OmittedCheck;
 use trains::{DeadLoads, Error, TrainCase};
 
 use crate::end_stops::{self, end_stop_forces};
@@ -24,7 +25,7 @@ pub(crate) struct Details {
     pub pairs: Vec<RailPairResponse>,
     /// Limits of pairs of rails.
     pub limits: Vec<LimitCheck>,
-    pub left_out: Vec<String>,
+    pub left_out: Vec<OmittedCheck>,
 }
 
 impl Details {

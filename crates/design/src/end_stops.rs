@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use formats::design::Design;
+use formats::verdict::OmittedCheck;
 
 use crate::outcome::EndStopForce;
 
@@ -46,7 +47,7 @@ pub(crate) fn end_stop_forces(design: &Design) -> Vec<EndStopForce> {
 }
 
 /// Why end stops have no forces although trains have buffers.
-pub(crate) fn left_out(design: &Design) -> Option<String> {
+pub(crate) fn left_out(design: &Design) -> Option<OmittedCheck> {
     let has_buffer = design
         .trains
         .iter()
@@ -54,5 +55,5 @@ pub(crate) fn left_out(design: &Design) -> Option<String> {
         .any(|wheel| wheel.buffer != 0.0);
     let is_factored = design.cases.iter().any(|case| case.factor("buffer") != 0.0);
     (has_buffer && !is_factored)
-        .then(|| "forces on end stops: no case has a factor for `buffer`".to_owned())
+        .then(|| OmittedCheck::new("forces on end stops", "no case has a factor for `buffer`"))
 }

@@ -5,6 +5,7 @@ use formats::LateralSection;
 use formats::spec::Spec;
 use formats::units::Length;
 use formats::vector::dot;
+use formats::verdict::OmittedCheck;
 
 use crate::fibres::{CompositeRail, Fibres};
 use crate::placed::rail_axes;
@@ -148,7 +149,7 @@ fn composite_rail(
 
 /// Lines of what is left out, where several rails lack the same: `what on rails a, b: why`.
 #[must_use]
-pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<String> {
+pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<OmittedCheck> {
     let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
     for (rail, why) in lacks {
         match reasons.iter_mut().find(|(known, _)| known == why) {
@@ -161,11 +162,8 @@ pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<String> {
     reasons
         .iter()
         .map(|(why, rails)| {
-            format!(
-                "{what} on {} {}: {why}",
-                word(rails.len()),
-                rails.join(", ")
-            )
+            let check = format!("{what} on {} {}", word(rails.len()), rails.join(", "));
+            OmittedCheck::new(check, *why)
         })
         .collect()
 }

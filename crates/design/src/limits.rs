@@ -1,117 +1,202 @@
-//! Limits of codes against the results of a design, and loads for fatigue.
+//! Limits of deflections against the results of a design, and loads for fatigue.
 
 use formats::design::{CODE_PARTS, Design, DesignTrain, DesignWheel, TILTING};
+use formats::text::fault::number;
 use formats::units::{Dimension, Scale, Units};
+use formats::verdict::OmittedCheck;
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
 use practice::limits::{DeflectionLimit, LimitedDisplacement};
-use trains::GirderResponse;
+use trains::{CaseEnvelopes, GirderResponse, Governing};
 
-use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse, SolvedCase};
+use crate::chords::{Chords, PLANES};
+use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse};
+use crate::service::{ServiceCase, ServiceLoad};
 
 /// Lateral deflections below this fraction of the largest deflection are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Loads of a lateral deflection where no train of the case has lateral forces.
-const VERTICAL_ALONE: &str = "vertical wheel loads only, which displace the rail laterally";
-
-/// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
-/// and without factors, as the codes want them.
-pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCheck> {
-    let rails = design.spec.rails();
-    let metric = Scale {
-        from: design.units,
-        to: Units::SI,
-    }
-    .factor(Dimension::LENGTH);
+/// The limits on the deflections of all spans and overhangs; `found` are the responses of each service case, whose spans are
+/// those of the vertical plane, with their ends in `vertical` by rail.
+pub(crate) fn check_limits(
+    design: &Design,
+    vertical: &[Vec<f64>],
+    cases: &[ServiceCase],
+    found: &[CaseEnvelopes],
+) -> Vec<LimitCheck> {
     let mut out = Vec::new();
-    for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
-        if !case.factors.is_empty() {
-            continue;
-        }
-        let sizes = solved
-            .envelopes
-            .deflections
-            .iter()
-            .map(|found| found.governing.value.abs());
-        let is_thrust = case
-            .trains
-            .iter()
-            .any(|&train| design.trains[train].has_lateral_forces());
-        let least = ROUNDING * sizes.fold(0.0, f64::max);
-        for deflection in &solved.envelopes.deflections {
-            let moves = deflection.governing.value.abs() > least;
-            for limit in &design.practice.limits {
-                let Some(quantity) = words(limit, deflection.quantity, moves || is_thrust) else {
-                    continue;
-                };
-                let is_sideways = deflection.quantity == GirderResponse::LateralDeflection;
-                let span = (deflection.ends[1] - deflection.ends[0]) * metric;
-                let Ok(allowed) = limit.allowable(span) else {
-                    continue;
-                };
-                out.push(LimitCheck {
-                    clause: limit.clause,
-                    quantity,
-                    formula: limit.formula(),
-                    loads: if is_sideways && !is_thrust {
-                        VERTICAL_ALONE
-                    } else {
-                        limit.loads
-                    },
-                    value: deflection.governing.value.abs(),
-                    limit: allowed / metric,
-                    case: number + 1,
-                    rail: rails[deflection.rail].name.clone(),
-                    span: deflection.span,
-                    is_sampled: false,
-                });
+    for (service, found) in cases.iter().zip(found) {
+        let cranes = design.cases[service.case].trains.len();
+        for limit in &design.practice.limits {
+            if !service.serves(limit.loads, limit.displacement, cranes) {
+                continue;
+            }
+            let rows = Rows {
+                design,
+                service,
+                limit,
+            };
+            match limit.displacement {
+                LimitedDisplacement::Overhang => rows.overhangs(vertical, found, &mut out),
+                _ => rows.spans(found, &mut out),
             }
         }
     }
     out
 }
 
-/// What a limit bounds, where it bounds this deflection of a runway; `is_lateral` is whether lateral deflections count. One that
-/// is not zero counts also where no lateral force acts: inclined or eccentric rails and unsymmetric structures move sideways
-/// under vertical forces.
-fn words(
-    limit: &DeflectionLimit,
-    quantity: GirderResponse,
-    is_lateral: bool,
-) -> Option<&'static str> {
-    match (limit.displacement, quantity) {
-        (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
-            Some("vertical deflection")
+/// Rows of one limit in one service case.
+struct Rows<'a> {
+    design: &'a Design,
+    service: &'a ServiceCase,
+    limit: &'a DeflectionLimit,
+}
+
+impl Rows<'_> {
+    /// Deflections of spans from their chords. Under vertical loads alone a lateral deflection counts where it is not
+    /// rounding: inclined or eccentric rails and unsymmetric structures move sideways.
+    fn spans(&self, found: &CaseEnvelopes, out: &mut Vec<LimitCheck>) {
+        let (quantity, wanted) = match self.limit.displacement {
+            LimitedDisplacement::RunwayVertical => {
+                ("vertical deflection", GirderResponse::VerticalDeflection)
+            }
+            LimitedDisplacement::RunwayLateral => {
+                ("lateral deflection", GirderResponse::LateralDeflection)
+            }
+            _ => return,
+        };
+        let sizes = found.deflections.iter().map(|d| d.governing.value.abs());
+        let least = ROUNDING * sizes.fold(0.0, f64::max);
+        let is_side_effect = wanted == GirderResponse::LateralDeflection
+            && self.service.load == ServiceLoad::Vertical;
+        for deflection in found.deflections.iter().filter(|d| d.quantity == wanted) {
+            if is_side_effect && deflection.governing.value.abs() <= least {
+                continue;
+            }
+            let place = (deflection.rail, deflection.span);
+            out.extend(self.row(quantity, place, deflection.ends, &deflection.governing));
         }
-        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_lateral => {
-            Some("lateral deflection")
+    }
+
+    /// Largest absolute deflections of overhangs.
+    fn overhangs(&self, vertical: &[Vec<f64>], found: &CaseEnvelopes, out: &mut Vec<LimitCheck>) {
+        for (rail, span, ends) in overhangs(self.design, vertical) {
+            let own = found.extremes.iter().filter(|e| {
+                (e.rail, e.span, e.quantity) == (rail, span, GirderResponse::VerticalDeflection)
+            });
+            let largest =
+                own.max_by(|a, b| a.governing.value.abs().total_cmp(&b.governing.value.abs()));
+            out.extend(largest.and_then(|largest| {
+                let quantity = "deflection of the overhang";
+                self.row(quantity, (rail, span), ends, &largest.governing)
+            }));
         }
-        _ => None,
+    }
+
+    fn row(
+        &self,
+        quantity: &'static str,
+        (rail, span): (usize, usize),
+        ends: [f64; 2],
+        governing: &Governing,
+    ) -> Option<LimitCheck> {
+        let metre = metre(self.design);
+        let allowed = self.limit.allowable((ends[1] - ends[0]) * metre).ok()?;
+        Some(LimitCheck {
+            clause: self.limit.clause,
+            quantity,
+            formula: self.limit.formula(),
+            loads: self.service.words(self.limit.loads),
+            value: governing.value.abs(),
+            limit: allowed / metre,
+            case: self.service.case + 1,
+            rail: self.design.spec.rails()[rail].name.clone(),
+            span,
+            ends,
+            x: governing.x,
+            position: governing.trains.first().map(|train| train.position),
+            is_sampled: false,
+        })
     }
 }
 
-/// Limits of the code that a design cannot check, and groups of loads that it cannot form, with the reasons; `pairs` are the
-/// responses of pairs of rails, `rows` the limits that are checked.
+/// A metre over the unit of length of the design, so that a length times it is in m.
+fn metre(design: &Design) -> f64 {
+    let scale = Scale {
+        from: design.units,
+        to: Units::SI,
+    };
+    scale.factor(Dimension::LENGTH)
+}
+
+/// Overhangs: rail, number of the span, coordinates of the ends; `vertical` are the ends of spans by rail.
+fn overhangs(design: &Design, vertical: &[Vec<f64>]) -> Vec<(usize, usize, [f64; 2])> {
+    let mut out = Vec::new();
+    for (rail, outline) in design.spec.rails().iter().enumerate() {
+        let ends = &vertical[rail];
+        let (Some(first), Some(last)) = (ends.first(), ends.last()) else {
+            continue;
+        };
+        let [low, high] = outline.range;
+        let slack = 1e-9 * (high - low);
+        let both = [(0, [low, *first]), (ends.len(), [*last, high])];
+        let real = both.into_iter().filter(|(_, [from, to])| to - from > slack);
+        out.extend(real.map(|(span, ends)| (rail, span, ends)));
+    }
+    out
+}
+
+/// Limits that a design cannot check, and groups of loads that it cannot form, with the reasons; `pairs` are the responses of
+/// pairs of rails, `rows` the limits that are checked.
 pub(crate) fn left_out(
     design: &Design,
-    groups: &[String],
+    chords: &Chords,
+    groups: Vec<OmittedCheck>,
     pairs: &[RailPairResponse],
     rows: &[LimitCheck],
-) -> Vec<String> {
+) -> Vec<OmittedCheck> {
     let mut out = Vec::new();
     for limit in &design.practice.limits {
-        let why = match limit.displacement {
-            LimitedDisplacement::RunwayVertical => continue,
-            LimitedDisplacement::RunwayLateral
-                if design.trains.iter().any(DesignTrain::has_lateral_forces)
-                    || rows.iter().any(|row| row.quantity == "lateral deflection") =>
-            {
-                continue;
+        let omitted = |reason: &str| {
+            omitted_limit(limit, &limit.displacement.word().replace('_', " "), reason)
+        };
+        let is_checked = rows.iter().any(|row| {
+            row.clause == limit.clause
+                && match limit.displacement {
+                    LimitedDisplacement::RunwayVertical => row.quantity == "vertical deflection",
+                    LimitedDisplacement::RunwayLateral => row.quantity == "lateral deflection",
+                    LimitedDisplacement::Overhang => row.quantity == "deflection of the overhang",
+                    _ => false,
+                }
+        });
+        let plane = match limit.displacement {
+            LimitedDisplacement::RunwayVertical => Some(0),
+            LimitedDisplacement::RunwayLateral => Some(1),
+            _ => None,
+        };
+        let undefined: Vec<_> = chords
+            .undefined
+            .iter()
+            .filter(|(own, ..)| Some(*own) == plane)
+            .collect();
+        for (plane, rail, reason) in &undefined {
+            let name = &design.spec.rails()[*rail].name;
+            let check = format!("{} deflection of rail {name}", PLANES[*plane]);
+            out.push(omitted_limit(limit, &check, reason));
+        }
+        if is_checked || !undefined.is_empty() {
+            continue;
+        }
+        match limit.displacement {
+            LimitedDisplacement::RunwayVertical => {
+                out.push(omitted("no train has vertical forces"))
             }
-            LimitedDisplacement::RunwayLateral => "no train has lateral forces",
+            LimitedDisplacement::RunwayLateral => out.push(omitted(
+                "no train has lateral forces, or the rails have no lateral stiffness",
+            )),
+            LimitedDisplacement::Overhang => out.push(omitted("no rail has an overhang")),
             LimitedDisplacement::MonorailVertical | LimitedDisplacement::BridgeGirder => {
-                "a design calculates runways"
+                out.push(omitted("a design calculates runways"));
             }
             LimitedDisplacement::GaugeChange | LimitedDisplacement::HeightDifference => {
                 let quantity = if limit.displacement == LimitedDisplacement::GaugeChange {
@@ -119,33 +204,66 @@ pub(crate) fn left_out(
                 } else {
                     "difference in height"
                 };
-                if pairs.iter().any(|pair| pair.quantity == quantity) {
-                    continue;
+                if !pairs.iter().any(|pair| pair.quantity == quantity) {
+                    out.push(omitted(
+                        "no train of a case without factors is on two rails that resist these displacements",
+                    ));
                 }
-                "no train of a case without factors is on two rails that resist these displacements"
             }
-            _ => "a design computes deflections of rails, not of frames; use `record` in a scene",
-        };
-        let name = limit.displacement.word();
-        let clause = limit.clause;
-        out.push(format!(
-            "{name} ({} {}): {why}",
-            clause.standard, clause.clause
+            LimitedDisplacement::FrameLateral | LimitedDisplacement::FrameDifference => {
+                out.push(omitted(
+                    "a design computes deflections of rails, not of frames; use `record` in a scene",
+                ));
+            }
+        }
+    }
+    out.extend(overhangs_without_limit(design, chords));
+    if design.practice.s_class.is_some() && design.practice.phi2().is_none() {
+        out.push(OmittedCheck::new(
+            "damage-equivalent wheel loads",
+            "give `hoisting` and `hoist_speed` for phi2",
         ));
     }
-    if design.practice.s_class.is_some() && design.practice.phi2().is_none() {
-        out.push(
-            "damage-equivalent wheel loads: give `hoisting` and `hoist_speed` for phi2".to_owned(),
-        );
-    }
     if design.practice.s_class.is_some() && !design.trains.iter().any(has_parts) {
-        out.push(
-            "damage-equivalent wheel loads: give vertical forces in the parts `crane` and `hoist`"
-                .to_owned(),
-        );
+        out.push(OmittedCheck::new(
+            "damage-equivalent wheel loads",
+            "give vertical forces in the parts `crane` and `hoist`",
+        ));
     }
-    out.extend(groups.iter().cloned());
+    out.extend(groups);
     out
+}
+
+/// A limit that was not checked.
+fn omitted_limit(limit: &DeflectionLimit, check: &str, reason: &str) -> OmittedCheck {
+    let clause = &limit.clause;
+    OmittedCheck::new(check, reason).of_code(clause.standard, Some(clause.clause))
+}
+
+/// Overhangs on which no limit bears although a code is named.
+fn overhangs_without_limit(design: &Design, chords: &Chords) -> Vec<OmittedCheck> {
+    let has_own = |limit: &DeflectionLimit| limit.displacement == LimitedDisplacement::Overhang;
+    let (Some(code), false) = (
+        &design.practice.code,
+        design.practice.limits.iter().any(has_own),
+    ) else {
+        return Vec::new();
+    };
+    let rails = design.spec.rails();
+    let omitted = |(rail, _, ends): (usize, usize, [f64; 2])| {
+        let [from, to] = ends.map(number);
+        let check = format!(
+            "deflection of the overhang from {from} to {to} of rail {}",
+            rails[rail].name
+        );
+        let reason =
+            "no limit of the code for overhangs is known; specify `practice.limits.overhang`";
+        OmittedCheck::new(check, reason).of_code(code.clone(), None)
+    };
+    overhangs(design, &chords.ends[0])
+        .into_iter()
+        .map(omitted)
+        .collect()
 }
 
 fn has_parts(train: &DesignTrain) -> bool {

@@ -1,6 +1,7 @@
 //! What the calculation of a design gives.
 
 use formats::LateralSection;
+use formats::verdict::OmittedCheck;
 use practice::clause::CodeClause;
 use trains::{CaseEnvelopes, Governing};
 
@@ -11,8 +12,13 @@ use crate::loads::LoadKind;
 pub struct DesignResult {
     /// One for each case, in the order of the design.
     pub cases: Vec<SolvedCase>,
-    /// Limits of codes against the results.
+    /// Limits of deflections against the results.
     pub limits: Vec<LimitCheck>,
+    /// Coordinates of the ends of the spans of limits, by plane (vertical, lateral) and rail; empty where a rail has none.
+    pub chords: [Vec<Vec<f64>>; 2],
+    /// By rail: whether it stands on an arm on members of open section, whose lateral deflections are upper bounds because
+    /// their torsion has no warping.
+    pub is_lateral_bound: Vec<bool>,
     /// Largest direct stress and largest shear stress in the web of each rail and case.
     pub stresses: Vec<StressCheck>,
     /// Local stresses in webs under the largest wheel of each rail and case.
@@ -23,8 +29,8 @@ pub struct DesignResult {
     pub pairs: Vec<RailPairResponse>,
     /// Damage-equivalent loads of the wheels of each train.
     pub fatigue: Vec<FatigueLoads>,
-    /// What the code has and the design does not give, so that it is left out: name and reason.
-    pub left_out: Vec<String>,
+    /// Checks and results that are left out, with the reasons.
+    pub left_out: Vec<OmittedCheck>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Bound of the relative error of the influence coefficients.
@@ -83,8 +89,14 @@ pub struct LimitCheck {
     pub case: usize,
     /// Name of the rail.
     pub rail: String,
-    /// Number of the span from 1.
+    /// Number of the span of its plane from 1; 0 and one more than the last for overhangs.
     pub span: usize,
+    /// Coordinates of the ends of the span.
+    pub ends: [f64; 2],
+    /// Coordinate of the largest value.
+    pub x: f64,
+    /// Position of the first train.
+    pub position: Option<f64>,
     /// Whether the value is the largest of chosen states only; otherwise it is the largest of all states.
     pub is_sampled: bool,
 }
@@ -234,15 +246,6 @@ pub struct RailPairResponse {
     pub span: usize,
     /// The state.
     pub governing: Governing,
-}
-
-impl DesignResult {
-    /// Whether all limits are kept and no stress exceeds its strength.
-    #[must_use]
-    pub fn within(&self) -> bool {
-        self.limits.iter().all(LimitCheck::within)
-            && self.stresses.iter().all(|s| s.utilisation() <= 1.0)
-    }
 }
 
 impl LimitCheck {

@@ -126,12 +126,15 @@ pub(crate) fn pair_limits(design: &Design, responses: &[RailPairResponse]) -> Ve
                 clause: limit.clause,
                 quantity: found.quantity,
                 formula: limit.formula(),
-                loads: limit.loads,
+                loads: limit.loads.words(),
                 value: found.value.abs(),
                 limit: allowed / metric,
                 case: found.case,
                 rail: found.rails.join(", "),
                 span: found.span,
+                ends: [0.0, found.distance],
+                x: found.x,
+                position: found.governing.trains.first().map(|train| train.position),
                 is_sampled: true,
             });
         }

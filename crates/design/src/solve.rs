@@ -8,14 +8,17 @@ use formats::design::{Design, DesignCase};
 use formats::kept::KeptValues;
 use formats::spec::{SolveError, Spec};
 use formats::text::inputs::Inputs;
+use formats::verdict::OmittedCheck;
 use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
+use crate::chords::{Chords, PlaneSpans};
 use crate::combinations::groups_left_out;
 use crate::details::Details;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
-use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
+use crate::outcome::{DesignResult, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
+use crate::service::service_cases;
 use crate::solve_error::solve_error;
 use crate::words::quantity_word;
 
@@ -35,6 +38,7 @@ struct DesignStructure {
     model: Model,
     rails: Vec<Rail>,
     structure: Structure,
+    spans: PlaneSpans,
 }
 
 impl DesignStructures {
@@ -45,10 +49,12 @@ impl DesignStructures {
             .get(&(Arc::clone(&design.spec), is_eccentric), || {
                 let (model, rails) = design.spec.model()?;
                 let structure = Structure::new(&model, &rails, is_eccentric)?;
+                let spans = PlaneSpans::new(&design.spec, &model, &rails, &structure)?;
                 Ok(Arc::new(DesignStructure {
                     model,
                     rails,
                     structure,
+                    spans,
                 }))
             })
     }
@@ -77,6 +83,7 @@ pub fn solve_on(
         model,
         rails,
         structure,
+        spans,
     } = &*solved;
     let error = structure.error_of_lines().map_err(in_files)?;
     if error > MOST_ERROR {
@@ -102,8 +109,10 @@ pub fn solve_on(
     });
     let mut effects = reactions.clone();
     effects.extend(sections);
+    let chords = spans.chords(design);
     let request = Request {
         spans: design.spans.clone(),
+        chords: chords.ends.clone(),
         places: places(design, structure),
         effects,
     };
@@ -139,14 +148,26 @@ pub fn solve_on(
         ));
     }
     let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(in_files)?;
-    let mut limits = check_limits(design, &solved);
+    let mut limits = service_limits(design, structure, &chords).map_err(in_files)?;
     limits.extend(details.limits);
     let error_bound = structure.frame().certificate().error_bound;
-    let mut left_out = left_out(design, &groups_left_out(design), &details.pairs, &limits);
+    let mut left_out = left_out(
+        design,
+        &chords,
+        groups_left_out(design),
+        &details.pairs,
+        &limits,
+    );
     left_out.extend(details.left_out);
+    left_out.extend(doubts(design));
     Ok(DesignResult {
         cases: solved,
         limits,
+        chords: chords.ends,
+        is_lateral_bound: rails
+            .iter()
+            .map(|rail| is_lateral_bound(model, rail))
+            .collect(),
         stresses: details.stresses,
         wheel_stresses: details.wheel_stresses,
         end_stops: details.end_stops,
@@ -156,6 +177,56 @@ pub fn solve_on(
         warnings,
         error_bound,
     })
+}
+
+/// Largest ratio of the torsion constant to the sum of the second moments of area of an open section. It is 0.08 for the
+/// thickest rolled sections, and about 0.5 for boxes.
+const MAX_OPEN: f64 = 0.1;
+
+/// Whether a rail stands on an arm on a member of open section.
+fn is_lateral_bound(model: &Model, rail: &Rail) -> bool {
+    rail.segments.iter().any(|segment| {
+        let section = model
+            .members
+            .get(segment.member)
+            .and_then(|member| model.sections.get(member.section));
+        let is_open =
+            section.is_some_and(|own| own.j > 0.0 && own.j < MAX_OPEN * (own.iy + own.iz));
+        is_open && segment.offset.iter().any(|part| *part != 0.0)
+    })
+}
+
+/// The limits on deflections under the loads that they name, without factors.
+fn service_limits(
+    design: &Design,
+    structure: &Structure,
+    chords: &Chords,
+) -> Result<Vec<LimitCheck>, trains::Error> {
+    let services = service_cases(design, structure);
+    let cases: Vec<TrainCase> = services
+        .iter()
+        .map(|case| case.train_case(design))
+        .collect();
+    let mut out = Vec::new();
+    let firm = chords.has_soft_supports.then_some(&chords.firm);
+    for ends in [Some(&chords.ends), firm].into_iter().flatten() {
+        let request = Request {
+            spans: ends[0].clone(),
+            chords: ends.clone(),
+            ..Request::default()
+        };
+        let found = trains::envelopes(structure, &DeadLoads::default(), &cases, &request)?;
+        for row in check_limits(design, &ends[0], &services, &found) {
+            let same = |known: &LimitCheck| {
+                (&known.rail, known.ends, known.quantity) == (&row.rail, row.ends, row.quantity)
+                    && (known.case, known.clause, known.loads) == (row.case, row.clause, row.loads)
+            };
+            if !out.iter().any(same) {
+                out.push(row);
+            }
+        }
+    }
+    Ok(out)
 }
 
 /// Error of influence lines under a preload, relative, from which it is named: lines are divided for 1e-9, and a thousandth
@@ -236,6 +307,15 @@ fn places(design: &Design, structure: &Structure) -> Vec<Vec<f64>> {
     rails.iter().enumerate().map(on).collect()
 }
 
+/// Results of half an input, and values that are probably wrong.
+fn doubts(design: &Design) -> Vec<OmittedCheck> {
+    let mut out = design.spec.incomplete.clone();
+    out.extend(design.doubts());
+    let implausible = design.spec.warnings().into_iter();
+    out.extend(implausible.map(|warning| OmittedCheck::new("plausibility of the spec", warning)));
+    out
+}
+
 fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
     let mut out: Vec<String> = design
         .spec
@@ -243,6 +323,9 @@ fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
         .into_iter()
         .map(|warning| format!("{}: {warning}", design.spec_file))
         .collect();
+    let incomplete = design.spec.incomplete.iter();
+    out.extend(incomplete.map(|one| format!("{}: {one}", design.spec_file)));
+    out.extend(design.doubts().iter().map(ToString::to_string));
     if design.dead.gravity > 0.0 && !design.spec.has_mass() {
         out.push(format!(
             "{}: no part of the structure has mass, so its weight is 0; specify `mass_per_length` or densities",

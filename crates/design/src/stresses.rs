@@ -7,6 +7,7 @@
 //! place.
 
 use formats::design::Design;
+use formats::verdict::OmittedCheck;
 use trains::{EnvelopeValue, Error, GirderResponse, Governing, SpanExtreme, TrainCase};
 
 use crate::fibres::Fibres;
@@ -46,7 +47,7 @@ impl StressBasis<'_> {
     }
 
     /// What is left out for want of data.
-    pub fn left_out(&self) -> Vec<String> {
+    pub fn left_out(&self) -> Vec<OmittedCheck> {
         let rails = self.design.spec.rails();
         let (mut lacks, mut no_web, mut in_rail) = (Vec::new(), Vec::new(), Vec::new());
         for (rail, outline) in rails.iter().enumerate() {

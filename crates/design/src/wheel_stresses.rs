@@ -11,6 +11,7 @@ use crate::state_forces::StateForces;
 use crate::stresses::StressBasis;
 use formats::spec::{SectionPlates, SpecCraneRail};
 use formats::units::Length;
+use formats::verdict::OmittedCheck;
 
 /// Whether any rail has a crane rail on an upright I section.
 pub(crate) fn has_any(basis: &StressBasis<'_>) -> bool {
@@ -41,7 +42,7 @@ pub(crate) fn wheel_stresses(basis: &StressBasis<'_>, forces: &StateForces) -> V
 }
 
 /// What is left out for want of data.
-pub(crate) fn left_out(basis: &StressBasis<'_>) -> Vec<String> {
+pub(crate) fn left_out(basis: &StressBasis<'_>) -> Vec<OmittedCheck> {
     let rails = basis.design.spec.rails();
     let lacks: Vec<(String, String)> = rails
         .iter()

@@ -24,15 +24,16 @@
 //! ```
 //!
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
-//! [`scene`], [`design`], [`sweep`], [`schema`].
+//! [`scene`], [`design`], [`sweep`], [`schema`]; [`verdict`] is what summaries of designs and runs have in common.
 //!
-//! Wings, lowest first: limits, kept, text, vector, units, check, practice_words, spec, grid, tables, scene, design, sweep, schema
+//! Wings, lowest first: limits, kept, verdict, text, vector, units, check, own_limits, practice_words, spec, grid, tables, scene, design, sweep, schema
 
 pub mod check;
 pub mod design;
 pub mod grid;
 pub mod kept;
 pub mod limits;
+mod own_limits;
 mod practice_words;
 pub mod scene;
 pub mod schema;
@@ -42,5 +43,6 @@ pub mod tables;
 pub mod text;
 pub mod units;
 pub mod vector;
+pub mod verdict;
 
 pub use practice_words::LateralSection;

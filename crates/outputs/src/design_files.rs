@@ -12,6 +12,7 @@ use design::{DesignResult, GoverningLine};
 use formats::design::Design;
 use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
+use formats::verdict::Verdict;
 use report::text::design_report::design_report;
 
 /// Files of a design.
@@ -50,6 +51,12 @@ impl SolvedDesign {
             result,
             lines,
         })
+    }
+
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        design::verdict(&self.design, &self.result)
     }
 
     /// The contents of `summary.json`.

@@ -50,7 +50,7 @@ mod signals;
 
 pub use codes::{
     aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limit_choice,
-    limits, local_stress, mill_combination, osha, skew,
+    limits, local_stress, mill_combination, osha, scope, skew,
 };
 pub use crane::{Crane, StaticWheelLoads};
 pub use error::{Argument, Error};

@@ -36,9 +36,10 @@ pub(crate) use document::code::coded;
 pub use document::number::{cleared, is_rounding, number};
 pub use document::page::Report;
 pub use document::section::{
-    Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
+    Banner, BannerTone, Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
 };
 pub use error::Error;
+pub use text::checks::verdict_lines;
 
 #[cfg(test)]
 mod tests;

@@ -49,6 +49,8 @@ pub struct CaseResult {
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
+    /// Bounds of the relative errors of influence coefficients, by structure.
+    pub error_bounds: Vec<(String, f64)>,
     /// What first order leaves out, once it has been asked for.
     pub(crate) second_order: OnceLock<Vec<FirstOrderDoubt>>,
     /// Its warnings, once they have been asked for.

@@ -18,7 +18,8 @@ use crate::columns::NamedColumns;
 use crate::fatigue;
 use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
-use crate::response::{self, Response, SceneMode};
+use crate::plane_spans::plane_spans;
+use crate::response::{self, Response, SceneMode, SolvedStructures};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
 use formats::scene::{self, Case, Document, Scene, Structure};
@@ -240,12 +241,16 @@ fn run_case(
         .collect();
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
+    let plane_spans = plane_spans(&scene, &solved);
     let mut response = Response::new(
         &scene,
         &input,
         &run.history,
         &built,
-        &solved,
+        SolvedStructures {
+            models: &solved,
+            chords: &plane_spans,
+        },
         &lines,
         &mut record,
     )?;
@@ -260,10 +265,17 @@ fn run_case(
     let spans = SpanResponse {
         history: &run.history,
         solved: &solved,
-        deflections: &response.deflections,
+        spans: &plane_spans,
     };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
+    let error_bounds = scene.structures.iter().zip(&solved);
+    let error_bounds = error_bounds
+        .filter_map(|(one, solved)| {
+            let certificate = solved.as_ref()?.grid.certificate?;
+            Some((one.name.clone(), certificate.error_bound))
+        })
+        .collect();
     if let Some((column, time)) = record.first_not_finite() {
         return Err(Error::NotFinite {
             label,
@@ -294,6 +306,7 @@ fn run_case(
         girders,
         codes,
         fatigue,
+        error_bounds,
         second_order: OnceLock::new(),
         warnings: OnceLock::new(),
     })

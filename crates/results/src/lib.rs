@@ -24,8 +24,8 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
-//! summary, observe, cases, scene_run, many
+//! Wings, lowest first: error, threads, columns, layout, plane_spans, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
+//! verdict, summary, observe, cases, scene_run, many
 
 pub mod case_result;
 pub mod cases;
@@ -37,12 +37,14 @@ pub mod girders;
 pub mod layout;
 pub mod many;
 pub mod observe;
+mod plane_spans;
 pub mod preflight;
 pub mod response;
 pub mod run_error;
 pub mod scene_run;
 pub mod summary;
 pub mod threads;
+pub mod verdict;
 pub mod warning;
 
 pub use error::Error;

@@ -37,5 +37,7 @@ pub use rolled::{RolledSection, SectionSeries, nearest_rolled, rolled, rolled_se
 pub const STEEL_DENSITY: f64 = 7850.0;
 /// Young's modulus of structural steel, N/m2 (EN 1993-1-1, 3.2.6).
 pub const STEEL_YOUNG: f64 = 210e9;
+/// Young's modulus of the AISC Manual, N/m2: 29,000 ksi.
+pub const AISC_YOUNG: f64 = 29_000.0 * 6.894_757_293_168_361e6;
 /// Shear modulus of structural steel, N/m2 (EN 1993-1-1, 3.2.6: approximately).
 pub const STEEL_SHEAR: f64 = 81e9;

@@ -25,6 +25,15 @@ pub enum SectionSeries {
 }
 
 impl SectionSeries {
+    /// Young's modulus of steel by the standard of the series, N/m2.
+    #[must_use]
+    pub const fn young(self) -> f64 {
+        match self {
+            SectionSeries::W => crate::AISC_YOUNG,
+            _ => crate::STEEL_YOUNG,
+        }
+    }
+
     /// The standard or manual that the dimensions are from.
     #[must_use]
     pub const fn standard(self) -> &'static str {

@@ -23,6 +23,14 @@ impl RunRow {
         self.values.push(value + 0.0);
         self.dimensions.push(dimension);
     }
+
+    /// Adds a ratio, or keeps the largest of those with this name.
+    pub(crate) fn add_largest(&mut self, name: String, ratio: f64) {
+        match self.names.iter().position(|known| *known == name) {
+            Some(place) => self.values[place] = self.values[place].max(ratio),
+            None => self.add(name, ratio, Dimension::NUMBER),
+        }
+    }
 }
 
 /// The results of a run, or the reason why it has none.

@@ -241,7 +241,8 @@ fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
     }
 }
 
-/// Limits and stresses of a design, each as the fraction that is used.
+/// Limits and stresses of a design, each as the fraction that is used: the largest of the loads and spans that a name stands
+/// for. Names contain neither sections nor the span that governs, so that they are the same for every run of a sweep.
 fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
     let name = |entry: &Value, last: &[&str]| {
         let text = |key: &str| entry[key].as_str().map(str::to_owned);
@@ -259,20 +260,17 @@ fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
         if let (Some(value), Some(most)) = (limit["value"].as_f64(), limit["limit"].as_f64())
             && most > 0.0
         {
-            row.add(
+            row.add_largest(
                 name(limit, &["quantity", "code", "clause"]),
                 value.abs() / most,
-                Dimension::NUMBER,
             );
         }
     }
     for stress in summary["stresses"].as_array().into_iter().flatten() {
         if let Some(used) = stress["utilisation"].as_f64() {
-            row.add(
-                name(stress, &["section", "quantity"]),
-                used,
-                Dimension::NUMBER,
-            );
+            let mut stress = stress.clone();
+            stress["span"] = Value::Null;
+            row.add_largest(name(&stress, &["quantity"]), used);
         }
     }
 }

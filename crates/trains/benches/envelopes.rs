@@ -60,6 +60,7 @@ fn calculate(spans: usize, wheels: usize, trains: usize) -> usize {
         spans: vec![ends],
         places: vec![places],
         effects,
+        ..Request::default()
     };
     let trains = (0..trains).map(|_| train(wheels)).collect();
     let case = TrainCase {

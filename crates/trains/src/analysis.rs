@@ -202,7 +202,7 @@ impl<'a> Analysis<'a> {
 
     /// Numbers of the first and the last span over a carrier.
     fn spans(&self, carrier: &Carrier) -> [usize; 2] {
-        let spans = spans_of(self.request, self.structure, carrier);
+        let spans = spans_of(&self.request.spans, self.structure, carrier);
         let number = |span: Option<&(usize, [f64; 2])>| span.map_or(0, |(number, _)| *number);
         [number(spans.first()), number(spans.last())]
     }
@@ -246,7 +246,7 @@ impl<'a> Analysis<'a> {
         dead: &DeadLoad,
         out: &mut Accumulated,
     ) -> Result<(), Error> {
-        for (span, ends) in spans_of(self.request, self.structure, carrier) {
+        for (span, ends) in spans_of(&self.request.spans, self.structure, carrier) {
             let window = ends.map(|x| carrier.place(x));
             let sections = [0, 1].map(|end| Section {
                 plan,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::extremes::{Governing, Request, TrainPosition};
+use crate::extremes::{Governing, TrainPosition};
 use crate::plan::{Arrangement, CasePlan, TIE};
 use crate::structure::{Carrier, GirderResponse, Structure};
 
@@ -97,15 +97,14 @@ pub(crate) fn is_better(found: &Governing, known: &Governing, sign: f64) -> bool
     !near(x, known_x) && x < known_x
 }
 
-/// The spans over a carrier with the part of each that lies on it.
+/// The spans over a carrier with the part of each that lies on it; `spans` are coordinates of their ends by rail.
 pub(crate) fn spans_of(
-    request: &Request,
+    spans: &[Vec<f64>],
     structure: &Structure,
     carrier: &Carrier,
 ) -> Vec<(usize, [f64; 2])> {
     let slack = structure.slack();
-    let none = Vec::new();
-    let ends = request.spans.get(carrier.rail).unwrap_or(&none);
+    let ends = spans.get(carrier.rail).map_or(&[][..], Vec::as_slice);
     let mut out = Vec::new();
     for span in 0..=ends.len() {
         let from = if span == 0 {

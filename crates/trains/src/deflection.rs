@@ -50,12 +50,12 @@ pub(crate) struct Deflections<'a> {
 impl Deflections<'_> {
     /// Extremes over all spans, added to those of the internal forces, which bound the curvature.
     pub fn extremes(&self, all: &mut Accumulated) -> Result<(), Error> {
-        for (span, window) in spans_of(self.request, self.structure, self.carrier) {
+        for (span, window) in spans_of(&self.request.spans, self.structure, self.carrier) {
             for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
                 if self.lines.deflections[direction].is_none() {
                     continue;
                 }
-                let bend = self.bend(span, all, direction)?;
+                let bend = self.bend(&[span], all, direction)?;
                 let several = bend.kinks > 0.0 && self.plan.trains.len() > 1;
                 let mut largest = 0.0;
                 for is_max in [true, false] {
@@ -205,58 +205,19 @@ impl Deflections<'_> {
         all: &mut Accumulated,
         out: &mut Vec<SpanDeflection>,
     ) -> Result<(), Error> {
-        let (structure, carrier, plan) = (self.structure, self.carrier, self.plan);
-        for (span, window) in spans_of(self.request, structure, carrier) {
-            let spans = &self.request.spans[carrier.rail];
-            if span == 0 || span >= spans.len() {
+        for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
+            if self.lines.deflections[direction].is_none() {
                 continue;
             }
-            let ends = [spans[span - 1], spans[span]];
-            let lines =
-                |direction| structure.deflection_lines(carrier, direction, Some(ends), self.used);
-            let Some(over) =
-                Overrun::of_deflections(structure, plan, carrier, [lines(0)?, lines(1)?])?
-            else {
-                continue;
-            };
-            for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
-                if self.lines.deflections[direction].is_none() {
+            let spans = self.request.chords(direction);
+            for (span, window) in spans_of(spans, self.structure, self.carrier) {
+                let ends = &spans[self.carrier.rail];
+                if span == 0 || span >= ends.len() {
                     continue;
                 }
-                let bend = self.bend(span, all, direction)?;
-                for sign in [1.0, -1.0] {
-                    let found = if plan.trains.len() == 1 {
-                        let search = Alone {
-                            plan,
-                            over: &over,
-                            carrier,
-                            quantity,
-                            sign,
-                            window,
-                            dead: None,
-                            kinks: bend.kinks,
-                            gap: GAP_OF_CHORDS,
-                            size: 0.0,
-                            most: MOST_OF_CHORDS,
-                        };
-                        search.enclosed(None, f64::NEG_INFINITY).0
-                    } else {
-                        let mut hints = Hints::default();
-                        let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hints));
-                        let margin: Margin<'_> = if bend.kinks > 0.0 {
-                            let blocked = self.blocked(direction, sign, bend)?;
-                            Box::new(move |x| blocked.margin(x))
-                        } else {
-                            Box::new(move |x| bend.margin(x))
-                        };
-                        let mut search = Search::new(sign, margin, window, value);
-                        search.gap = GAP_OF_CHORDS;
-                        search.most = MOST_OF_CHORDS;
-                        search.run()?;
-                        search.best
-                    };
-                    let Some(governing) = found else { continue };
-                    let rail = carrier.rail;
+                let ends = [ends[span - 1], ends[span]];
+                for governing in self.beside_chord(direction, ends, window, all)? {
+                    let rail = self.carrier.rail;
                     let known = out.iter_mut().rev().find(|known| {
                         (known.rail, known.span, known.quantity) == (rail, span, quantity)
                     });
@@ -279,17 +240,86 @@ impl Deflections<'_> {
         Ok(())
     }
 
-    /// How a deflection can bend within a span: bounds from the extremes of the internal forces.
-    fn bend(&self, span: usize, all: &mut Accumulated, direction: usize) -> Result<Bend, Error> {
+    /// The largest and the smallest deflection in a window from the chord between two ends.
+    fn beside_chord(
+        &self,
+        direction: usize,
+        ends: [f64; 2],
+        window: [f64; 2],
+        all: &mut Accumulated,
+    ) -> Result<Vec<Governing>, Error> {
+        let (structure, carrier, plan) = (self.structure, self.carrier, self.plan);
+        let mut lines = [None, None];
+        lines[direction] = structure.deflection_lines(carrier, direction, Some(ends), self.used)?;
+        let Some(over) = Overrun::of_deflections(structure, plan, carrier, lines)? else {
+            return Ok(Vec::new());
+        };
+        let slack = structure.slack();
+        let inside = |part: &(usize, [f64; 2])| {
+            part.1[0] < window[1] - slack && part.1[1] > window[0] + slack
+        };
+        let spans = spans_of(&self.request.spans, structure, carrier);
+        let spans: Vec<usize> = spans
+            .into_iter()
+            .filter(inside)
+            .map(|part| part.0)
+            .collect();
+        let bend = self.bend(&spans, all, direction)?;
+        let mut out = Vec::new();
+        for sign in [1.0, -1.0] {
+            let found = if plan.trains.len() == 1 {
+                let search = Alone {
+                    plan,
+                    over: &over,
+                    carrier,
+                    quantity: DEFLECTIONS[direction],
+                    sign,
+                    window,
+                    dead: None,
+                    kinks: bend.kinks,
+                    gap: GAP_OF_CHORDS,
+                    size: 0.0,
+                    most: MOST_OF_CHORDS,
+                };
+                search.enclosed(None, f64::NEG_INFINITY).0
+            } else {
+                let mut hints = Hints::default();
+                let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hints));
+                let margin: Margin<'_> = if bend.kinks > 0.0 {
+                    let blocked = self.blocked(direction, sign, bend)?;
+                    Box::new(move |x| blocked.margin(x))
+                } else {
+                    Box::new(move |x| bend.margin(x))
+                };
+                let mut search = Search::new(sign, margin, window, value);
+                search.gap = GAP_OF_CHORDS;
+                search.most = MOST_OF_CHORDS;
+                search.run()?;
+                search.best
+            };
+            out.extend(found);
+        }
+        Ok(out)
+    }
+
+    /// How a deflection can bend within spans: bounds from the extremes of the internal forces.
+    fn bend(
+        &self,
+        spans: &[usize],
+        all: &mut Accumulated,
+        direction: usize,
+    ) -> Result<Bend, Error> {
         let mut most = |quantity: GirderResponse| -> f64 {
-            let mut of = |is_max| {
+            let mut of = |span, is_max| {
                 let entry = entry(all, self.carrier.rail, span, quantity, is_max);
                 entry
                     .governing
                     .as_ref()
                     .map_or(0.0, |g| g.value.abs() + g.dead.abs())
             };
-            of(true).max(of(false))
+            spans.iter().fold(0.0, |most: f64, &span| {
+                most.max(of(span, true)).max(of(span, false))
+            })
         };
         let point = RailPoint::new(self.structure, self.carrier)?;
         let [t, u, z] = self.carrier.triad;

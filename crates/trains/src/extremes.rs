@@ -12,10 +12,21 @@ pub struct Request {
     /// By rail: increasing coordinates between which its spans lie. What is before the first and behind the last are
     /// overhangs.
     pub spans: Vec<Vec<f64>>,
+    /// By plane (vertical, lateral) and rail: increasing coordinates between which the chords of deflections lie. Where
+    /// a plane is empty, its chords are those of `spans`.
+    pub chords: [Vec<Vec<f64>>; 2],
     /// By rail: coordinates at which envelopes are wanted, beside those of the extremes.
     pub places: Vec<Vec<f64>>,
     /// Sums of effects elsewhere: reactions, and internal forces of named sections.
     pub effects: Vec<Vec<Effect>>,
+}
+
+impl Request {
+    /// By rail: coordinates between which the chords of a plane lie, vertical (0) or lateral (1).
+    pub(crate) fn chords(&self, plane: usize) -> &[Vec<f64>] {
+        let own = &self.chords[plane];
+        if own.is_empty() { &self.spans } else { own }
+    }
 }
 
 /// Where a train stands.
@@ -81,7 +92,7 @@ pub struct SpanExtreme {
 pub struct SpanDeflection {
     /// Index of the rail.
     pub rail: usize,
-    /// Number of the span, from 1.
+    /// Number of the span of its plane, from 1.
     pub span: usize,
     /// Coordinates of its ends.
     pub ends: [f64; 2],

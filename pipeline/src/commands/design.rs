@@ -8,7 +8,7 @@ use crate::cli::{DesignArgs, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use design::LimitCheck;
+use crate::verdict;
 use formats::design::Design;
 use formats::text::inputs::Inputs;
 use outputs::design_files::{SolvedDesign, open_design_folder};
@@ -24,40 +24,8 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     Progress::new(global).warn_of_commas(&inputs);
     let folder = || PathBuf::from("girderway-out").join(format!("{}-design", read.name));
     let path = args.output.clone().unwrap_or_else(folder);
-    let SolvedDesign { result, .. } = of_design(&read, inputs, &path, args.force, global)?;
-    let strained = result
-        .stresses
-        .iter()
-        .filter(|stress| stress.utilisation() > 1.0);
-    let (limits, stresses) = (
-        result.limits.iter().filter(|limit| !limit.within()).count(),
-        strained.clone().count(),
-    );
-    if !args.fail_on_limit || result.within() {
-        return Ok(Exit::Done);
-    }
-    let mut said = Vec::new();
-    if limits > 0 {
-        let count = if limits == 1 { "limit" } else { "limits" };
-        said.push(format!(
-            "{limits} {count} exceeded; largest utilisation: {}",
-            worst(&result.limits)
-        ));
-    }
-    let most = strained.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
-    said.extend(most.map(|most| {
-        let used = most.utilisation();
-        let (quantity, rail) = (most.quantity, &most.rail);
-        let count = if stresses == 1 {
-            "stress exceeds"
-        } else {
-            "stresses exceed"
-        };
-        format!(
-            "{stresses} {count} the strength; largest utilisation: {quantity} of rail {rail}, {used:.3}"
-        )
-    }));
-    Err(Failure::Differs(said.join("; ")))
+    let solved = of_design(&read, inputs, &path, args.force, global)?;
+    verdict::exit(&solved.verdict(), args.fail_on_limit)
 }
 
 /// Solves a design that is read, and writes its files into a folder.
@@ -83,26 +51,13 @@ pub(super) fn of_design(
     for note in &read.spec.notes {
         progress.say(&format!("note: {note}"));
     }
+    for line in report::verdict_lines(&solved.verdict(), read.units) {
+        progress.say(&line);
+    }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let all = json!({ "output": written.display().to_string(), "summary": solved.summary() });
         output::print(&json_text(&all))?;
     }
     Ok(solved)
-}
-
-/// The limit that is exceeded most, in words.
-fn worst(limits: &[LimitCheck]) -> String {
-    let ratio = |limit: &&LimitCheck| limit.value.abs() / limit.limit;
-    let found = limits.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-    found.map_or_else(String::new, |limit| {
-        format!(
-            "{} of rail {}, span {}: {:.3} ({})",
-            limit.quantity,
-            limit.rail,
-            limit.span,
-            ratio(&limit),
-            limit.clause.standard
-        )
-    })
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use crate::cli::{Global, SceneArgs as Arguments};
+use crate::cli::{FailOnLimit, Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
+use crate::verdict::exit as exit_of;
 use formats::scene::Document;
 use formats::spec::Spec;
 use foundations::{SolvedStructure, distinct_specs, solve_specs};
@@ -22,6 +23,7 @@ use results::cases::{RunOptions, SimulationProgress};
 use results::columns::peak;
 use results::preflight;
 use results::scene_run::SceneRun;
+use results::verdict::verdict;
 use results::warning;
 
 /// Solves the structures of a scene, simulates it, and writes the output folder.
@@ -46,7 +48,11 @@ pub(super) fn of_document(
     whole(
         "run",
         document,
-        (path, force),
+        Wanted {
+            path,
+            force,
+            fail: None,
+        },
         (global, StageClock::new()),
         solve,
     )
@@ -66,17 +72,28 @@ pub(super) fn job(
     whole(
         name,
         document,
-        (&path, args.force),
+        Wanted {
+            path: &path,
+            force: args.force,
+            fail: args.fail_on_limit,
+        },
         (global, clock),
         structures,
     )
+}
+
+/// Where the results go, and when a verdict fails the command.
+struct Wanted<'a> {
+    path: &'a Path,
+    force: bool,
+    fail: Option<FailOnLimit>,
 }
 
 /// Checks and simulates a document, and writes its files into a folder.
 fn whole(
     name: &str,
     document: Document,
-    (path, force): (&Path, bool),
+    Wanted { path, force, fail }: Wanted<'_>,
     (global, mut clock): (Global, StageClock),
     structures: Source,
 ) -> Result<Exit, Failure> {
@@ -115,7 +132,7 @@ fn whole(
     for warning in &written.warnings {
         progress.say(&format!("warning: {warning}"));
     }
-    let exit = finish(&run, &written, global, &progress);
+    let exit = finish(&run, &written, fail, global, &progress);
     // the process ends now, and its memory with it, in one piece
     std::mem::forget(run);
     exit
@@ -125,12 +142,31 @@ fn whole(
 fn finish(
     run: &SceneRun,
     written: &WrittenRun,
+    fail: Option<FailOnLimit>,
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
+    let incomplete = run.reason_incomplete();
+    let mut verdicts = Vec::new();
+    if incomplete.is_none() && (progress.speaks() || fail.is_some()) {
+        let cases = run.document.cases.iter().zip(&run.cases);
+        verdicts.extend(cases.map(|(case, outcome)| verdict(&case.scene, outcome)));
+    }
     // the warnings are computed anew
     if progress.speaks() {
         tell(run, progress);
+        let units = run.document.scene().units;
+        for (index, (own, outcome)) in verdicts.iter().zip(&run.cases).enumerate() {
+            let lines = report::verdict_lines(own, units);
+            if verdicts.len() > 1 {
+                progress.say(&format!("{}: {}", outcome.label, lines[0]));
+            } else {
+                progress.say(&lines[0]);
+            }
+            if index == 0 {
+                lines[1..].iter().for_each(|line| progress.say(line));
+            }
+        }
     }
     progress.say(&format!("wrote {}", written.folder.display()));
     if global.json {
@@ -138,8 +174,13 @@ fn finish(
             json!({ "output": written.folder.display().to_string(), "summary": written.summary });
         output::print(&json_text(&result))?;
     }
-    run.reason_incomplete()
-        .map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
+    if let Some(why) = incomplete {
+        return Err(Failure::Untrusted(why));
+    }
+    for own in &verdicts {
+        exit_of(own, fail)?;
+    }
+    Ok(Exit::Done)
 }
 
 /// Writes what the user should know of the results.

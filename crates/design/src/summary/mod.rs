@@ -1,12 +1,14 @@
 //! `summary.json` of a design.
 
 use formats::design::{Design, DesignSection};
+use formats::verdict::add_definitions;
 use serde_json::{Map, Value, json};
 use trains::{Governing, SpanDeflection, SpanExtreme};
 
 use crate::detail_rows::add_details;
 use crate::outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes};
 use crate::state_json::{add_state, train_names};
+use crate::verdict::verdict;
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 
 /// Name and version of the format.
@@ -15,6 +17,7 @@ pub const FORMAT: &str = "girderway-design-summary/1";
 /// The summary of a design as JSON.
 #[must_use]
 pub fn summary(design: &Design, result: &DesignResult) -> Value {
+    let verdict = verdict(design, result);
     let mut extremes = Vec::new();
     let mut deflections = Vec::new();
     for (index, case) in result.cases.iter().enumerate() {
@@ -66,12 +69,13 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
         "units": design.units.json(),
         "spec": design.spec_file,
         "error_bound": result.error_bound,
-        "within": result.within(),
+        "within": verdict.within(),
+        "verdict": verdict,
         "cases": cases,
         "extremes": extremes,
         "deflections": deflections,
         "limits": result.limits.iter().map(limit).collect::<Vec<_>>(),
-        "left_out": result.left_out,
+        "left_out": result.left_out.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "warnings": result.warnings,
     });
     if !result.fatigue.is_empty() {
@@ -91,8 +95,10 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
 /// ```
 #[must_use]
 pub fn summary_schema() -> Value {
-    serde_json::from_str(include_str!("schema.json"))
-        .expect("the schema is JSON, as the test of this function shows")
+    let mut schema: Value = serde_json::from_str(include_str!("schema.json"))
+        .expect("the schema is JSON, as the test of this function shows");
+    add_definitions(&mut schema);
+    schema
 }
 
 struct OfCase<'a> {
@@ -197,6 +203,8 @@ fn limit(check: &LimitCheck) -> Value {
         "case": check.case,
         "rail": check.rail,
         "span": check.span,
+        "from": check.ends[0] + 0.0,
+        "to": check.ends[1] + 0.0,
         "code": check.clause.standard,
         "edition": check.clause.edition,
         "clause": check.clause.clause,
@@ -207,6 +215,7 @@ fn limit(check: &LimitCheck) -> Value {
         "value": check.value,
         "limit": check.limit,
         "within": check.within(),
+        "x": check.x,
     });
     if check.is_sampled {
         out["sampled"] = json!(true);

@@ -1,8 +1,9 @@
 //! Design files: wheel trains on a structure, load cases, and what is asked of them.
 //!
 //! `raw` is the file as written, `values` the checked design, `practice` and `read` the
-//! readers.
+//! readers; `plausibility` values that are probably in another unit.
 
+mod plausibility;
 mod practice;
 mod raw;
 mod read;

@@ -8,6 +8,7 @@ use practice::limit_choice::{LIMIT_CODES, code_name, limits_of};
 use super::raw::RawDesignPractice;
 use super::values::DesignPractice;
 use crate::check::Check;
+use crate::own_limits;
 use crate::practice_words::{
     DRIVES, FASTENINGS, HOISTING, KINDS, LATERAL_SECTIONS, OPERATIONS, RELEASE, fatigue_classes,
 };
@@ -26,7 +27,10 @@ pub(super) fn read(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> DesignPractice {
-    let limits = limits(raw, at, check);
+    let mut limits = limits(raw, at, check);
+    if let Some(own) = &raw.limits {
+        limits.extend(own_limits::read(own, units, &at.key("limits"), check));
+    }
     let histories = fatigue_classes();
     let faults = &mut *check.faults;
     let s_class = raw

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
+use crate::own_limits::RawOwnLimits;
 use crate::text::entries::Entries;
 use crate::units::RawUnits;
 
@@ -160,6 +161,8 @@ pub(crate) struct RawSectionCut {
 pub(crate) struct RawDesignPractice {
     /// Design code, such as "EN 1991-3", "ASCE 7" or "AIST TR-13".
     pub code: Option<String>,
+    /// Limits of one's own on deflections.
+    pub limits: Option<RawOwnLimits>,
     /// Service class of the crane in the code.
     pub class: Option<String>,
     /// Class of load effect history of EN 1991-3, "S0" to "S9".

@@ -115,7 +115,7 @@ fn read(
         &at,
         check.faults,
     );
-    let spans = spans(raw, &spec, &rails, &root, &mut check);
+    let (spans, are_spans_given) = spans(raw, &spec, &rails, &root, &mut check);
     let given = raw.practice.clone().unwrap_or_default();
     let practice = practice::read(&given, units, &root.key("practice"), &mut check);
     if practice.combinations {
@@ -137,6 +137,7 @@ fn read(
         cases,
         sections,
         spans,
+        are_spans_given,
         practice,
     })
 }
@@ -808,21 +809,13 @@ fn spans(
     rails: &[RailOutline],
     root: &Place<'_>,
     check: &mut Check<'_>,
-) -> Vec<Vec<f64>> {
-    let mut out: Vec<Vec<f64>> = rails.iter().map(|rail| rail.range.to_vec()).collect();
+) -> (Vec<Vec<f64>>, Vec<bool>) {
     // A model with a fault is refused when it is solved, with the place of the fault.
-    if let Ok((model, segments)) = spec.model() {
-        for (index, out) in out.iter_mut().enumerate() {
-            let [low, high] = rails[index].range;
-            let mut ends = spec.spans(&model, &segments, index);
-            // The first and the last support may lie beyond the part of the rail that carries loads.
-            ends.iter_mut().for_each(|x| *x = x.clamp(low, high));
-            ends.dedup_by(|b, a| *b - *a <= 1e-9 * (high - low));
-            if ends.len() >= 2 {
-                *out = ends;
-            }
-        }
-    }
+    let mut out: Vec<Vec<f64>> = match spec.model() {
+        Ok((model, segments)) => spec.rail_spans(&model, &segments),
+        Err(_) => rails.iter().map(|rail| rail.range.to_vec()).collect(),
+    };
+    let mut are_given = vec![false; rails.len()];
     let at = root.key("spans");
     let known = names(rails, |rail| &rail.name);
     for (name, list) in raw.spans.iter().flat_map(|entries| &entries.0) {
@@ -856,6 +849,7 @@ fn spans(
             ends.push(x.clamp(low, high));
         }
         out[rail] = ends;
+        are_given[rail] = true;
     }
-    out
+    (out, are_given)
 }

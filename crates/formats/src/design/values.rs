@@ -43,6 +43,8 @@ pub struct Design {
     pub sections: Vec<DesignSection>,
     /// By rail: coordinates between which its spans lie.
     pub spans: Vec<Vec<f64>>,
+    /// By rail: whether the file gives these coordinates.
+    pub are_spans_given: Vec<bool>,
     /// Design code and data of the crane.
     pub practice: DesignPractice,
 }
@@ -52,7 +54,7 @@ pub struct Design {
 pub struct DesignPractice {
     /// The code, as written.
     pub code: Option<String>,
-    /// Limits of deflections by the code and its class.
+    /// Limits of deflections by the code and its class, and those of one's own.
     pub limits: Vec<DeflectionLimit>,
     /// Class of load effect history of EN 1991-3.
     pub s_class: Option<FatigueClass>,

@@ -12,7 +12,7 @@ mod raw;
 mod read;
 mod values;
 
-pub(crate) use raw::{RawColumns, RawNode, RawPick, RawScene};
+pub(crate) use raw::{RawCodes, RawColumns, RawNode, RawPick, RawScene};
 
 pub use document::{Case, Document, SceneSource};
 pub use values::actuator::{Event, Load, Rope, Spin, Stop, StopPoint};

@@ -4,9 +4,11 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Deserializer, Error, IgnoredAny, SeqAccess, Unexpected, Visitor};
 use serde_json::Value;
 
+use crate::own_limits::RawOwnLimits;
 use crate::text::entries::Entries;
 use crate::units::RawUnits;
 
@@ -702,6 +704,10 @@ pub(crate) struct RawPractice {
     /// Kind of crane in AIST TR-13: "mill" (default), "ladle", "bucket", "soaking pit", "stripping", "motor room",
     /// "stacker" or "pendant" (pendant-operated).
     pub kind: Option<String>,
+    /// Design code by whose limits the run is judged, or a list of codes.
+    pub code: Option<RawCodes>,
+    /// Limits of one's own on static deflections.
+    pub limits: Option<RawOwnLimits>,
     /// Service class of the crane by CMAA 70, "A" to "F", for limits of deflections.
     pub class: Option<String>,
     /// Class of load effect history of EN 1991-3, "S0" to "S9", for damage-equivalent wheel loads.
@@ -733,6 +739,35 @@ pub(crate) struct RawPractice {
     /// Part of the section that resists lateral moments in stresses of girders, "whole section" or "top flange"; if it
     /// is given, these stresses are evaluated.
     pub lateral_section: Option<String>,
+}
+
+/// A design code, or several.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum RawCodes {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl<'de> Deserialize<'de> for RawCodes {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = RawCodes;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of a design code, or a list of names")
+            }
+
+            fn visit_str<E: Error>(self, value: &str) -> Result<RawCodes, E> {
+                Ok(RawCodes::One(value.to_owned()))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<RawCodes, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(list)).map(RawCodes::Several)
+            }
+        }
+        deserializer.deserialize_any(Reader)
+    }
 }
 
 /// A selection of columns: all, none, or those with certain names.

@@ -14,7 +14,8 @@ use serde_json::{Value, json};
 
 use crate::design::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 use crate::grid::file::RawGrid;
-use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
+use crate::own_limits::{RawBound, RawLimit};
+use crate::scene::{RawCodes, RawColumns, RawNode, RawPick, RawScene};
 use crate::spec::{Block, RawDetail, RawSectionShape, RawShape, RawSpec, Reference};
 use crate::sweep::{RawAxis, RawLaw, RawScalar, RawSweep};
 use crate::text::entries::Entries;
@@ -193,6 +194,12 @@ schemas! {
     RawDead, "Dead", |generator| {
         let parts = generator.subschema_for::<RawDeadLoads>();
         json_schema!({ "anyOf": [{ "type": "boolean" }, parts] })
+    };
+    RawCodes, "Codes", |_generator| json_schema!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" }, "minItems": 1 }] });
+    RawBound, "Bound", |_generator| json_schema!({ "anyOf": [{ "type": "number", "exclusiveMinimum": 0 }, { "type": "string", "pattern": r"^\s*[Ll]\s*/" }] });
+    RawLimit, "Limit", |generator| {
+        let bound = generator.subschema_for::<RawBound>();
+        json_schema!({ "anyOf": [bound, { "type": "array", "items": bound, "minItems": 1 }] })
     };
     RawScalar, "Scalar", |_generator| json_schema!({ "type": ["number", "string", "boolean"] });
     RawAxis, "Axis", |generator| {

@@ -1,7 +1,7 @@
 //! The numbers of a girder that follow from the name or the dimensions of its section and from its crane rail, in the units of
 //! the file.
 
-use sections::{PlaneSection, RailProfile, STEEL_DENSITY, STEEL_SHEAR, STEEL_YOUNG};
+use sections::{PlaneSection, RailProfile, STEEL_DENSITY, STEEL_SHEAR, SectionSeries};
 
 use super::raw::RawGirder;
 use super::rolled::{self, from_si};
@@ -9,7 +9,7 @@ use super::shape;
 use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::place::Place;
-use crate::units::{Dimension, Length, Units};
+use crate::units::{Dimension, Length, Scale, Units};
 
 /// The girder with the numbers that follow from its section and its crane rail, in the units of the file.
 pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> RawGirder {
@@ -31,11 +31,14 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
             let place = at.key("section");
             let found = rolled::section(name, &place, check);
             // the fault of an unknown name has been reported; placeholders prevent reports that properties are missing
+            let young = found
+                .map_or(SectionSeries::Heb, |section| section.series)
+                .young();
             let found = found.map_or([1.0; 6], |section| rolled::in_file_units(section, units));
             check_density(raw, at, check);
             girder
                 .e
-                .get_or_insert(from_si(STEEL_YOUNG, Dimension::STRESS, units));
+                .get_or_insert(from_si(young, Dimension::STRESS, units));
             girder
                 .g
                 .get_or_insert(from_si(STEEL_SHEAR, Dimension::STRESS, units));
@@ -59,6 +62,9 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
         }
         (None, None) => {}
     }
+    if raw.rail_height.is_none() && raw.crane_rail.is_some() {
+        girder.rail_height = top_of_section(raw, units);
+    }
     if let Some((rail, composite)) = rolled::carried(&raw.crane_rail, raw.composite, at, check) {
         if composite {
             combine(&mut girder, rail, at, check);
@@ -66,6 +72,22 @@ pub(super) fn filled_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'
         raise(&mut girder, rail, units);
     }
     girder
+}
+
+/// Height of the upper edge of the section of a girder above its centroid, where its name or dimensions give it.
+pub(super) fn top_of_section(raw: &RawGirder, units: Units) -> Option<f64> {
+    let own = Scale {
+        from: units,
+        to: units,
+    };
+    match (&raw.section, &raw.shape) {
+        (Some(name), _) => {
+            let millimetre = Length::Millimetre.in_units_of(units.length);
+            sections::rolled(name).map(|found| 0.5 * found.dimensions.height * millimetre)
+        }
+        (None, Some(given)) => shape::top(given, &own),
+        (None, None) => None,
+    }
 }
 
 fn check_density(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) {

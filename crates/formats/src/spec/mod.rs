@@ -2,7 +2,7 @@
 //!
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
-//! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
+//! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`, `incomplete`); the checked [`Spec`] (`structure`); the readers of the general form
 //! (`frame`), of the `preload`, and of specs (`read`); and results derived from a spec: names of supported points
 //! (`grounds`), spans of rails (`spans`), the state of a preload (`loaded`), places of solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
@@ -15,6 +15,7 @@ mod frame;
 mod girder;
 mod girder_section;
 mod grounds;
+mod incomplete;
 mod loaded;
 mod locate;
 mod members;

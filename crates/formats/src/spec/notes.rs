@@ -2,7 +2,7 @@
 
 use sections::{RailProfile, crane_rail, rolled};
 
-use super::girder_section::filled_girder;
+use super::girder_section::{filled_girder, top_of_section};
 use super::raw::{RawGirder, RawRail, RawSection, RawSectionShape, RawSpec};
 use super::rolled::{from_si, in_file_units};
 use crate::check::Check;
@@ -159,14 +159,11 @@ fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
     notes
 }
 
-/// Where the upper flange of a girder by name lies, for a file that states no `rail_height`.
+/// Height of the upper edge of the section, which is taken as that of the base of the rail in a file without `rail_height`.
 fn flange_height(raw: &RawGirder, units: Units) -> Option<String> {
-    let section = raw.section.as_deref().and_then(rolled)?;
-    let height = 0.5 * section.dimensions.height * Length::Millimetre.in_units_of(units.length);
-    let height = quantity(height, Dimension::LENGTH, units);
+    let height = quantity(top_of_section(raw, units)?, Dimension::LENGTH, units);
     Some(format!(
-        " (not specified in the file; the upper flange of {} lies {height} above the elastic axis)",
-        section.name
+        " (not specified in the file: the rail stands on the upper edge of the section, {height} above its centroid)"
     ))
 }
 

@@ -6,7 +6,7 @@ use super::raw::RawSpec;
 use super::references::Points;
 use super::structure::{Form, Spec};
 use super::words::THEORIES;
-use super::{cuts, frame, girder, notes, outline, preload, stress};
+use super::{cuts, frame, girder, incomplete, notes, outline, preload, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
@@ -91,10 +91,10 @@ impl Spec {
             Some(girder) => vec![outline::of_girder(girder, &root.key("girder"), &mut check)],
             None => outline::of_sections(raw, &root, &mut check),
         };
-        let notes = if check.faults.0.is_empty() {
-            notes::of(raw, from)
+        let (notes, incomplete) = if check.faults.0.is_empty() {
+            (notes::of(raw, from), incomplete::of(raw, from))
         } else {
-            Vec::new()
+            Default::default()
         };
         let crane_rails = outline::crane_rails(raw);
         Some(Spec {
@@ -104,6 +104,7 @@ impl Spec {
             form,
             effects,
             notes,
+            incomplete,
             outlines,
             crane_rails,
             preload,

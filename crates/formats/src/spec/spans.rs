@@ -3,7 +3,7 @@
 use fea::{Model, Rail};
 use nalgebra::Vector3;
 
-use super::structure::{Form, Spec};
+use super::structure::{Form, RailOutline, Spec};
 
 impl Spec {
     /// Rail coordinates of the ends of the spans of rail `index`, increasing; empty where fewer than two are known. `model`
@@ -28,6 +28,25 @@ impl Spec {
         let slack = 1e-9 * ends.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
         ends.dedup_by(|b, a| *b - *a <= slack);
         if ends.len() < 2 { Vec::new() } else { ends }
+    }
+
+    /// Coordinates of the ends of the spans of all rails, on the parts of the rails that carry loads; the ends of that part
+    /// where fewer than two are known.
+    #[must_use]
+    pub fn rail_spans(&self, model: &Model, rails: &[Rail]) -> Vec<Vec<f64>> {
+        let of_rail = |(index, outline): (usize, RailOutline)| {
+            let [low, high] = outline.range;
+            let mut ends = self.spans(model, rails, index);
+            // The first and the last support may lie beyond the part of the rail that carries loads.
+            ends.iter_mut().for_each(|x| *x = x.clamp(low, high));
+            ends.dedup_by(|b, a| *b - *a <= 1e-9 * (high - low));
+            if ends.len() < 2 {
+                vec![low, high]
+            } else {
+                ends
+            }
+        };
+        self.rails().into_iter().enumerate().map(of_rail).collect()
     }
 }
 

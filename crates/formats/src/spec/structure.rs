@@ -10,6 +10,7 @@ use super::cuts::Cut;
 use super::outline::{MemberOutline, OutlinedMember, SectionOutline, SpecCraneRail};
 use super::preload::SpecPreload;
 use crate::units::Units;
+use crate::verdict::OmittedCheck;
 
 /// Name of the only rail of the short form.
 pub const GIRDER_RAIL: &str = "rail";
@@ -47,6 +48,8 @@ pub struct Spec {
     /// Numbers that follow from names of rolled sections and crane rails, and defaults of steel, for the user to check, in words and in the
     /// units of the file.
     pub notes: Vec<String>,
+    /// Results that follow from half an input, such as a weight without density, with what is missing.
+    pub incomplete: Vec<OmittedCheck>,
     /// Shapes and strengths of the sections, in the order of the file; one for the short form.
     pub outlines: Vec<SectionOutline>,
     /// Crane rails by rail; empty where the rails are those of ties.

@@ -203,6 +203,7 @@ pub fn on_ground(
         form,
         effects,
         notes,
+        incomplete: Vec::new(),
         outlines,
         crane_rails,
         preload,

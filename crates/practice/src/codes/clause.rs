@@ -13,6 +13,8 @@ pub enum Evidence {
     Memory,
     /// The value follows from mechanics.
     Derived,
+    /// The input gives the value.
+    Given,
 }
 
 impl Evidence {
@@ -24,6 +26,7 @@ impl Evidence {
             Evidence::Used => "used by a public program",
             Evidence::Memory => "from memory",
             Evidence::Derived => "mechanics",
+            Evidence::Given => "given in the input",
         }
     }
 }
@@ -144,6 +147,14 @@ pub const FEM_SKEW: CodeClause = CodeClause {
     edition: "1998",
     clause: "booklet 2, 2.2.3.3",
     evidence: Evidence::Used,
+};
+
+/// A limit of one's own.
+pub const OWN_LIMIT: CodeClause = CodeClause {
+    standard: "own limit",
+    edition: "",
+    clause: "practice.limits",
+    evidence: Evidence::Given,
 };
 
 /// A value that follows from `principle` and from no code.

@@ -26,6 +26,12 @@ pub const RUNWAY_VERTICAL: f64 = 600.0;
 /// CMAA 70-2010, 1.4.6.
 pub const RUNWAY_LATERAL: f64 = 400.0;
 
+/// Ratio of lateral to vertical wheel loads for the limit of lateral deflections.
+///
+/// # Source
+/// CMAA 70-2010, 1.4.6.
+pub const LATERAL_FRACTION: f64 = 0.1;
+
 /// Largest ratio of the deflection of a bridge girder to its span under trolley and rated load, without
 /// impact.
 ///

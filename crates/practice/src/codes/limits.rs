@@ -27,6 +27,8 @@ pub enum LimitedDisplacement {
     GaugeChange,
     /// Difference of the vertical deflections of the two rails.
     HeightDifference,
+    /// Vertical deflection of an overhang of a runway girder.
+    Overhang,
 }
 
 impl LimitedDisplacement {
@@ -42,6 +44,7 @@ impl LimitedDisplacement {
             LimitedDisplacement::FrameDifference => "frame_difference",
             LimitedDisplacement::GaugeChange => "gauge_change",
             LimitedDisplacement::HeightDifference => "height_difference",
+            LimitedDisplacement::Overhang => "overhang",
         }
     }
 
@@ -53,11 +56,58 @@ impl LimitedDisplacement {
             | LimitedDisplacement::RunwayLateral
             | LimitedDisplacement::MonorailVertical => ["L", "span of the runway girder"],
             LimitedDisplacement::BridgeGirder => ["L", "span of the crane"],
+            LimitedDisplacement::Overhang => ["L", "length of the overhang"],
             LimitedDisplacement::FrameLateral => ["h", "height of the rail above the base"],
             LimitedDisplacement::FrameDifference => ["L", "distance of the frames"],
             LimitedDisplacement::GaugeChange | LimitedDisplacement::HeightDifference => {
                 ["s", "distance of the rails"]
             }
+        }
+    }
+}
+
+/// Loads to which a limit applies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LimitLoads {
+    /// Static vertical wheel loads of all cranes of a case.
+    StaticWheels,
+    /// Static vertical wheel loads of one crane.
+    OneCrane,
+    /// A tenth of the static wheel loads, acting laterally.
+    Tenth,
+    /// Characteristic horizontal crane loads: side thrust, skewing, drives of the trolley.
+    Horizontal,
+    /// Side thrust of one crane.
+    OneSideThrust,
+    /// Side thrust of one crane, or wind.
+    OneSideThrustOrWind,
+    /// Crane surge.
+    Surge,
+    /// Crane loads with temperature.
+    WithTemperature,
+    /// The payload of a hoist.
+    Payload,
+    /// The trolley with its rated load.
+    TrolleyAndLoad,
+}
+
+impl LimitLoads {
+    /// Description in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            LimitLoads::StaticWheels => "largest static wheel loads, without impact",
+            LimitLoads::OneCrane => "one crane, static, without impact",
+            LimitLoads::Tenth => "a tenth of the largest static wheel loads, lateral",
+            LimitLoads::Horizontal => {
+                "characteristic horizontal crane loads without dynamic factors"
+            }
+            LimitLoads::OneSideThrust => "side thrust of one crane",
+            LimitLoads::OneSideThrustOrWind => "side thrust of one crane, or wind",
+            LimitLoads::Surge => "crane surge, characteristic",
+            LimitLoads::WithTemperature => "crane loads with temperature effects",
+            LimitLoads::Payload => "payload alone",
+            LimitLoads::TrolleyAndLoad => "trolley and rated load, without impact",
         }
     }
 }
@@ -72,7 +122,7 @@ pub struct DeflectionLimit {
     /// Largest displacement, m.
     pub most: Option<f64>,
     /// The loads to which the limit applies.
-    pub loads: &'static str,
+    pub loads: LimitLoads,
     /// Code, edition, clause and check.
     pub clause: CodeClause,
 }
@@ -133,18 +183,11 @@ pub enum GantryCrane {
     ElectricAbove50Tonnes,
 }
 
-/// Static wheel loads.
-const STATIC: &str = "largest static wheel loads, without impact";
-/// Lateral loads of CMAA 70 and codes that follow it.
-const TENTH: &str = "a tenth of the largest static wheel loads, lateral";
-/// Horizontal crane loads of EN 1993-6.
-const HORIZONTAL: &str = "characteristic horizontal crane loads without dynamic factors";
-
 /// A limit without its optional parts.
 const fn limit(
     displacement: LimitedDisplacement,
     ratio: f64,
-    loads: &'static str,
+    loads: LimitLoads,
     clause: CodeClause,
 ) -> DeflectionLimit {
     DeflectionLimit {
@@ -162,44 +205,44 @@ pub const EN_1993_6_LIMITS: [DeflectionLimit; 7] = [
         displacement: LimitedDisplacement::RunwayVertical,
         ratio: Some(600.0),
         most: Some(0.025),
-        loads: STATIC,
+        loads: LimitLoads::StaticWheels,
         clause: en_1993_6("Table 7.2 a", Evidence::Used),
     },
     limit(
         LimitedDisplacement::RunwayLateral,
         600.0,
-        HORIZONTAL,
+        LimitLoads::Horizontal,
         en_1993_6("Table 7.1 a", Evidence::Used),
     ),
     limit(
         LimitedDisplacement::FrameLateral,
         400.0,
-        HORIZONTAL,
+        LimitLoads::Horizontal,
         en_1993_6("Table 7.1 b", Evidence::Used),
     ),
     limit(
         LimitedDisplacement::FrameDifference,
         600.0,
-        HORIZONTAL,
+        LimitLoads::Horizontal,
         en_1993_6("Table 7.1 c", Evidence::Memory),
     ),
     DeflectionLimit {
         displacement: LimitedDisplacement::GaugeChange,
         ratio: None,
         most: Some(0.010),
-        loads: "crane loads with temperature effects",
+        loads: LimitLoads::WithTemperature,
         clause: en_1993_6("Table 7.1 e", Evidence::Memory),
     },
     limit(
         LimitedDisplacement::HeightDifference,
         600.0,
-        STATIC,
+        LimitLoads::StaticWheels,
         en_1993_6("Table 7.2 b", Evidence::Memory),
     ),
     limit(
         LimitedDisplacement::MonorailVertical,
         500.0,
-        "payload alone",
+        LimitLoads::Payload,
         en_1993_6("Table 7.2 c", Evidence::Memory),
     ),
 ];
@@ -209,19 +252,19 @@ pub const CMAA_LIMITS: [DeflectionLimit; 3] = [
     limit(
         LimitedDisplacement::RunwayVertical,
         cmaa::RUNWAY_VERTICAL,
-        STATIC,
+        LimitLoads::StaticWheels,
         cmaa_2010("1.4.6", Evidence::Quoted),
     ),
     limit(
         LimitedDisplacement::RunwayLateral,
         cmaa::RUNWAY_LATERAL,
-        TENTH,
+        LimitLoads::Tenth,
         cmaa_2010("1.4.6", Evidence::Quoted),
     ),
     limit(
         LimitedDisplacement::BridgeGirder,
         1.0 / cmaa::BRIDGE_DEFLECTION,
-        "trolley and rated load, without impact",
+        LimitLoads::TrolleyAndLoad,
         cmaa_1983("3.5.5", Evidence::Quoted),
     ),
 ];
@@ -250,8 +293,18 @@ pub fn design_guide_limits(class: ServiceClass) -> [DeflectionLimit; 2] {
     };
     let clause = design_guide_7("runway girders", Evidence::Memory);
     [
-        limit(LimitedDisplacement::RunwayVertical, ratio, STATIC, clause),
-        limit(LimitedDisplacement::RunwayLateral, 400.0, TENTH, clause),
+        limit(
+            LimitedDisplacement::RunwayVertical,
+            ratio,
+            LimitLoads::StaticWheels,
+            clause,
+        ),
+        limit(
+            LimitedDisplacement::RunwayLateral,
+            400.0,
+            LimitLoads::Tenth,
+            clause,
+        ),
     ]
 }
 
@@ -267,20 +320,20 @@ pub fn mill_limits(building: BuildingClass) -> [DeflectionLimit; 3] {
         limit(
             LimitedDisplacement::RunwayVertical,
             aist::runway_vertical(building),
-            "one crane, static, without impact",
+            LimitLoads::OneCrane,
             clause,
         ),
         limit(
             LimitedDisplacement::RunwayLateral,
             aist::RUNWAY_LATERAL,
-            "side thrust of one crane",
+            LimitLoads::OneSideThrust,
             clause,
         ),
         DeflectionLimit {
             displacement: LimitedDisplacement::FrameLateral,
             ratio: Some(400.0),
             most: Some(2.0 * cmaa::FOOT / 12.0),
-            loads: "side thrust of one crane, or wind",
+            loads: LimitLoads::OneSideThrustOrWind,
             clause: aist_2021("5.3", Evidence::Quoted),
         },
     ]
@@ -305,9 +358,14 @@ pub fn is_800_limits(crane: GantryCrane, cab: bool) -> [DeflectionLimit; 4] {
         GantryCrane::ElectricTo50Tonnes => 750.0,
         GantryCrane::ElectricAbove50Tonnes => 1000.0,
     };
-    let surge = "crane surge, characteristic";
+    let surge = LimitLoads::Surge;
     [
-        limit(LimitedDisplacement::RunwayVertical, ratio, STATIC, clause),
+        limit(
+            LimitedDisplacement::RunwayVertical,
+            ratio,
+            LimitLoads::StaticWheels,
+            clause,
+        ),
         limit(LimitedDisplacement::RunwayLateral, 400.0, surge, clause),
         DeflectionLimit {
             displacement: LimitedDisplacement::GaugeChange,

@@ -22,4 +22,5 @@ pub mod limits;
 pub mod local_stress;
 pub mod mill_combination;
 pub mod osha;
+pub mod scope;
 pub mod skew;

@@ -38,6 +38,12 @@ class Design:
         return self._native.summary()
 
     @property
+    def verdict(self) -> dict[str, Any]:
+        """All checks, worst first, and what was not checked: `result`, `checks` and `not_checked`."""
+        verdict: dict[str, Any] = self.summary["verdict"]
+        return verdict
+
+    @property
     def extremes(self) -> list[dict[str, Any]]:
         """Extremes of every span, reaction and named section, each with the position that governs."""
         extremes: list[dict[str, Any]] = self.summary["extremes"]

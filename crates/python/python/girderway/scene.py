@@ -73,6 +73,12 @@ class Case(Mapping[str, Floats]):
         return self._native.summary()
 
     @property
+    def verdict(self) -> dict[str, Any] | None:
+        """All checks, worst first, and what was not checked: `result`, `checks` and `not_checked`; `None` where the run did
+        not reach its end."""
+        return self.summary.get("verdict")
+
+    @property
     def extremes(self) -> list[dict[str, Any]]:
         """Extremes of the girders and reactions, each with its time."""
         return list(self.summary.get("extremes", []))

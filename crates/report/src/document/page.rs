@@ -4,7 +4,7 @@ use crate::chart::{Chart, Drawing, Style};
 use crate::document::code::{coded, exponent, plain};
 use crate::document::number::{number, with_numbers};
 use crate::document::section::{
-    Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
+    BannerTone, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn,
 };
 use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -77,6 +77,13 @@ impl Report {
         let bodies: Result<Vec<Markup>, Error> = sections
             .map(|(i, s)| section(i, s, &mut tables, &mut drawn))
             .collect();
+        // A verdict stands above the contents.
+        let first = usize::from(
+            self.sections
+                .first()
+                .is_some_and(|one| one.banner.is_some()),
+        );
+        let bodies = bodies?;
         let moves = figures
             .iter()
             .any(|(.., figure)| matches!(figure.picture, Picture::Animation(_)));
@@ -94,6 +101,7 @@ impl Report {
                         h1 { (self.title) }
                         @if !self.subtitle.is_empty() { p.subtitle { (self.subtitle) } }
                     }
+                    @for body in &bodies[..first] { (body) }
                     nav aria-label="Contents" {
                         ol {
                             @for (i, one) in self.sections.iter().enumerate() {
@@ -101,7 +109,7 @@ impl Report {
                             }
                         }
                     }
-                    main { @for body in bodies? { (body) } }
+                    main { @for body in &bodies[first..] { (body) } }
                     footer { "girderway " (env!("CARGO_PKG_VERSION")) }
                     script { (PreEscaped(SCRIPT)) }
                     @if moves { script { (PreEscaped(ANIMATION_SCRIPT)) } }
@@ -142,6 +150,9 @@ fn section(
         section id=(format!("section-{}", index + 1)) .ends-page[section.ends_page] {
             details open {
                 summary { h2 { (section.heading) } }
+                @if let Some(banner) = &section.banner {
+                    p class=(format!("banner {}", tone(banner.tone))) { (words(&banner.text)) }
+                }
                 @for text in &section.paragraphs { p { (words(text)) } }
                 @if !facts.is_empty() {
                     table.facts {
@@ -343,6 +354,15 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
             figcaption id=(label) { b { "Figure " (running) ". " } (figure.caption) }
         }
     })
+}
+
+/// Class of a banner in the style sheet.
+fn tone(tone: BannerTone) -> &'static str {
+    match tone {
+        BannerTone::Good => "good",
+        BannerTone::Bad => "bad",
+        BannerTone::Neutral => "neutral",
+    }
 }
 
 /// Names of the columns as properties of the table, which the style sheet puts before the cells of a narrow screen: once

@@ -16,6 +16,8 @@ use crate::document::animated::Animation;
 pub struct ReportSection {
     /// Heading, also in the table of contents.
     pub heading: String,
+    /// A verdict in one line, above everything else.
+    pub banner: Option<Banner>,
     /// Paragraphs of text.
     pub paragraphs: Vec<String>,
     /// Facts, shown as a table of names and values.
@@ -78,6 +80,26 @@ impl ReportSection {
         self.tables.push(table);
         self
     }
+}
+
+/// A verdict in one line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Banner {
+    /// The line.
+    pub text: String,
+    /// What it says.
+    pub tone: BannerTone,
+}
+
+/// What a banner says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BannerTone {
+    /// All checks passed.
+    Good,
+    /// A check failed.
+    Bad,
+    /// Nothing was checked.
+    Neutral,
 }
 
 /// A value of a fact or of a table.

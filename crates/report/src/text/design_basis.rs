@@ -10,6 +10,8 @@ use formats::units::Dimension;
 
 /// Largest number of trains and of cases that are listed.
 const MOST: usize = 4;
+/// Largest number of ends of spans that are listed one by one.
+const MAX_ENDS: usize = 8;
 /// Significant digits of inputs.
 const DIGITS: usize = 4;
 
@@ -38,9 +40,54 @@ pub(super) fn basis(design: &Design, result: &DesignResult) -> ReportSection {
     if design.cases.len() > MOST {
         section = section.fact("further cases", design.cases.len() - MOST, "");
     }
+    for (plane, name) in ["vertical", "lateral"].into_iter().enumerate() {
+        section = section.fact(
+            format!("spans of {name} limits"),
+            spans_words(design, result, plane),
+            "",
+        );
+    }
     section
         .fact("codes", codes(design, result), "")
         .ending_page()
+}
+
+/// Coordinates of the ends of the spans of a plane, by rail, and the rule by which they are found.
+fn spans_words(design: &Design, result: &DesignResult, plane: usize) -> String {
+    let length = design.units.label(Dimension::LENGTH);
+    let rails = design.spec.rails();
+    let of_rail = |(rail, ends): (usize, &Vec<f64>)| {
+        let places: Vec<String> = ends.iter().map(|x| digits(*x, DIGITS)).collect();
+        let places = match places.len() {
+            0 => "not defined".to_owned(),
+            1..=MAX_ENDS => format!("{} {length}", places.join(", ")),
+            count => format!(
+                "{} to {} {length}, {} spans",
+                places[0],
+                places[count - 1],
+                count - 1
+            ),
+        };
+        if rails.len() == 1 {
+            places
+        } else {
+            format!("{}: {places}", rails[rail].name)
+        }
+    };
+    let all: Vec<String> = result.chords[plane]
+        .iter()
+        .enumerate()
+        .map(of_rail)
+        .collect();
+    let rule = if design.are_spans_given.iter().all(|given| *given) {
+        "given in the design"
+    } else if matches!(design.spec.form, formats::spec::Form::Girder(_)) {
+        "supports of the girder"
+    } else {
+        "points of the girder whose stiffness against the ground in this plane is at least a twentieth of that of the \
+         girder between its neighbours"
+    };
+    format!("{} ({rule})", all.join("; "))
 }
 
 fn dead_words(design: &Design) -> String {

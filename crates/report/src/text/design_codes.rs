@@ -85,19 +85,10 @@ fn capital(text: &str) -> String {
     })
 }
 
-/// Loads for fatigue and what is left out; nothing for a design without a code.
+/// Loads for fatigue; nothing for a design without them.
 pub(super) fn codes(design: &Design, result: &DesignResult) -> Option<ReportSection> {
-    if result.fatigue.is_empty() && result.left_out.is_empty() {
-        return None;
-    }
-    let mut section = ReportSection::new("Code");
-    if !result.fatigue.is_empty() {
-        section = section.table(fatigue(design, result));
-    }
-    for line in &result.left_out {
-        section = section.paragraph(format!("Not included: {line}."));
-    }
-    Some(section)
+    let has_loads = !result.fatigue.is_empty();
+    has_loads.then(|| ReportSection::new("Loads for fatigue").table(fatigue(design, result)))
 }
 
 /// Damage-equivalent loads of all wheels.

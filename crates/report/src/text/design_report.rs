@@ -5,11 +5,12 @@ use crate::figures::design::{
     with_unit,
 };
 use crate::figures::influence_lines::influence_figure;
+use crate::text::checks::verdict_section;
 use crate::text::design_basis::basis;
 use crate::text::design_codes::{codes, limits, sources};
+use crate::text::design_governing::{DIGITS, governing};
 use crate::text::design_inputs::inputs;
 use crate::text::design_stresses::details;
-use crate::text::design_verdict::{DIGITS, verdict};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn, cleared, is_rounding};
 use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word};
 use formats::design::Design;
@@ -19,7 +20,11 @@ use trains::GirderResponse;
 /// The report of a design; `lines` are the influence lines of its governing values.
 #[must_use]
 pub fn design_report(design: &Design, result: &DesignResult, lines: &[GoverningLine]) -> Report {
-    let mut sections = vec![verdict(design, result, lines), basis(design, result)];
+    let mut sections = vec![
+        verdict_section("Verdict", &::design::verdict(design, result), design.units),
+        governing(design, result, lines),
+        basis(design, result),
+    ];
     sections.push(serviceability(design, result));
     sections.extend(influence_lines(design, lines));
     for (index, case) in result.cases.iter().enumerate() {

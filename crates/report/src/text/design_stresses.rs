@@ -5,7 +5,7 @@ use formats::LateralSection;
 use formats::design::Design;
 use formats::units::{Dimension, Units};
 
-use crate::figures::design::{deflection_unit, digits, positions, rail_phrase, reading_unit};
+use crate::figures::design::{deflection_unit, digits, positions, reading_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 
 /// Significant digits of values.
@@ -15,28 +15,6 @@ const DIGITS: usize = 4;
 pub(super) fn stress_unit(units: Units) -> (String, f64) {
     let (unit, factor) = reading_unit(units, Dimension::STRESS);
     (unit.replace("kip/in\u{b2}", "ksi"), factor)
-}
-
-/// The largest utilisation in words; nothing where no stress was checked.
-pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
-    let worst = result.stresses.iter().reduce(|a, b| {
-        if b.utilisation() > a.utilisation() {
-            b
-        } else {
-            a
-        }
-    })?;
-    let percent = 100.0 * worst.utilisation();
-    let lateral = worst
-        .lateral_section
-        .map_or_else(String::new, |own| format!(", {}", own.phrase()));
-    Some(format!(
-        "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, {}{lateral}.",
-        worst.quantity,
-        worst.section,
-        worst.case,
-        rail_phrase(&worst.rail)
-    ))
 }
 
 /// The largest stress of each kind on each rail over all cases; nothing where no stress is known.

@@ -1,12 +1,13 @@
 //! The content of the report of a run, section by section.
 
+pub(crate) mod checks;
 pub(crate) mod codes;
 mod design_basis;
 mod design_codes;
+mod design_governing;
 mod design_inputs;
 pub mod design_report;
 mod design_stresses;
-mod design_verdict;
 pub(crate) mod fatigue;
 mod girder_stresses;
 pub(crate) mod girders;

@@ -8,7 +8,7 @@ use crate::text::structure_words::structure_facts;
 use formats::scene::{Analysis, Document, Origin, Scene, stepper_word};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
-use sim::Method;
+use sim::{Fidelity, Method};
 
 /// Largest number of structures, and of codes, that are listed.
 const MOST: [usize; 2] = [3, 8];
@@ -19,8 +19,22 @@ const DIGITS: usize = 4;
 pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let scene = document.scene();
     let mut section = ReportSection::new("Basis");
-    for structure in scene.structures.iter().take(MOST[0]) {
-        let foundation = foundation_words(structure.foundation.word());
+    for (s, structure) in scene.structures.iter().enumerate().take(MOST[0]) {
+        let chosen = outcomes[0]
+            .choices
+            .iter()
+            .find(|choice| choice.structure == s);
+        let foundation = match chosen.map(|choice| choice.fidelity) {
+            None => foundation_words(structure.foundation.word()).to_owned(),
+            Some(fidelity) => {
+                let word = match fidelity {
+                    Fidelity::Rigid => "rigid",
+                    Fidelity::Influence => "influence",
+                    Fidelity::Modal(_) => "modal",
+                };
+                format!("{}, chosen by the program", foundation_words(word))
+            }
+        };
         match &structure.origin {
             Origin::Spec { spec, file, .. } => {
                 let spans: Vec<Vec<f64>> = spec.model().map_or_else(

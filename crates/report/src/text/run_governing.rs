@@ -116,7 +116,8 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
         ""
     };
     let caption = format!(
-        "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure",
+        "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure; sampled \
+         values are the largest at the output times",
         run_name(&first.label)
     );
     ReportTable {
@@ -160,7 +161,7 @@ fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Optio
         x: TableCell::from(digits(found.x, DIGITS)),
         others: same.map(|found| found.value).collect(),
         ..GoverningRow::new(
-            "largest direct stress",
+            "largest direct stress, sampled",
             (&unit, factor),
             found.value,
             &scene.rails[found.rail].name,
@@ -184,7 +185,7 @@ fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> 
     let row = |direction: &str| {
         let (ratio, found) = worst(first, direction)?;
         let same = others.iter().filter_map(|other| worst(other, direction));
-        let words = format!("{direction} deflection from the chord");
+        let words = format!("{direction} deflection from the chord, sampled");
         Some(GoverningRow {
             more: format!(" = L/{ratio:.0}"),
             x: TableCell::from(digits(found.x, DIGITS)),
@@ -222,9 +223,9 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
     };
     let size = worst(first, "vertical", 0.0).map_or(0.0, |(value, ..)| value.abs());
     let kinds = [
-        ("largest vertical wheel force", "vertical", 1.0),
-        ("smallest vertical wheel force", "vertical", -1.0),
-        ("largest lateral wheel force", "lateral", 0.0),
+        ("largest vertical wheel force, sampled", "vertical", 1.0),
+        ("smallest vertical wheel force, sampled", "vertical", -1.0),
+        ("largest lateral wheel force, sampled", "lateral", 0.0),
     ];
     let row = |(words, part, sign): (&str, &str, f64)| {
         let (value, wheel, row) = worst(first, part, sign)

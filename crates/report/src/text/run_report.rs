@@ -4,7 +4,7 @@ use crate::figures::design::{deflection_unit, reading_unit};
 use crate::figures::run_figure::RunFigure;
 use crate::figures::run_name::{foundation_words, run_name};
 use crate::text::run_basis::basis;
-use crate::text::run_verdict::verdict;
+use crate::text::run_verdict::{governing_section, verdicts};
 use crate::text::{codes, fatigue, girders, responses};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn, cleared};
 use formats::grid::coupling::Coupling;
@@ -84,8 +84,12 @@ pub fn report(
     let extremes = girders::section(document, outcomes);
     sections.splice(
         0..0,
-        [verdict(document, outcomes), basis(document, outcomes)]
+        verdicts(document, outcomes)
             .into_iter()
+            .chain([
+                governing_section(document, outcomes),
+                basis(document, outcomes),
+            ])
             .chain(extremes),
     );
     Report {

@@ -1,10 +1,11 @@
-//! The first page of a run: whether it can be used, what governs, and where the wheels stand then.
+//! The first page of a run: its verdict, what governs, and where the wheels stand then.
 
 use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
 use crate::figures::rail_sketch::RailSketch;
 use crate::figures::responses::supports;
 use crate::figures::run_name::run_name;
+use crate::text::checks::verdict_section;
 use crate::text::girder_stresses;
 use crate::text::girders::largest;
 use crate::text::run_governing::governing;
@@ -13,6 +14,7 @@ use formats::units::Dimension;
 use results::case_result::CaseResult;
 use results::girders::GirderExtreme;
 use results::run_error;
+use results::verdict::verdict;
 use results::warning;
 use trains::GirderResponse;
 
@@ -21,9 +23,27 @@ const DIGITS: usize = 4;
 /// Largest number of warnings on the first page.
 const WARNINGS: usize = 4;
 
+/// The verdicts on the runs, one section for each that ended.
+pub(super) fn verdicts(document: &Document, outcomes: &[CaseResult]) -> Vec<ReportSection> {
+    let mut out = Vec::new();
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        if !outcome.run.status.is_complete() {
+            continue;
+        }
+        let heading = if outcomes.len() == 1 {
+            "Verdict".to_owned()
+        } else {
+            format!("Verdict: {}", run_name(&outcome.label))
+        };
+        let own = verdict(&case.scene, outcome);
+        out.push(verdict_section(&heading, &own, case.scene.units));
+    }
+    out
+}
+
 /// Status, governing values, and the wheels at the instant of the largest sagging moment.
-pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
-    let mut section = ReportSection::new("Verdict");
+pub(super) fn governing_section(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
+    let mut section = ReportSection::new("Governing values");
     section.paragraphs.extend(statuses(document, outcomes));
     section
         .paragraphs
@@ -91,7 +111,7 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     out
 }
 
-/// Uplift, limits of static deflections and fatigue in the first run.
+/// Uplift and fatigue in the first run.
 fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut out = Vec::new();
     let uplifts = &outcome.response.uplifts;
@@ -101,34 +121,6 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
             uplifts.len(),
             first.wheel,
             digits(first.time, DIGITS)
-        ));
-    }
-    let limits = outcome.codes.iter().flat_map(|codes| &codes.limits);
-    let all: Vec<(f64, String)> = limits
-        .flat_map(|found| {
-            let name = format!(
-                "{} of {}",
-                found.displacement.word().replace('_', " "),
-                found.rail
-            );
-            found
-                .limits
-                .iter()
-                .map(move |limit| (found.value / limit.value, name.clone()))
-        })
-        .collect();
-    if let Some((most, name)) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
-        let failed = all.iter().filter(|(used, _)| *used > 1.0).count();
-        let verdict = if failed == 0 {
-            "are kept".to_owned()
-        } else {
-            format!("are exceeded in {failed} cases")
-        };
-        out.push(format!(
-            "The limits of codes on deflections under static wheel loads, {} in all, {verdict}; the highest utilisation \
-             is {:.0} % ({name}).",
-            all.len(),
-            100.0 * most
         ));
     }
     if let Some(worst) = outcome

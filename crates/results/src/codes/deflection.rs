@@ -7,6 +7,7 @@
 use design::clause_json;
 use foundations::SolvedModel;
 use practice::aist::{BuildingClass, CraneKind};
+use practice::cmaa::LATERAL_FRACTION;
 use practice::limits::{
     CMAA_LIMITS, DeflectionLimit, EN_1993_6_LIMITS, GantryCrane, LimitedDisplacement,
     design_guide_limits, is_800_limits, mill_limits,
@@ -16,7 +17,7 @@ use sim::History;
 use splines::{Axis, Compliance, Probe};
 
 use super::crane::{CraneData, to_si};
-use crate::response::{Deflection, WheelLoad, WheelLoadReader};
+use crate::response::{WheelLoad, WheelLoadReader};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, root_body};
 use formats::units::{Dimension, Units};
@@ -25,11 +26,6 @@ use formats::units::{Dimension, Units};
 const PLACES: usize = 15;
 /// Largest number of output times at which a span is evaluated.
 const TIMES: usize = 64;
-/// Ratio of lateral to vertical wheel loads for the limits of lateral deflection.
-///
-/// # Source
-/// CMAA 70-2010, 1.4.6.
-const LATERAL_FRACTION: f64 = 0.1;
 /// Weight of 50 t, N, at which IS 800 changes the limit of gantry girders.
 const FIFTY_TONNES: f64 = 50.0e3 * 9.806_65;
 
@@ -74,7 +70,7 @@ impl StaticDeflection {
         let limit = |allowable: &AllowableDisplacement| {
             let mut members = clause_json(&allowable.limit.clause);
             members["formula"] = json!(allowable.limit.formula());
-            members["loads"] = json!(allowable.limit.loads);
+            members["loads"] = json!(allowable.limit.loads.words());
             members["value"] = json!(allowable.value);
             members["within"] = json!(self.value <= allowable.value);
             members
@@ -95,12 +91,12 @@ impl StaticDeflection {
 
 /// What the static deflections of a run are computed from.
 pub struct SpanResponse<'r> {
+    /// Chords of each rail of the scene by plane (vertical, lateral).
+    pub spans: &'r [[Vec<[f64; 2]>; 2]],
     /// History of the run.
     pub history: &'r History,
     /// Solution of each structure of the scene; `None` for a structure without spec.
     pub solved: &'r [Option<&'r SolvedModel>],
-    /// Deflections of the spans in the run.
-    pub deflections: &'r [Deflection],
 }
 
 /// All limits of the codes for a crane.
@@ -122,6 +118,7 @@ fn all_limits(practice: &Practice, crane: &CraneData, units: Units) -> Vec<Defle
         false => GantryCrane::ElectricTo50Tonnes,
     };
     limits.extend(is_800_limits(gantry, practice.kind != CraneKind::Pendant));
+    limits.extend(practice.limits.iter().copied());
     limits
 }
 
@@ -137,33 +134,39 @@ pub(super) fn static_deflections(
     let limits = all_limits(practice, crane, scene.units);
     let loads = StaticLoads::new(scene, practice, input, crane);
     let reader = WheelLoadReader::new(scene, input, run.history);
+    let on_rail = |rail: usize, from: f64, to: f64| {
+        let (structure, own) = (scene.rails[rail].structure, scene.rails[rail].rail);
+        (0..run.history.len()).any(|row| {
+            reader.at(run.history.sample(row)).iter().any(|load| {
+                (load.structure, load.rail) == (structure, own) && load.x > from && load.x < to
+            })
+        })
+    };
     let mut found = Vec::new();
-    for known in run
-        .deflections
-        .iter()
-        .filter(|known| known.direction == "vertical")
-    {
-        let Some(rail) = scene.rails.iter().position(|rail| rail.name == known.rail) else {
-            continue;
-        };
-        let carrier = scene.structures[scene.rails[rail].structure].carrier;
-        let kinds: &[LimitedDisplacement] = if practice.rails.contains(&rail) {
+    for (rail, outline) in scene.rails.iter().enumerate() {
+        let carrier = scene.structures[outline.structure].carrier;
+        let kinds: &[(usize, LimitedDisplacement)] = if practice.rails.contains(&rail) {
             &[
-                LimitedDisplacement::RunwayVertical,
-                LimitedDisplacement::RunwayLateral,
+                (0, LimitedDisplacement::RunwayVertical),
+                (1, LimitedDisplacement::RunwayLateral),
             ]
         } else if carrier.is_some_and(|carrier| carrier.body == practice.crane) {
-            &[LimitedDisplacement::BridgeGirder]
+            &[(0, LimitedDisplacement::BridgeGirder)]
         } else {
             &[]
         };
-        for &displacement in kinds {
-            let span = Span {
-                rail,
-                ends: known.span,
-                displacement,
-            };
-            found.extend(span.largest(scene, &loads, &reader, run, &limits));
+        for &(plane, displacement) in kinds {
+            for &ends in &run.spans[rail][plane] {
+                if !on_rail(rail, ends[0], ends[1]) {
+                    continue;
+                }
+                let span = Span {
+                    rail,
+                    ends,
+                    displacement,
+                };
+                found.extend(span.largest(scene, &loads, &reader, run, &limits));
+            }
         }
     }
     found

@@ -150,7 +150,8 @@ impl GirderStresses {
             .chain(self.lacks.iter().cloned())
             .map(|(rail, why)| (scene.rails[rail].name.clone(), why))
             .collect();
-        let mut out = by_reason("no direct stress", &lacks);
+        let lacking = by_reason("no direct stress", &lacks);
+        let mut out: Vec<String> = lacking.iter().map(ToString::to_string).collect();
         if scene.practice.is_none() {
             out.push(
                 "the run is not compared with codes, because `practice` has only `lateral_section` and the body that \

@@ -114,9 +114,19 @@ pub fn influence_lines(
     each.collect()
 }
 
+/// Solutions of the structures of a scene, and the chords of their rails.
+#[derive(Clone, Copy)]
+pub struct SolvedStructures<'s> {
+    /// By structure; `None` for one without spec.
+    pub models: &'s [Option<&'s SolvedModel>],
+    /// By rail of the scene and plane (vertical, lateral): chords from which deflections are measured. Without entries no
+    /// deflections are computed.
+    pub chords: &'s [[Vec<[f64; 2]>; 2]],
+}
+
 impl Response {
-    /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built`, `solved` and `lines` have one
-    /// entry per structure of `scene`.
+    /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built` and `lines` have
+    /// one entry per structure of `scene`.
     ///
     /// # Errors
     /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
@@ -125,7 +135,7 @@ impl Response {
         input: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
-        solved: &[Option<&SolvedModel>],
+        solved: SolvedStructures<'_>,
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
     ) -> Result<Response, Error> {
@@ -153,10 +163,10 @@ impl Response {
             };
             response
                 .deflections
-                .extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
+                .extend(serviceability::deflections(&loaded, solved).map_err(failed)?);
             response
                 .drifts
-                .extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
+                .extend(serviceability::drifts(&loaded, solved.models[s]).map_err(failed)?);
         }
         response.uplifts = envelope::uplifts(input, record);
         response.sways = envelope::sways(scene, record);

@@ -13,6 +13,7 @@ use practice::cmaa;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
 
+use super::SolvedStructures;
 use super::loaded::{LoadedStructure, WheelLoad, spread};
 use formats::scene::Origin;
 use formats::spec::Form;
@@ -93,7 +94,7 @@ impl Deflection {
 /// [`Error::OffRail`] for a place beyond a rail.
 pub(super) fn deflections(
     loaded: &LoadedStructure<'_>,
-    solved: Option<&SolvedModel>,
+    solved: SolvedStructures<'_>,
 ) -> Result<Vec<Deflection>, Error> {
     let LoadedStructure {
         scene,
@@ -102,9 +103,9 @@ pub(super) fn deflections(
         built,
         ..
     } = *loaded;
-    let (Origin::Spec { spec, .. }, Some(solved), true, None) = (
+    let (Origin::Spec { .. }, Some(_), true, None) = (
         &scene.structures[s].origin,
-        solved,
+        solved.models[s],
         loaded.is_known(),
         &built.foundation.parts,
     ) else {
@@ -123,29 +124,22 @@ pub(super) fn deflections(
         .enumerate()
         .filter(|(_, rail)| rail.structure == s)
     {
-        let given = scene.output.spans.iter().find(|(known, _)| *known == index);
-        let ends = given.map_or_else(
-            || spec.spans(&solved.model, &solved.rails, rail.rail),
-            |(_, ends)| ends.clone(),
-        );
-        for span in ends
-            .windows(2)
-            .map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])])
-        {
-            let [from, to] = span;
-            let inside = |load: &WheelLoad| {
-                load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
-            };
-            let rows: Vec<usize> = (0..all.len())
-                .filter(|&i| all[i].iter().any(inside))
-                .collect();
-            if from >= to || rows.is_empty() {
-                continue;
-            }
-            let places: Vec<f64> = (0..=PLACES + 1)
-                .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
-                .collect();
-            for &(axis, direction) in axes {
+        for (plane, &(axis, direction)) in axes.iter().enumerate() {
+            for pair in solved.chords.get(index).map_or(&[][..], |own| &own[plane]) {
+                let span = [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])];
+                let [from, to] = span;
+                let inside = |load: &WheelLoad| {
+                    load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
+                };
+                let rows: Vec<usize> = (0..all.len())
+                    .filter(|&i| all[i].iter().any(inside))
+                    .collect();
+                if from >= to || rows.is_empty() {
+                    continue;
+                }
+                let places: Vec<f64> = (0..=PLACES + 1)
+                    .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
+                    .collect();
                 let none = Deflection {
                     rail: rail.name.clone(),
                     direction,

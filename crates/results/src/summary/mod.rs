@@ -7,9 +7,11 @@ use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
 use crate::fatigue;
 use crate::run_error;
+use crate::verdict::verdict;
 use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
+use formats::verdict::add_definitions;
 
 /// The summary of the cases of a document as JSON, with the run of the scene itself first; `comparison` has the
 /// statistics of its runs ([`crate::response::RunComparison::json`]).
@@ -50,8 +52,10 @@ pub fn of_document(
 /// ```
 #[must_use]
 pub fn schema() -> Value {
-    serde_json::from_str(include_str!("schema.json"))
-        .expect("the schema is JSON, as the test of this function shows")
+    let mut schema: Value = serde_json::from_str(include_str!("schema.json"))
+        .expect("the schema is JSON, as the test of this function shows");
+    add_definitions(&mut schema);
+    schema
 }
 
 /// The summary of one run as JSON; `number` is that of its case in the document, from 1.
@@ -104,6 +108,9 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
                 .as_ref()
                 .map(|codes| ("practice".to_owned(), codes.json())),
         );
+    }
+    if run.status.is_complete() {
+        result["verdict"] = json!(verdict(scene, outcome));
     }
     let warnings = warning::case_warnings(scene, outcome);
     if !warnings.is_empty() {

@@ -3,7 +3,7 @@
 
 use crate::columns::NamedColumns;
 use formats::scene::motion::{NamedWheel, wheels};
-use formats::scene::{Analysis, Body, Origin, Scene, root_body};
+use formats::scene::{Analysis, Body, NormalForceLaw, Origin, Scene, root_body};
 use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
@@ -24,6 +24,13 @@ const GRAVITIES: [f64; 2] = [1.0, 30.0];
 
 /// Plausible range of radii of wheels, m.
 const RADII: [f64; 2] = [0.01, 2.0];
+
+/// Plausible range of the stiffness of the contact of a wheel, N/m: from soft suspensions to ten times Hertz's contact of
+/// steel.
+const WHEEL_STIFFNESS: [f64; 2] = [1e3, 5e10];
+
+/// Plausible range of rated hoisting speeds, m/s. Container cranes have up to 3 m/s without load.
+const HOIST_SPEEDS: [f64; 2] = [1e-4, 4.0];
 
 /// Penetration of wheels at the start, relative to their radius, above which their stiffness is implausible.
 const PENETRATION: f64 = 0.25;
@@ -51,6 +58,35 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
             Dimension::LENGTH,
             RADII,
             "crane wheels have 0.1 to 0.6 m",
+            scene,
+        ));
+    }
+    for wheel in &scene.wheels {
+        if wheel.vertical.law == NormalForceLaw::Linear {
+            let what = format!("`vertical.k` of wheel \"{}\"", wheel.name);
+            let usual = "steel wheels on rails have 1e8 to 1e10 N/m";
+            all.extend(implausible(
+                &what,
+                wheel.vertical.k,
+                Dimension::STIFFNESS,
+                WHEEL_STIFFNESS,
+                usual,
+                scene,
+            ));
+        }
+    }
+    if let Some(speed) = scene
+        .practice
+        .as_ref()
+        .and_then(|practice| practice.speeds[2])
+    {
+        let usual = "usual are 0.02 to 1 m/s";
+        all.extend(implausible(
+            "`hoist_speed`",
+            speed,
+            Dimension::SPEED,
+            HOIST_SPEEDS,
+            usual,
             scene,
         ));
     }

@@ -20,7 +20,7 @@ use foundations::{BuiltFoundation, ComputedModes, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
 use results::cases::records_dofs;
 use results::columns::NamedColumns;
-use results::response::{self, Response};
+use results::response::{self, Response, SolvedStructures};
 
 /// Builds the foundations of settings, and caches modes and tables that several settings use.
 pub struct SetupCache<'k> {
@@ -113,7 +113,10 @@ impl<'k> SetupCache<'k> {
             &case.input,
             &run.history,
             &built,
-            &solved,
+            SolvedStructures {
+                models: &solved,
+                chords: &[],
+            },
             &lines,
             &mut record,
         )?;

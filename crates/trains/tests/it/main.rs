@@ -3,4 +3,5 @@
 mod loaded;
 mod long;
 mod random;
+mod supports;
 mod worked;

@@ -50,6 +50,7 @@ fn solve(girder: &Girder, trains: Vec<Train>, dead: &DeadLoads, places: Vec<f64>
         spans: vec![supports(girder)],
         places: vec![places],
         effects,
+        ..Request::default()
     };
     let factor = if dead.is_empty() { 0.0 } else { 1.0 };
     let case = TrainCase {

@@ -7,17 +7,19 @@ use practice::limits::ServiceClass;
 use practice::skew::Guide;
 
 use crate::check::Check;
+use crate::own_limits;
 use crate::practice_words::{
     BUILDINGS, CLASSES, DRIVES, GUIDE, HOISTING, KINDS, LATERAL_SECTIONS, LateralSection, RELEASE,
     fatigue_classes,
 };
-use crate::scene::raw::RawPractice;
+use crate::scene::raw::{RawCodes, RawPractice};
 use crate::scene::values::practice::Practice;
 use crate::scene::values::scene::{Scene, mean_lateral_position, root_body};
 use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
+use practice::limit_choice::{LIMIT_CODES, code_name};
 
 /// Efficiency of a bumper whose force rises linearly, such as a spring.
 const SPRING_EFFICIENCY: f64 = 0.5;
@@ -113,6 +115,10 @@ pub(super) fn read(
         scale: check.scale,
     };
     let classes = Classes::read(raw, &at, check);
+    let codes = codes(raw, &at, check);
+    let limits = raw.limits.as_ref().map_or_else(Vec::new, |own| {
+        own_limits::read(own, scene.units, &at.key("limits"), check)
+    });
     let bumper_efficiency = efficiency(raw, &at, check);
     let kind = raw
         .kind
@@ -189,6 +195,8 @@ pub(super) fn read(
         check_approach(approach, scene, (crane, rails), root, check);
     }
     Some(Practice {
+        codes,
+        limits,
         crane,
         rails,
         trolley,
@@ -207,6 +215,28 @@ pub(super) fn read(
         bumper_stroke,
         bumper_efficiency,
     })
+}
+
+/// The codes by whose limits a run is judged.
+fn codes(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> Vec<String> {
+    let at = at.key("code");
+    let known: Vec<(&str, usize)> = LIMIT_CODES
+        .iter()
+        .enumerate()
+        .map(|(k, code)| (*code, k))
+        .collect();
+    let mut one = |code: &String, place: &Place<'_>| {
+        resolve(code_name(code), &known, "code", place, check.faults).map(|_| code.clone())
+    };
+    match &raw.code {
+        None => Vec::new(),
+        Some(RawCodes::One(code)) => one(code, &at).into_iter().collect(),
+        Some(RawCodes::Several(list)) => {
+            let each = list.iter().enumerate();
+            each.filter_map(|(k, code)| one(code, &at.index(k)))
+                .collect()
+        }
+    }
 }
 
 /// The trolley, which runs on structures of the crane, and the bodies in space that hang by ropes from either of

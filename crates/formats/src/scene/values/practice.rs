@@ -3,12 +3,16 @@
 use practice::aist::{BuildingClass, CraneKind};
 use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release};
-use practice::limits::ServiceClass;
+use practice::limits::{DeflectionLimit, ServiceClass};
 use practice::skew::Guide;
 
 /// Properties of a crane that the codes require in addition to the rest of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Practice {
+    /// Codes by whose limits a run is judged, as written.
+    pub codes: Vec<String>,
+    /// Limits of one's own.
+    pub limits: Vec<DeflectionLimit>,
     /// Index of the body that runs on two rails.
     pub crane: usize,
     /// Its rails, as indices into the rails of the scene.

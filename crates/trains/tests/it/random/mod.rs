@@ -377,6 +377,7 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
         spans: scene.spans.clone(),
         places,
         effects,
+        ..Request::default()
     };
     worst.scenes += 1;
     let found = match envelopes(

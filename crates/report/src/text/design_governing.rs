@@ -1,16 +1,14 @@
-//! The first page of a design: what governs, whether limits are kept, and on what the results rest.
+//! The values that govern a design, below its verdict.
 
 use crate::figures::design::{
-    deflection_unit, digits, positions, rail_phrase, reading_unit, unit_of, with_unit,
+    deflection_unit, digits, positions, reading_unit, unit_of, with_unit,
 };
 use crate::figures::influence_lines::subject_words;
 use crate::figures::rail_sketch::RailSketch;
-use crate::text::design_codes::limits;
-use crate::text::design_stresses::{governing_stresses, utilisation};
+use crate::text::design_stresses::governing_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{
-    DesignResult, GoverningLine, LimitCheck, LineSubject, ReactionExtremes, governing_reaction,
-    plane_word,
+    DesignResult, GoverningLine, LineSubject, ReactionExtremes, governing_reaction, plane_word,
 };
 use formats::design::Design;
 use formats::units::Dimension;
@@ -18,7 +16,7 @@ use trains::{GirderResponse, Governing, SpanDeflection, SpanExtreme};
 
 /// Significant digits of values in the report.
 pub(super) const DIGITS: usize = 4;
-/// Largest number of warnings, and of rows of limits, on the first page.
+/// Largest number of warnings and notes on the first page.
 const MOST: usize = 5;
 
 /// Which governing values stand on the first page, with their words.
@@ -48,14 +46,13 @@ const GOVERNING: [(GirderResponse, bool, &str); 7] = [
     ),
 ];
 
-/// What governs, whether limits are kept, and the position that causes the largest sagging moment.
-pub(super) fn verdict(
+/// The governing values, warnings, and the position that causes the largest sagging moment.
+pub(super) fn governing(
     design: &Design,
     result: &DesignResult,
     lines: &[GoverningLine],
 ) -> ReportSection {
-    let mut section = ReportSection::new("Verdict").paragraph(sentence(result));
-    section.paragraphs.extend(utilisation(result));
+    let mut section = ReportSection::new("Governing values");
     section.paragraphs.extend(fatigue_sentence(design, result));
     let notes = result
         .warnings
@@ -79,15 +76,6 @@ pub(super) fn verdict(
     }
     section = section.table(governing_table(design, result));
     if let Some(table) = governing_stresses(design, result) {
-        section = section.table(table);
-    }
-    let worst = worst_limits(result);
-    if !worst.is_empty() {
-        let mut table = limits(design, &worst[..worst.len().min(MOST)]);
-        table.caption =
-            "Limits of the code at their highest utilisation; deflections are those under wheel loads \
-                         without factors"
-                .to_owned();
         section = section.table(table);
     }
     if let Some((line, rail)) = largest_sagging(lines) {
@@ -135,29 +123,6 @@ fn largest_sagging(lines: &[GoverningLine]) -> Option<(&GoverningLine, usize)> {
     })
 }
 
-/// One sentence that says whether all limits are kept, and which is used most.
-fn sentence(result: &DesignResult) -> String {
-    let failed = result.limits.iter().filter(|limit| !limit.within()).count();
-    let most = worst_limits(result)
-        .into_iter()
-        .next()
-        .map_or_else(String::new, |check| {
-            format!(
-                " The highest utilisation is {:.0} %: {} of {}, span {}, case {}.",
-                100.0 * used(&check),
-                check.quantity,
-                rail_phrase(&check.rail),
-                check.span,
-                check.case
-            )
-        });
-    match (result.limits.len(), failed) {
-        (0, _) => "No limits of a code were checked: the design names no code.".to_owned(),
-        (count, 0) => format!("All {count} limits of the code are satisfied.{most}"),
-        (count, failed) => format!("{failed} of {count} limits of the code are exceeded.{most}"),
-    }
-}
-
 /// The largest damage-equivalent wheel load.
 fn fatigue_sentence(design: &Design, result: &DesignResult) -> Option<String> {
     let all = result
@@ -173,28 +138,6 @@ fn fatigue_sentence(design: &Design, result: &DesignResult) -> Option<String> {
          (train {}, EN 1991-3:2006, 2.12.1).",
         loads.train
     ))
-}
-
-/// Used part of a limit.
-fn used(check: &LimitCheck) -> f64 {
-    check.value.abs() / check.limit
-}
-
-/// Of each kind of limit the one that is used most, in the order of use.
-fn worst_limits(result: &DesignResult) -> Vec<LimitCheck> {
-    let mut out: Vec<LimitCheck> = Vec::new();
-    for check in &result.limits {
-        match out
-            .iter_mut()
-            .find(|own| own.quantity == check.quantity && own.clause == check.clause)
-        {
-            Some(own) if used(check) > used(own) => *own = check.clone(),
-            Some(_) => {}
-            None => out.push(check.clone()),
-        }
-    }
-    out.sort_by(|a, b| used(b).total_cmp(&used(a)));
-    out
 }
 
 /// The values that govern over all cases, rails and spans.

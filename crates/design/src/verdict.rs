@@ -1,0 +1,166 @@
+//! The verdict on a design: all its checks in one table, and what was not checked.
+
+use formats::design::Design;
+use formats::units::Dimension;
+use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck};
+use practice::clause::{CodeClause, Evidence};
+use practice::limit_choice::code_name;
+use practice::scope::checks_beyond;
+
+use crate::outcome::{DesignResult, LimitCheck, StressCheck};
+
+/// Largest bound of the relative error of influence coefficients with which a design is accepted.
+const MAX_ERROR_BOUND: f64 = fea::DEFAULT_ACCURACY;
+
+/// Why lateral deflections of open sections are upper bounds.
+const WITHOUT_WARPING: &str = "torsion without warping: up to 2.6 times too large";
+
+/// Why a check of a code is not done.
+const NOT_IN_PROGRAM: &str = "girderway does not do this check";
+
+/// All checks of a design, worst first, and what was not checked.
+#[must_use]
+pub fn verdict(design: &Design, result: &DesignResult) -> Verdict {
+    let length = design.units.label(Dimension::LENGTH);
+    let mut checks = Vec::new();
+    let mut omitted = Vec::new();
+    for limit in &result.limits {
+        let mut check = of_limit(limit, &length);
+        let is_bound = |rail: &str| {
+            let index = design.spec.rails().iter().position(|own| own.name == rail);
+            index.is_some_and(|index| result.is_lateral_bound[index])
+        };
+        if limit.quantity == "lateral deflection" && is_bound(&limit.rail) {
+            check.bound = Some(WITHOUT_WARPING.to_owned());
+        }
+        // A value that no source confirms can fail a design, but not accept it.
+        if limit.clause.evidence == Evidence::Memory && check.passed() {
+            let line = from_memory(limit, &check);
+            if !omitted.contains(&line) {
+                omitted.push(line);
+            }
+        } else {
+            checks.push(check);
+        }
+    }
+    checks.extend(
+        result
+            .stresses
+            .iter()
+            .map(|stress| of_stress(design, stress)),
+    );
+    omitted.extend(result.stresses.iter().filter_map(unproved));
+    checks.push(VerdictCheck {
+        kind: CheckKind::Calculation,
+        ..VerdictCheck::new(
+            "bound of the relative error of influence coefficients",
+            result.error_bound,
+            MAX_ERROR_BOUND,
+            "1",
+        )
+    });
+    omitted.extend(result.left_out.iter().cloned());
+    omitted.extend(beyond(design));
+    Verdict::new(checks, omitted)
+}
+
+fn of_limit(limit: &LimitCheck, length: &str) -> VerdictCheck {
+    let mut check = VerdictCheck {
+        formula: Some(limit.formula.clone()),
+        case: Some(limit.case),
+        rail: Some(limit.rail.clone()),
+        span: Some(limit.span),
+        x: Some(limit.x + 0.0),
+        position: limit.position.map(|position| position + 0.0),
+        loads: Some(limit.loads.to_owned()),
+        sampled: limit.is_sampled,
+        ..VerdictCheck::new(limit.quantity, limit.value.abs(), limit.limit, length)
+    };
+    add_clause(&mut check, &limit.clause);
+    check
+}
+
+/// Adds code, edition, clause and source; limits of one's own have a source alone.
+fn add_clause(check: &mut VerdictCheck, clause: &CodeClause) {
+    check.source = Some(clause.evidence.words().to_owned());
+    if clause.evidence != Evidence::Given {
+        check.code = Some(clause.standard.to_owned());
+        check.edition = Some(clause.edition.to_owned());
+        check.clause = Some(clause.clause.to_owned());
+    }
+}
+
+/// What stands for checks that passed by a limit from memory: one line for the limit.
+fn from_memory(limit: &LimitCheck, check: &VerdictCheck) -> OmittedCheck {
+    let reason = format!(
+        "the limit {} is from memory: no published source confirms it",
+        limit.formula
+    );
+    OmittedCheck::new(check.check.clone(), reason)
+        .of_code(limit.clause.standard, Some(limit.clause.clause))
+}
+
+fn of_stress(design: &Design, stress: &StressCheck) -> VerdictCheck {
+    let case = &design.cases[stress.case - 1];
+    let g = &stress.governing;
+    let lateral = stress
+        .lateral_section
+        .map_or_else(String::new, |own| format!("; {}", own.phrase()));
+    VerdictCheck {
+        case: Some(stress.case),
+        rail: Some(stress.rail.clone()),
+        span: Some(stress.span),
+        x: Some(g.x + 0.0),
+        position: g.trains.first().map(|train| train.position + 0.0),
+        loads: Some(format!(
+            "loads of the case with its factors, dead load included{lateral}"
+        )),
+        factors: case.factors.iter().cloned().collect(),
+        sampled: stress.fibre.is_some(),
+        formula: Some(
+            if stress.fibre.is_some() {
+                "f_y"
+            } else {
+                "f_y/sqrt(3)"
+            }
+            .to_owned(),
+        ),
+        source: Some("yield strength given in the spec".to_owned()),
+        ..VerdictCheck::new(
+            stress.quantity,
+            stress.value.abs(),
+            stress.strength,
+            design.units.label(Dimension::STRESS),
+        )
+    }
+}
+
+/// A sampled stress below its strength whose upper bound is above.
+fn unproved(stress: &StressCheck) -> Option<OmittedCheck> {
+    let bound = stress
+        .bound
+        .filter(|bound| *bound > 1.0 && stress.utilisation() <= 1.0)?;
+    let check = format!(
+        "{} of rail {} in all states, case {}",
+        stress.quantity, stress.rail, stress.case
+    );
+    let reason = format!(
+        "the largest of the evaluated states uses {:.0} % of the strength; no state is proved to exceed {:.0} %",
+        100.0 * stress.utilisation(),
+        100.0 * bound
+    );
+    Some(OmittedCheck::new(check, reason))
+}
+
+/// Checks of the named code that the program does not do; where no code is named, one line that says so.
+fn beyond(design: &Design) -> Vec<OmittedCheck> {
+    let Some(code) = &design.practice.code else {
+        let reason = "the design names no code";
+        return vec![OmittedCheck::new("checks of a design code", reason)];
+    };
+    let each = checks_beyond(code_name(code)).iter();
+    each.map(|(check, clause)| {
+        OmittedCheck::new(*check, NOT_IN_PROGRAM).of_code(code.clone(), *clause)
+    })
+    .collect()
+}

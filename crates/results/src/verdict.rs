@@ -1,0 +1,249 @@
+//! The verdict on a run: all its checks in one table, and what was not checked.
+
+use formats::scene::{Analysis, Scene};
+use formats::units::Dimension;
+use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck};
+use practice::clause::Evidence;
+use practice::limit_choice::code_name;
+use practice::limits::LimitedDisplacement;
+use practice::scope::checks_beyond;
+
+use crate::case_result::CaseResult;
+use crate::codes::{AllowableDisplacement, StaticDeflection};
+use crate::fatigue::FatigueResult;
+use crate::girders::GirderStress;
+use crate::warning::RESIDUAL;
+
+/// Why a check of a code is not done.
+const NOT_IN_PROGRAM: &str = "girderway does not do this check";
+/// Loads of the checks that look at the run itself.
+const OF_THE_RUN: &str = "forces of the run";
+
+/// All checks of a run, worst first, and what was not checked. Limits are those of the codes that `practice.code` names, and
+/// those of `practice.limits`.
+#[must_use]
+pub fn verdict(scene: &Scene, outcome: &CaseResult) -> Verdict {
+    let mut checks = Vec::new();
+    let mut omitted = Vec::new();
+    limits(scene, outcome, &mut checks, &mut omitted);
+    let stresses = outcome.girders().stresses.rows.iter();
+    checks.extend(stresses.filter_map(|found| of_stress(scene, found)));
+    checks.extend(
+        outcome
+            .fatigue
+            .iter()
+            .filter_map(|found| of_fatigue(scene, found)),
+    );
+    if scene.analysis == Analysis::Dynamic {
+        let residual = outcome.run.audit.residual().abs();
+        checks.push(of_calculation(
+            "residual of the energy balance".to_owned(),
+            residual,
+            RESIDUAL,
+        ));
+    }
+    for (structure, bound) in &outcome.error_bounds {
+        let what = format!("bound of the relative error of influence coefficients, {structure}");
+        checks.push(of_calculation(what, *bound, fea::DEFAULT_ACCURACY));
+    }
+    omitted.extend(not_judged(scene, outcome));
+    Verdict::new(checks, omitted)
+}
+
+/// Limits of static deflections.
+fn limits(
+    scene: &Scene,
+    outcome: &CaseResult,
+    checks: &mut Vec<VerdictCheck>,
+    omitted: &mut Vec<OmittedCheck>,
+) {
+    let Some(practice) = &scene.practice else {
+        return;
+    };
+    let names: Vec<&str> = practice
+        .codes
+        .iter()
+        .map(|code| name_in_limits(code))
+        .collect();
+    let is_wanted = |allowable: &AllowableDisplacement| {
+        let clause = &allowable.limit.clause;
+        clause.evidence == Evidence::Given || names.contains(&code_name(clause.standard))
+    };
+    let all = outcome.codes.iter().flat_map(|codes| &codes.limits);
+    for found in all {
+        for allowable in found.limits.iter().filter(|allowable| is_wanted(allowable)) {
+            let check = of_limit(scene, found, allowable);
+            if allowable.limit.clause.evidence == Evidence::Memory && check.passed() {
+                let reason = format!(
+                    "the limit {} is from memory: no published source confirms it",
+                    allowable.limit.formula()
+                );
+                let line = OmittedCheck::new(check.check, reason).of_code(
+                    allowable.limit.clause.standard,
+                    Some(allowable.limit.clause.clause),
+                );
+                if !omitted.contains(&line) {
+                    omitted.push(line);
+                }
+            } else {
+                checks.push(check);
+            }
+        }
+    }
+}
+
+/// The code whose limits a name means: those of EN 1991-3 are in EN 1993-6.
+fn name_in_limits(code: &str) -> &str {
+    match code_name(code) {
+        "EN 1991-3" => "EN 1993-6",
+        name => name,
+    }
+}
+
+fn of_limit(
+    scene: &Scene,
+    found: &StaticDeflection,
+    allowable: &AllowableDisplacement,
+) -> VerdictCheck {
+    let limit = &allowable.limit;
+    let what = match found.displacement {
+        LimitedDisplacement::RunwayLateral => "lateral deflection",
+        LimitedDisplacement::BridgeGirder => "vertical deflection of the bridge girder",
+        _ => "vertical deflection",
+    };
+    let loads = match found.displacement {
+        LimitedDisplacement::RunwayLateral => {
+            "a tenth of the static wheel loads at the positions of the run, lateral"
+        }
+        _ => "static wheel loads at the positions of the run, trolley at its approach",
+    };
+    let is_own = limit.clause.evidence == Evidence::Given;
+    let of_code = |text: &str| (!is_own).then(|| text.to_owned());
+    VerdictCheck {
+        code: of_code(limit.clause.standard),
+        edition: of_code(limit.clause.edition),
+        clause: of_code(limit.clause.clause),
+        source: Some(limit.clause.evidence.words().to_owned()),
+        formula: Some(limit.formula()),
+        rail: Some(found.rail.clone()),
+        x: Some(found.x + 0.0),
+        time: Some(found.time),
+        loads: Some(loads.to_owned()),
+        sampled: true,
+        ..VerdictCheck::new(
+            what,
+            found.value,
+            allowable.value,
+            scene.units.label(Dimension::LENGTH),
+        )
+    }
+}
+
+fn of_stress(scene: &Scene, found: &GirderStress) -> Option<VerdictCheck> {
+    let strength = found.yield_strength?;
+    Some(VerdictCheck {
+        rail: Some(scene.rails[found.rail].name.clone()),
+        span: Some(found.span),
+        x: Some(found.x + 0.0),
+        time: Some(found.time),
+        loads: Some(OF_THE_RUN.to_owned()),
+        formula: Some("f_y".to_owned()),
+        source: Some("yield strength given in the spec".to_owned()),
+        sampled: true,
+        ..VerdictCheck::new(
+            "direct stress",
+            found.value.abs(),
+            strength,
+            scene.units.label(Dimension::STRESS),
+        )
+    })
+}
+
+/// Damage of the service life, where the scene gives the number of runs.
+fn of_fatigue(scene: &Scene, found: &FatigueResult) -> Option<VerdictCheck> {
+    let factors = [
+        ("gamma_Ff", scene.output.fatigue.loads),
+        ("gamma_Mf", scene.output.fatigue.material),
+    ];
+    Some(VerdictCheck {
+        loads: Some(format!("{OF_THE_RUN}, repeated over the service life")),
+        factors: factors.map(|(name, value)| (name.to_owned(), value)).into(),
+        formula: Some(format!("detail {}", found.detail.word())),
+        sampled: true,
+        ..VerdictCheck::new(
+            format!("fatigue damage at {}", found.column),
+            found.life?,
+            1.0,
+            "1",
+        )
+    })
+}
+
+fn of_calculation(what: String, value: f64, limit: f64) -> VerdictCheck {
+    VerdictCheck {
+        kind: CheckKind::Calculation,
+        ..VerdictCheck::new(what, value, limit, "1")
+    }
+}
+
+/// What is not judged: checks of the named codes that the program does not do, limits without a value, and what no limit
+/// bears on.
+fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
+    let mut out = Vec::new();
+    let codes = scene
+        .practice
+        .as_ref()
+        .map_or(&[][..], |practice| &practice.codes);
+    let has_limits = scene
+        .practice
+        .as_ref()
+        .is_some_and(|practice| !practice.limits.is_empty());
+    if codes.is_empty() {
+        let reason = if has_limits {
+            "the scene names no code"
+        } else {
+            "the scene names no code and no limits; specify `practice.code` or `practice.limits`"
+        };
+        out.push(OmittedCheck::new("checks of a design code", reason));
+    }
+    for code in codes {
+        let name = name_in_limits(code);
+        let checked = outcome.codes.iter().flat_map(|codes| &codes.limits);
+        let has_any = checked
+            .flat_map(|found| &found.limits)
+            .any(|allowable| code_name(allowable.limit.clause.standard) == name);
+        if !has_any {
+            let reason =
+                "no span of the runway carries wheels in the run, or the code needs a `class`";
+            out.push(
+                OmittedCheck::new("limits of deflections", reason).of_code(code.clone(), None),
+            );
+        }
+        let reason = "a run compares them with the limit by `record`, without a verdict";
+        for check in [
+            "lateral displacement of frames at the rail",
+            "change of gauge",
+            "difference in height of the rails",
+        ] {
+            out.push(OmittedCheck::new(check, reason).of_code(code.clone(), None));
+        }
+        let each = checks_beyond(code_name(code)).iter();
+        out.extend(each.map(|(check, clause)| {
+            OmittedCheck::new(*check, NOT_IN_PROGRAM).of_code(code.clone(), *clause)
+        }));
+    }
+    if let Some(first) = outcome.response.uplifts.first() {
+        let count = outcome.response.uplifts.len();
+        let reason = format!(
+            "wheels lose contact {count} times, first {} at {:.4} s; no limit bears on this",
+            first.wheel, first.time
+        );
+        out.push(OmittedCheck::new("uplift of wheels", reason));
+    }
+    let unlimited = outcome.fatigue.iter().filter(|found| found.life.is_none());
+    out.extend(unlimited.map(|found| {
+        let reason = "the scene does not give the number of runs of the service life";
+        OmittedCheck::new(format!("fatigue damage at {}", found.column), reason)
+    }));
+    out
+}
