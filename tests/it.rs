@@ -19,4 +19,5 @@ mod study;
 mod sweep;
 mod tables;
 mod ties;
+mod verdict;
 mod verification;

@@ -228,6 +228,26 @@ fn what_was_not_checked_is_said() {
     assert!(banner < first && page.contains("Not checked"));
 }
 
+/// The Eurocode asks for eccentric wheel loads; a design without them says so. A code without load groups needs no parts of
+/// vertical forces.
+#[test]
+fn what_a_code_requires_of_the_loads_is_said() {
+    let central = solved(&girder(9.0, 0.0), &crane(0.0, json!({"code": "EN 1993-6"})));
+    assert!(omitted(&central, "torsion from eccentric wheel loads"));
+    let mut design = crane(0.0, json!({"code": "EN 1993-6"}));
+    design["trains"][0]["eccentricity"] = json!(0.0163);
+    assert!(!omitted(
+        &solved(&girder(9.0, 0.0), &design),
+        "torsion from eccentric"
+    ));
+    let guide = json!({"code": "AISC Design Guide 7", "class": "D", "combinations": true});
+    let found = solved(&girder(9.0, 0.0), &crane(0.0, guide));
+    assert!(omitted(
+        &found,
+        "defines deflection limits but no load groups"
+    ));
+}
+
 /// A limit from memory accepts nothing: AISC Design Guide 7 is not confirmed.
 #[test]
 fn a_limit_from_memory_fails_a_design_but_accepts_none() {

@@ -6,6 +6,7 @@ use formats::units::{Dimension, Scale, Units};
 use formats::verdict::OmittedCheck;
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
+use practice::limit_choice::code_name;
 use practice::limits::{DeflectionLimit, LimitedDisplacement};
 use trains::{CaseEnvelopes, GirderResponse, Governing};
 
@@ -218,6 +219,7 @@ pub(crate) fn left_out(
         }
     }
     out.extend(overhangs_without_limit(design, chords));
+    out.extend(eccentric_loads(design));
     if design.practice.s_class.is_some() && design.practice.phi2().is_none() {
         out.push(OmittedCheck::new(
             "damage-equivalent wheel loads",
@@ -238,6 +240,18 @@ pub(crate) fn left_out(
 fn omitted_limit(limit: &DeflectionLimit, check: &str, reason: &str) -> OmittedCheck {
     let clause = &limit.clause;
     OmittedCheck::new(check, reason).of_code(clause.standard, Some(clause.clause))
+}
+
+/// The eccentricity of wheel loads that EN 1991-3 requires, where no wheel has one.
+fn eccentric_loads(design: &Design) -> Option<OmittedCheck> {
+    let code = design.practice.code.as_ref()?;
+    let is_en = matches!(code_name(code), "EN 1991-3" | "EN 1993-6");
+    let wheels = || design.trains.iter().flat_map(|train| &train.wheels);
+    let is_central = wheels().all(|wheel| wheel.eccentricity == 0.0);
+    (is_en && is_central).then(|| {
+        let reason = "no train has an `eccentricity`; the code requires a quarter of the width of the rail head";
+        OmittedCheck::new("torsion from eccentric wheel loads", reason).of_code("EN 1991-3:2006", None)
+    })
 }
 
 /// Overhangs on which no limit bears although a code is named.

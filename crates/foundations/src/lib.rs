@@ -53,8 +53,8 @@ pub use select::{
     selection_reason,
 };
 pub use solved::{
-    SolvedModel, SolvedStructure, StructureCache, SystemSize, distinct_specs, solution_of, solve,
-    solve_for_file, solve_specs,
+    RailChords, SolvedModel, SolvedStructure, StructureCache, SystemSize, distinct_specs,
+    solution_of, solve, solve_for_file, solve_specs,
 };
 pub use tables::influence_blocks;
 pub use wheels_at_rest::with_wheels_at_rest;

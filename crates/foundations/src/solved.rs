@@ -1,6 +1,6 @@
 //! FE solutions of the structures of a scene, computed once for all foundations that are built from them.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use fea::FactoredFrame;
 use formats::grid::StationGrid;
@@ -30,7 +30,12 @@ pub struct SolvedModel {
     pub size: Option<SystemSize>,
     /// Natural modes that runs have computed of it.
     pub modes: ComputedModes,
+    /// Chords of its rails, once a run has asked for them.
+    pub chords: OnceLock<Vec<RailChords>>,
 }
+
+/// Chords of a rail from which deflections are measured, by plane (vertical, lateral): coordinates of both ends.
+pub type RailChords = [Vec<[f64; 2]>; 2];
 
 /// Size of a system of equations.
 #[derive(Clone, Copy, Debug)]
@@ -101,6 +106,7 @@ fn solved(
         girder: spec.girder().cloned(),
         size,
         modes: ComputedModes::default(),
+        chords: OnceLock::new(),
     })
 }
 

@@ -2,18 +2,21 @@
 
 use formats::scene::{Origin, Scene};
 use formats::spec::Form;
-use foundations::SolvedModel;
+use foundations::{RailChords, SolvedModel};
 use trains::{SupportedEnds, supported_ends};
 
 /// Chords of each rail of the scene by plane (vertical, lateral): between the coordinates that the scene gives, otherwise
 /// between the supports of the plane ([`supported_ends`]), and between its firm supports where these are others. None
 /// where a rail has no spans: on an elastic bed, without two supports, and without a solved structure.
-pub fn plane_spans(scene: &Scene, solved: &[Option<&SolvedModel>]) -> Vec<[Vec<[f64; 2]>; 2]> {
-    let of_structure = |s: usize| -> Vec<[Vec<[f64; 2]>; 2]> {
+pub fn plane_spans(scene: &Scene, solved: &[Option<&SolvedModel>]) -> Vec<RailChords> {
+    let of_structure = |s: usize| -> Vec<RailChords> {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&scene.structures[s].origin, solved[s])
         else {
             return Vec::new();
         };
+        if let Some(known) = solved.chords.get() {
+            return known.clone();
+        }
         let candidates = spec.rail_spans(&solved.model, &solved.rails);
         let found = match (&spec.form, &solved.surface) {
             (Form::Frame(_), Some(surface)) => {

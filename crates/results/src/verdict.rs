@@ -5,7 +5,7 @@ use formats::units::Dimension;
 use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck};
 use practice::clause::Evidence;
 use practice::limit_choice::code_name;
-use practice::limits::LimitedDisplacement;
+use practice::limits::{LimitLoads, LimitedDisplacement};
 use practice::scope::checks_beyond;
 
 use crate::case_result::CaseResult;
@@ -72,6 +72,23 @@ fn limits(
     let all = outcome.codes.iter().flat_map(|codes| &codes.limits);
     for found in all {
         for allowable in found.limits.iter().filter(|allowable| is_wanted(allowable)) {
+            // A run knows a tenth of the static wheel loads, but not the horizontal loads of the other codes.
+            let limit = &allowable.limit;
+            if found.displacement == LimitedDisplacement::RunwayLateral
+                && limit.clause.evidence != Evidence::Given
+                && limit.loads != LimitLoads::Tenth
+            {
+                let reason = format!(
+                    "a run does not derive {}; use a design",
+                    limit.loads.words()
+                );
+                let line = OmittedCheck::new("lateral deflection", reason)
+                    .of_code(limit.clause.standard, Some(limit.clause.clause));
+                if !omitted.contains(&line) {
+                    omitted.push(line);
+                }
+                continue;
+            }
             let check = of_limit(scene, found, allowable);
             if allowable.limit.clause.evidence == Evidence::Memory && check.passed() {
                 let reason = format!(

@@ -10,8 +10,8 @@
 //! beginning with the smallest ratio, until none is left.
 //!
 //! A support that is not rigid deflects with the girder, so that such a girder is judged between its firm ends as well:
-//! points of its own with a rigid support in the direction of the plane, where there are two or more, otherwise points
-//! whose ratio is at least [`FIRM_SUPPORT`].
+//! points of its own with a rigid support or a firm spring in the direction of the plane, where there are two or more,
+//! otherwise points whose ratio is at least [`FIRM_SUPPORT`].
 //!
 //! A girder on an elastic bed has ground stiffness at points that are no ends. Where the removed points of a span
 //! together have more than [`MIN_SUPPORT`] of the stiffness of the girder between the ends of that span, spans are not
@@ -106,9 +106,9 @@ pub fn supported_ends(
             return all(rail);
         };
         let mut ends = ends(&candidates[rail], &found);
-        let rigid = rigid_supports(original, &rails[rail], axis, &candidates[rail]);
-        if rigid.len() >= 2 {
-            ends.firm = rigid;
+        let own = own_supports(original, &rails[rail], axis, &ends);
+        if own.len() >= 2 {
+            ends.firm = own;
         }
         ends
     };
@@ -117,8 +117,9 @@ pub fn supported_ends(
         .collect())
 }
 
-/// Candidates at which a point of the girder itself has a rigid support in the direction of a plane.
-fn rigid_supports(model: &Model, rail: &Rail, axis: Axis, candidates: &[f64]) -> Vec<f64> {
+/// Ends of spans at which a point of the girder itself has a rigid support in the direction of a plane, or a spring to
+/// ground that makes it firm.
+fn own_supports(model: &Model, rail: &Rail, axis: Axis, found: &SupportedEnds) -> Vec<f64> {
     let along = Vector3::from(rail.axis).normalize();
     let up = Vector3::from(model.up);
     let up = (up - along * up.dot(&along)).normalize();
@@ -127,20 +128,27 @@ fn rigid_supports(model: &Model, rail: &Rail, axis: Axis, candidates: &[f64]) ->
     } else {
         up
     };
-    let slack = SAME * candidates.iter().fold(1.0, |far: f64, x| far.max(x.abs()));
+    let slack = SAME * found.ends.iter().fold(1.0, |far: f64, x| far.max(x.abs()));
     let members = rail.segments.iter().map(|segment| segment.member);
     let points: Vec<usize> = members
         .flat_map(|member| model.members[member].points)
         .collect();
-    let holds = |x: f64| {
-        model.supports.iter().any(|support| {
-            let at = Vector3::from(model.points[support.point]) - Vector3::from(rail.origin);
-            points.contains(&support.point)
-                && (at.dot(&along) - x).abs() <= slack
-                && (0..3).any(|dof| support.fixed[dof] && direction[dof].abs() > 1.0 - SAME)
-        })
+    let is_at = |point: usize, x: f64| {
+        let at = Vector3::from(model.points[point]) - Vector3::from(rail.origin);
+        points.contains(&point) && (at.dot(&along) - x).abs() <= slack
     };
-    candidates.iter().copied().filter(|x| holds(*x)).collect()
+    let acts = |dof: usize| dof < 3 && direction[dof].abs() > 1.0 - SAME;
+    let holds = |x: f64| {
+        let rigid = model.supports.iter().any(|support| {
+            is_at(support.point, x) && (0..3).any(|dof| support.fixed[dof] && acts(dof))
+        });
+        let sprung = model
+            .springs
+            .iter()
+            .any(|spring| is_at(spring.point, x) && acts(spring.dof as usize));
+        rigid || sprung && found.firm.contains(&x)
+    };
+    found.ends.iter().copied().filter(|x| holds(*x)).collect()
 }
 
 /// The model with springs in place of the translations that its supports fix.

@@ -1,7 +1,7 @@
 //! `girderway sim`: simulation with the tables that an earlier `run` wrote to the output folder.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde_json::Value;
 
@@ -125,5 +125,6 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
         girder,
         size: None,
         modes,
+        chords: OnceLock::new(),
     })
 }

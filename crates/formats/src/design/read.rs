@@ -22,6 +22,7 @@ use crate::text::place::Place;
 use crate::text::source::Source;
 use crate::units::{Dimension, STANDARD_GRAVITY, Scale, Units};
 use crate::vector::length;
+use ::practice::limit_choice::code_name;
 
 /// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-design/1";
@@ -632,7 +633,10 @@ fn require_parts(
     root: &Place<'_>,
     faults: &mut Faults,
 ) {
-    if code.is_none_or(|code| code.starts_with("ASCE")) {
+    // Groups of ASCE 7 factor wheel loads as a whole; the other codes have limits alone.
+    let has_parts =
+        |code: &str| matches!(code_name(code), "EN 1991-3" | "EN 1993-6" | "AIST TR-13");
+    if !code.is_some_and(has_parts) {
         return;
     }
     let at = root.key("trains");

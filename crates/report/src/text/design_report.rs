@@ -198,7 +198,8 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
 fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
     let mut section = ReportSection::new("Reactions by load").paragraph(
         "Forces and moments of the ground on the structure, positive along the global axes. The extremes of each load \
-         alone occur at different positions; the last column has the extremes of all loads together.",
+         alone occur at different positions; the last column has the extremes of all loads together. Loads have the \
+         factors of the case; skewing, buffer and tilting forces for which it has none are listed with the factor 1.",
     );
     let unit = design.units.label(Dimension::FORCE);
     for (index, case) in result.cases.iter().enumerate() {

@@ -5,7 +5,7 @@
 //! load of each wheel by statics. Laterally, a tenth of the static loads of the wheels on the span's own rail acts.
 
 use design::clause_json;
-use foundations::SolvedModel;
+use foundations::{RailChords, SolvedModel};
 use practice::aist::{BuildingClass, CraneKind};
 use practice::cmaa::LATERAL_FRACTION;
 use practice::limits::{
@@ -92,7 +92,7 @@ impl StaticDeflection {
 /// What the static deflections of a run are computed from.
 pub struct SpanResponse<'r> {
     /// Chords of each rail of the scene by plane (vertical, lateral).
-    pub spans: &'r [[Vec<[f64; 2]>; 2]],
+    pub spans: &'r [RailChords],
     /// History of the run.
     pub history: &'r History,
     /// Solution of each structure of the scene; `None` for a structure without spec.

@@ -32,7 +32,7 @@ use crate::columns::NamedColumns;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
-use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
+use foundations::{BuiltFoundation, RailChords, SolvedModel, SolvedStructure, solution_of};
 
 /// The response of the structures in a run, in addition to the columns in its record.
 #[derive(Clone, Debug, Default)]
@@ -121,7 +121,7 @@ pub struct SolvedStructures<'s> {
     pub models: &'s [Option<&'s SolvedModel>],
     /// By rail of the scene and plane (vertical, lateral): chords from which deflections are measured. Without entries no
     /// deflections are computed.
-    pub chords: &'s [[Vec<[f64; 2]>; 2]],
+    pub chords: &'s [RailChords],
 }
 
 impl Response {

@@ -1,7 +1,7 @@
 //! Settings made ready to run any number of times.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use sim::{Foundation, Run};
 use splines::Compliance;
@@ -200,6 +200,7 @@ fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
         girder: solved.girder.clone(),
         size: None,
         modes: ComputedModes::default(),
+        chords: OnceLock::new(),
     })
 }
 
