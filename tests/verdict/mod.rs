@@ -117,3 +117,92 @@ fn a_run_is_judged_by_what_its_scene_names() {
         "given in the input"
     );
 }
+
+/// A stiffness a thousand times too large and a hoisting speed of 8 m/s are warned of.
+#[test]
+fn slips_of_units_in_a_scene_are_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut stiff = scene(json!({}));
+    stiff["wheels"]["w"]["vertical"]["k"] = json!(5e8);
+    let fast = scene(json!({"hoisting": "HC2", "hoist_speed": 8}));
+    for (scene, words) in [
+        (stiff, "`vertical.k` of wheel \"w\""),
+        (fast, "`hoist_speed` is 8 m/s"),
+    ] {
+        let (output, summary) = run(folder.path(), &scene, &[]);
+        assert_eq!(output.status.code(), Some(0));
+        let told = summary["warnings"].to_string().replace("\\\"", "\"");
+        assert!(told.contains(words), "{told}");
+    }
+    let (_, sound) = run(folder.path(), &scene(json!({})), &[]);
+    let told = sound["warnings"].to_string();
+    assert!(!told.contains("check its unit"), "{told}");
+}
+
+/// Sections are swept: the columns of both runs have the same names, so that their utilisations can be compared.
+#[test]
+fn results_of_a_sweep_do_not_name_what_is_swept() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let files = [
+        (
+            "spec.json",
+            json!({"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
+                "girder": {"spans": [6, 6], "section": "HEB 300", "fy": 235000, "rail_height": 0.15}}),
+        ),
+        (
+            "design.json",
+            json!({"format": "girderway-design/1", "units": {"length": "m", "force": "kN", "time": "s"},
+                "spec": "spec.json", "practice": {"code": "EN 1993-6"},
+                "trains": [{"name": "c", "lateral": 5,
+                    "wheels": [{"x": 0, "vertical": 60, "skewing": 8}, {"x": 2.5, "vertical": 60}]}]}),
+        ),
+        (
+            "sweep.json",
+            json!({"format": "girderway-sweep/1", "name": "sizes", "design": "design.json", "sampling": "grid",
+                "axes": {"spec.json#/girder/section": ["HEB 200", "HEB 300", "HEB 400"]}, "results": ["ratios"]}),
+        ),
+    ];
+    for (name, value) in files {
+        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(["sweep", "sweep.json", "-o", "out"])
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let text = std::fs::read_to_string(folder.path().join("out/results.csv")).expect("results");
+    let header = text.lines().next().expect("a header");
+    assert!(!header.contains("HEB"), "{header}");
+    let names: Vec<&str> = header.split(',').collect();
+    let column = names
+        .iter()
+        .position(|name| *name == "rail.direct stress")
+        .expect("a utilisation");
+    let used: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            line.split(',')
+                .nth(column)
+                .and_then(|cell| cell.parse().ok())
+                .expect("a number")
+        })
+        .collect();
+    assert!(
+        used.len() == 3 && used[0] > used[1] && used[1] > used[2],
+        "{used:?}"
+    );
+    assert_eq!(
+        names.len(),
+        names
+            .iter()
+            .collect::<std::collections::BTreeSet<_>>()
+            .len(),
+        "{header}"
+    );
+}

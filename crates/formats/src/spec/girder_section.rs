@@ -3,6 +3,7 @@
 
 use sections::{PlaneSection, RailProfile, STEEL_DENSITY, STEEL_SHEAR, SectionSeries};
 
+use super::outline::girder_shape;
 use super::raw::RawGirder;
 use super::rolled::{self, from_si};
 use super::shape;
@@ -80,14 +81,7 @@ pub(super) fn top_of_section(raw: &RawGirder, units: Units) -> Option<f64> {
         from: units,
         to: units,
     };
-    match (&raw.section, &raw.shape) {
-        (Some(name), _) => {
-            let millimetre = Length::Millimetre.in_units_of(units.length);
-            sections::rolled(name).map(|found| 0.5 * found.dimensions.height * millimetre)
-        }
-        (None, Some(given)) => shape::top(given, &own),
-        (None, None) => None,
-    }
+    girder_shape(raw, &own).map(|shape| shape.top())
 }
 
 fn check_density(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) {

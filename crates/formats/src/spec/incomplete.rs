@@ -1,13 +1,10 @@
 //! Results that follow from half an input, and what is missing for the whole: a weight without density, a shape whose
 //! properties are stated otherwise.
 
-use super::girder_section::filled_girder;
+use super::notes::filled;
 use super::raw::{RawGirder, RawSpec};
-use crate::check::Check;
-use crate::text::fault::Faults;
 use crate::text::number::{number, rounded};
-use crate::text::place::Place;
-use crate::units::{Dimension, Scale, Units};
+use crate::units::{Dimension, Units};
 use crate::verdict::OmittedCheck;
 
 /// Difference of a stated property from that of the section beside it, relative, above which one of the two is doubtful.
@@ -51,15 +48,7 @@ fn properties(girder: &RawGirder, units: Units) -> Option<OmittedCheck> {
         composite: None,
         ..girder.numbers()
     };
-    let mut faults = Faults::default();
-    let mut check = Check {
-        faults: &mut faults,
-        scale: Scale {
-            from: units,
-            to: units,
-        },
-    };
-    let own = filled_girder(&bare, &Place::root(), &mut check);
+    let own = filled(&bare, units);
     let pairs = [
         ("A", girder.area, own.area, Dimension::AREA),
         (

@@ -168,7 +168,7 @@ fn flange_height(raw: &RawGirder, units: Units) -> Option<String> {
 }
 
 /// A girder without faults with the numbers that follow from its names.
-fn filled(raw: &RawGirder, units: Units) -> RawGirder {
+pub(super) fn filled(raw: &RawGirder, units: Units) -> RawGirder {
     let mut faults = Faults::default();
     let mut check = Check {
         faults: &mut faults,

@@ -6,7 +6,7 @@ use super::raw::{RawGirder, RawSection, RawSectionShape, RawSpec};
 use super::shape::{self, Kind};
 use crate::check::Check;
 use crate::text::place::Place;
-use crate::units::{Dimension, Length};
+use crate::units::{Dimension, Length, Scale};
 
 /// Shape and strength of a cross section, in the units of the spec.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +93,18 @@ pub enum OutlineShape {
     Tube(f64),
 }
 
+impl OutlineShape {
+    /// Height of the upper edge above the centroid.
+    #[must_use]
+    pub fn top(&self) -> f64 {
+        match self {
+            OutlineShape::I(plates) => plates.height - plates.centroid(),
+            OutlineShape::Box([height, ..]) | OutlineShape::Bar([height, _]) => 0.5 * height,
+            OutlineShape::Tube(diameter) => 0.5 * diameter,
+        }
+    }
+}
+
 /// Plates of an I section; root fillets are left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SectionPlates {
@@ -145,17 +157,20 @@ pub struct MemberOutline {
 pub(super) fn of_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> SectionOutline {
     let fy = check.optional_positive(raw.fy, &at.key("fy"), Dimension::STRESS, "a yield strength");
     let section = raw.section.as_deref().and_then(rolled);
-    let drawn = raw
-        .shape
-        .as_ref()
-        .and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?));
-    let named = section.map(|section| of_dimensions(&section.dimensions, check.scale.to.length));
     SectionOutline {
         name: section.map_or("girder", |section| section.name).to_owned(),
-        shape: named.or(drawn),
+        shape: girder_shape(raw, &check.scale),
         drawn: None,
         yield_strength: fy,
     }
+}
+
+/// The shape of the section of a girder, where its name or its dimensions give it.
+pub(super) fn girder_shape(raw: &RawGirder, scale: &Scale) -> Option<OutlineShape> {
+    let section = raw.section.as_deref().and_then(rolled);
+    let named = section.map(|section| of_dimensions(&section.dimensions, scale.to.length));
+    let drawn = || of_shape(shape::in_model_units(raw.shape.as_ref()?, scale)?);
+    named.or_else(drawn)
 }
 
 /// The outlines of the sections of the general form, in their order.

@@ -204,38 +204,6 @@ pub(super) fn properties(kind: Kind, dimensions: [f64; 8]) -> Option<Properties>
     found.ok()
 }
 
-/// Height of the upper edge of a shape above its centroid, in the units of `scale`; `None` for a shape with a fault.
-pub(super) fn top(raw: &RawShape, scale: &Scale) -> Option<f64> {
-    let (kind, dimensions) = in_model_units(raw, scale)?;
-    properties(kind, dimensions)?;
-    let [
-        height,
-        width,
-        flange,
-        web,
-        lower_width,
-        lower_flange,
-        diameter,
-        _,
-    ] = dimensions;
-    Some(match kind {
-        Kind::I => {
-            let parts = [
-                (lower_width * lower_flange, 0.5 * lower_flange),
-                (
-                    web * (height - flange - lower_flange),
-                    0.5 * (height - flange + lower_flange),
-                ),
-                (width * flange, height - 0.5 * flange),
-            ];
-            let area: f64 = parts.iter().map(|(area, _)| area).sum();
-            height - parts.iter().map(|(area, y)| area * y).sum::<f64>() / area
-        }
-        Kind::Box | Kind::Bar => 0.5 * height,
-        Kind::Tube => 0.5 * diameter,
-    })
-}
-
 /// Number of equal intervals of a part over which its properties are integrated.
 const INTERVALS: usize = 8;
 /// Positions and weights of Gauss's rule of eight points on -1 to 1: the positive half.
