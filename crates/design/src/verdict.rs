@@ -112,9 +112,7 @@ fn of_stress(design: &Design, stress: &StressCheck) -> VerdictCheck {
         span: Some(stress.span),
         x: Some(g.x + 0.0),
         position: g.trains.first().map(|train| train.position + 0.0),
-        loads: Some(format!(
-            "loads of the case with its factors, dead load included{lateral}"
-        )),
+        loads: Some(format!("loads of the case, dead load included{lateral}")),
         factors: case.factors.iter().cloned().collect(),
         sampled: stress.fibre.is_some(),
         formula: Some(

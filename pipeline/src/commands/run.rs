@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use crate::verdict::exit as exit_of;
 use formats::scene::Document;
 use formats::spec::Spec;
+use formats::verdict::VerdictResult;
 use foundations::{SolvedStructure, distinct_specs, solve_specs};
 use outputs::clock::StageClock;
 use outputs::files::json as json_text;
@@ -157,6 +158,9 @@ fn finish(
         tell(run, progress);
         let units = run.document.scene().units;
         for (index, (own, outcome)) in verdicts.iter().zip(&run.cases).enumerate() {
+            if index > 0 && own.result == VerdictResult::NotChecked {
+                continue;
+            }
             let lines = report::verdict_lines(own, units);
             if verdicts.len() > 1 {
                 progress.say(&format!("{}: {}", outcome.label, lines[0]));

@@ -24,6 +24,8 @@ const SHORT: usize = 24;
 const LETTER: f64 = 7.4;
 const BESIDE: f64 = 26.0;
 const ROOM: f64 = 1340.0;
+/// Letters of a cell above which it takes a whole line of its row on a narrow screen.
+const LONG: usize = 28;
 /// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
 /// narrow screen.
 const WIDE: usize = 9;
@@ -101,15 +103,17 @@ impl Report {
                         h1 { (self.title) }
                         @if !self.subtitle.is_empty() { p.subtitle { (self.subtitle) } }
                     }
-                    @for body in &bodies[..first] { (body) }
-                    nav aria-label="Contents" {
-                        ol {
-                            @for (i, one) in self.sections.iter().enumerate() {
-                                li { a href=(format!("#section-{}", i + 1)) { (one.heading) } }
+                    main {
+                        @for body in &bodies[..first] { (body) }
+                        nav aria-label="Contents" {
+                            ol {
+                                @for (i, one) in self.sections.iter().enumerate() {
+                                    li { a href=(format!("#section-{}", i + 1)) { (one.heading) } }
+                                }
                             }
                         }
+                        @for body in &bodies[first..] { (body) }
                     }
-                    main { @for body in &bodies[first..] { (body) } }
                     footer { "girderway " (env!("CARGO_PKG_VERSION")) }
                     script { (PreEscaped(SCRIPT)) }
                     @if moves { script { (PreEscaped(ANIMATION_SCRIPT)) } }
@@ -247,7 +251,7 @@ fn table(
                     @for row in &rows {
                         tr {
                             @for ((number, text), aligned) in row.iter().zip(&aligned) {
-                                td class=[(*number || *aligned).then_some("number")] { (text) }
+                                td .number[*number || *aligned] .long[text.chars().count() > LONG] { (text) }
                             }
                         }
                     }

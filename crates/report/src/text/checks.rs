@@ -3,6 +3,8 @@
 use formats::units::{Dimension, Units};
 use formats::verdict::{Verdict, VerdictCheck, VerdictResult};
 
+use practice::clause::Evidence;
+
 use crate::figures::design::{deflection_unit, digits};
 use crate::text::design_stresses::stress_unit;
 use crate::{Banner, BannerTone, ReportSection, ReportTable, TableCell, TableColumn};
@@ -80,11 +82,7 @@ fn row(check: &VerdictCheck, units: Units) -> Vec<TableCell> {
         Some(formula) => format!("{} ({formula})", value(check.limit)),
         None => value(check.limit),
     };
-    let sampled = if check.sampled {
-        ", largest of the evaluated states"
-    } else {
-        ""
-    };
+    let sampled = if check.sampled { " (sampled)" } else { "" };
     let factors: Vec<String> = check
         .factors
         .iter()
@@ -108,13 +106,10 @@ fn row(check: &VerdictCheck, units: Units) -> Vec<TableCell> {
     if let Some(bound) = &check.bound {
         loads.push_str(&format!("; {bound}"));
     }
+    // The sources of all limits are in the section on limits; what no source confirms is said here.
     let mut clause = check.reference();
-    if let Some(source) = &check.source {
-        clause = if clause.is_empty() {
-            source.clone()
-        } else {
-            format!("{clause} ({source})")
-        };
+    if check.source.as_deref() == Some(Evidence::Memory.words()) {
+        clause.push_str(", from memory");
     }
     vec![
         TableCell::from(format!("{}{sampled}", check.check)),

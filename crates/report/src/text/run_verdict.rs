@@ -1,6 +1,5 @@
 //! The first page of a run: its verdict, what governs, and where the wheels stand then.
 
-use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
 use crate::figures::rail_sketch::RailSketch;
 use crate::figures::responses::supports;
@@ -9,6 +8,7 @@ use crate::text::checks::verdict_section;
 use crate::text::girder_stresses;
 use crate::text::girders::largest;
 use crate::text::run_governing::governing;
+use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
@@ -23,22 +23,39 @@ const DIGITS: usize = 4;
 /// Largest number of warnings on the first page.
 const WARNINGS: usize = 4;
 
-/// The verdicts on the runs, one section for each that ended.
-pub(super) fn verdicts(document: &Document, outcomes: &[CaseResult]) -> Vec<ReportSection> {
-    let mut out = Vec::new();
-    for (case, outcome) in document.cases.iter().zip(outcomes) {
-        if !outcome.run.status.is_complete() {
-            continue;
-        }
-        let heading = if outcomes.len() == 1 {
-            "Verdict".to_owned()
-        } else {
-            format!("Verdict: {}", run_name(&outcome.label))
-        };
-        let own = verdict(&case.scene, outcome);
-        out.push(verdict_section(&heading, &own, case.scene.units));
+/// The verdict on the first run, and one line for each other; `None` where the first run did not reach its end.
+pub(super) fn verdicts(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
+    let first = &outcomes[0];
+    if !first.run.status.is_complete() {
+        return None;
     }
-    out
+    let scene = document.scene();
+    let mut section = verdict_section("Verdict", &verdict(scene, first), scene.units);
+    if outcomes.len() > 1 {
+        let others = document.cases.iter().zip(outcomes).skip(1);
+        let rows = others.map(|(case, outcome)| {
+            let line = match outcome.run.status.is_complete() {
+                true => verdict(&case.scene, outcome).banner(),
+                false => "the run did not reach its end".to_owned(),
+            };
+            vec![
+                TableCell::from(run_name(&outcome.label)),
+                TableCell::from(line),
+            ]
+        });
+        section = section.table(ReportTable {
+            caption: format!(
+                "Verdicts on the other runs; the checks above are those of \"{}\"",
+                run_name(&first.label)
+            ),
+            columns: ["run", "verdict"]
+                .iter()
+                .map(|name| TableColumn::new(*name, ""))
+                .collect(),
+            rows: rows.collect(),
+        });
+    }
+    Some(section)
 }
 
 /// Status, governing values, and the wheels at the instant of the largest sagging moment.
