@@ -9,7 +9,7 @@ use formats::kept::KeptValues;
 use formats::spec::{SolveError, Spec};
 use formats::text::inputs::Inputs;
 use formats::verdict::OmittedCheck;
-use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
+use trains::{DeadLoads, Governing, Request, Structure, TrainCase, twists_without_warping};
 
 use crate::chords::{Chords, PlaneSpans};
 use crate::combinations::groups_left_out;
@@ -166,7 +166,7 @@ pub fn solve_on(
         chords: chords.ends,
         is_lateral_bound: rails
             .iter()
-            .map(|rail| is_lateral_bound(model, rail))
+            .map(|rail| twists_without_warping(model, rail))
             .collect(),
         stresses: details.stresses,
         wheel_stresses: details.wheel_stresses,
@@ -176,23 +176,6 @@ pub fn solve_on(
         left_out,
         warnings,
         error_bound,
-    })
-}
-
-/// Largest ratio of the torsion constant to the sum of the second moments of area of an open section. It is 0.08 for the
-/// thickest rolled sections, and about 0.5 for boxes.
-const MAX_OPEN: f64 = 0.1;
-
-/// Whether a rail stands on an arm on a member of open section.
-fn is_lateral_bound(model: &Model, rail: &Rail) -> bool {
-    rail.segments.iter().any(|segment| {
-        let section = model
-            .members
-            .get(segment.member)
-            .and_then(|member| model.sections.get(member.section));
-        let is_open =
-            section.is_some_and(|own| own.j > 0.0 && own.j < MAX_OPEN * (own.iy + own.iz));
-        is_open && segment.offset.iter().any(|part| *part != 0.0)
     })
 }
 

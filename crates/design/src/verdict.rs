@@ -7,13 +7,12 @@ use practice::clause::{CodeClause, Evidence};
 use practice::limit_choice::code_name;
 use practice::scope::checks_beyond;
 
+use trains::WITHOUT_WARPING;
+
 use crate::outcome::{DesignResult, LimitCheck, StressCheck};
 
 /// Largest bound of the relative error of influence coefficients with which a design is accepted.
 const MAX_ERROR_BOUND: f64 = fea::DEFAULT_ACCURACY;
-
-/// Why lateral deflections of open sections are upper bounds.
-const WITHOUT_WARPING: &str = "torsion without warping: up to 2.6 times too large";
 
 /// Why a check of a code is not done.
 const NOT_IN_PROGRAM: &str = "girderway does not do this check";

@@ -51,6 +51,8 @@ pub struct CaseResult {
     pub fatigue: Vec<FatigueResult>,
     /// Bounds of the relative errors of influence coefficients, by structure.
     pub error_bounds: Vec<(String, f64)>,
+    /// By rail of the scene: whether its lateral deflections are upper bounds ([`trains::twists_without_warping`]).
+    pub is_lateral_bound: Vec<bool>,
     /// What first order leaves out, once it has been asked for.
     pub(crate) second_order: OnceLock<Vec<FirstOrderDoubt>>,
     /// Its warnings, once they have been asked for.

@@ -22,8 +22,9 @@ use crate::plane_spans::plane_spans;
 use crate::response::{self, Response, SceneMode, SolvedStructures};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
-use formats::scene::{self, Case, Document, Scene, Structure};
+use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
+use trains::twists_without_warping;
 
 /// How far a simulation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -269,6 +270,11 @@ fn run_case(
     };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
+    let of_rail = |rail: &SceneRail| {
+        let solved = solved[rail.structure];
+        solved.is_some_and(|solved| twists_without_warping(&solved.model, &solved.rails[rail.rail]))
+    };
+    let is_lateral_bound = scene.rails.iter().map(of_rail).collect();
     let error_bounds = scene.structures.iter().zip(&solved);
     let error_bounds = error_bounds
         .filter_map(|(one, solved)| {
@@ -307,6 +313,7 @@ fn run_case(
         codes,
         fatigue,
         error_bounds,
+        is_lateral_bound,
         second_order: OnceLock::new(),
         warnings: OnceLock::new(),
     })

@@ -7,6 +7,7 @@ use practice::clause::Evidence;
 use practice::limit_choice::code_name;
 use practice::limits::{LimitLoads, LimitedDisplacement};
 use practice::scope::checks_beyond;
+use trains::WITHOUT_WARPING;
 
 use crate::case_result::CaseResult;
 use crate::codes::{AllowableDisplacement, StaticDeflection};
@@ -89,7 +90,15 @@ fn limits(
                 }
                 continue;
             }
-            let check = of_limit(scene, found, allowable);
+            let mut check = of_limit(scene, found, allowable);
+            let is_bound = scene.rails.iter().zip(&outcome.is_lateral_bound);
+            if found.displacement == LimitedDisplacement::RunwayLateral
+                && is_bound
+                    .into_iter()
+                    .any(|(rail, is)| *is && rail.name == found.rail)
+            {
+                check.bound = Some(WITHOUT_WARPING.to_owned());
+            }
             if allowable.limit.clause.evidence == Evidence::Memory && check.passed() {
                 let reason = format!(
                     "the limit {} is from memory: no published source confirms it",

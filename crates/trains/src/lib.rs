@@ -11,10 +11,10 @@
 //! model. There influence lines, moments and deflections are taken as cubics in parts of members so short that they err by
 //! less than 1e-9 ([`Structure::error_of_lines`]), and extremes are enclosed. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, bent, structure, supports, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, open_section, train, line, bent, structure, supports, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
-//! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
+//! 2. `error`, `open_section`, `train`: what can be wrong or too large, and what the caller gives: wheels, trains, cases;
 //! 3. `line`, `bent`, `structure`: influence lines as cubics; moments under axial force; the structure that has them; `supports`: the ends of spans in a plane; `kernel`, `rail_deflection`: the
 //!    deflection of a rail over a member as polynomials of the place and of the load's position; `joining`: far cells as one;
 //! 4. `pieces`, `running`, `plan`, `promising`, `hints`: responses to a train as functions of its position, the best
@@ -46,6 +46,7 @@ mod instant;
 mod joining;
 mod kernel;
 mod line;
+mod open_section;
 mod ordinates;
 mod overrun;
 mod pieces;
@@ -71,6 +72,7 @@ pub use extremes::{
 };
 pub use follow::SectionSide;
 pub use instant::{MemberForces, PassedLoads, RailLoad, RailMember};
+pub use open_section::{WITHOUT_WARPING, twists_without_warping};
 pub use ordinates::InfluenceLine;
 pub use structure::{GirderResponse, Structure};
 pub use supports::{FIRM_SUPPORT, MIN_SUPPORT, SupportedEnds, supported_ends};
