@@ -2,10 +2,7 @@
 
 use formats::design::Design;
 use formats::units::Dimension;
-use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck};
-use practice::clause::{CodeClause, Evidence};
-use practice::limit_choice::code_name;
-use practice::scope::checks_beyond;
+use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
 
 use trains::WITHOUT_WARPING;
 
@@ -13,9 +10,6 @@ use crate::outcome::{DesignResult, LimitCheck, StressCheck};
 
 /// Largest bound of the relative error of influence coefficients with which a design is accepted.
 const MAX_ERROR_BOUND: f64 = fea::DEFAULT_ACCURACY;
-
-/// Why a check of a code is not done.
-const NOT_IN_PROGRAM: &str = "girderway does not do this check";
 
 /// All checks of a design, worst first, and what was not checked.
 #[must_use]
@@ -32,14 +26,10 @@ pub fn verdict(design: &Design, result: &DesignResult) -> Verdict {
         if limit.quantity == "lateral deflection" && is_bound(&limit.rail) {
             check.bound = Some(WITHOUT_WARPING.to_owned());
         }
-        // A value that no source confirms can fail a design, but not accept it.
-        if limit.clause.evidence == Evidence::Memory && check.passed() {
-            let line = from_memory(limit, &check);
-            if !omitted.contains(&line) {
-                omitted.push(line);
-            }
-        } else {
-            checks.push(check);
+        match check.confirmed(&limit.clause) {
+            Ok(check) => checks.push(check),
+            Err(line) if omitted.contains(&line) => {}
+            Err(line) => omitted.push(line),
         }
     }
     checks.extend(
@@ -64,7 +54,7 @@ pub fn verdict(design: &Design, result: &DesignResult) -> Verdict {
 }
 
 fn of_limit(limit: &LimitCheck, length: &str) -> VerdictCheck {
-    let mut check = VerdictCheck {
+    let check = VerdictCheck {
         formula: Some(limit.formula.clone()),
         case: Some(limit.case),
         rail: Some(limit.rail.clone()),
@@ -75,28 +65,7 @@ fn of_limit(limit: &LimitCheck, length: &str) -> VerdictCheck {
         sampled: limit.is_sampled,
         ..VerdictCheck::new(limit.quantity, limit.value.abs(), limit.limit, length)
     };
-    add_clause(&mut check, &limit.clause);
-    check
-}
-
-/// Adds code, edition, clause and source; limits of one's own have a source alone.
-fn add_clause(check: &mut VerdictCheck, clause: &CodeClause) {
-    check.source = Some(clause.evidence.words().to_owned());
-    if clause.evidence != Evidence::Given {
-        check.code = Some(clause.standard.to_owned());
-        check.edition = Some(clause.edition.to_owned());
-        check.clause = Some(clause.clause.to_owned());
-    }
-}
-
-/// What stands for checks that passed by a limit from memory: one line for the limit.
-fn from_memory(limit: &LimitCheck, check: &VerdictCheck) -> OmittedCheck {
-    let reason = format!(
-        "the limit {} is from memory: no published source confirms it",
-        limit.formula
-    );
-    OmittedCheck::new(check.check.clone(), reason)
-        .of_code(limit.clause.standard, Some(limit.clause.clause))
+    check.of_clause(&limit.clause)
 }
 
 fn of_stress(design: &Design, stress: &StressCheck) -> VerdictCheck {
@@ -155,9 +124,5 @@ fn beyond(design: &Design) -> Vec<OmittedCheck> {
         let reason = "the design names no code";
         return vec![OmittedCheck::new("checks of a design code", reason)];
     };
-    let each = checks_beyond(code_name(code)).iter();
-    each.map(|(check, clause)| {
-        OmittedCheck::new(*check, NOT_IN_PROGRAM).of_code(code.clone(), *clause)
-    })
-    .collect()
+    checks_beyond_program(code)
 }

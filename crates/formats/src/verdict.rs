@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use practice::clause::{CodeClause, Evidence};
+use practice::limit_choice::code_name;
+use practice::scope::checks_beyond;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::Serialize;
@@ -147,6 +150,34 @@ impl VerdictCheck {
         }
     }
 
+    /// The same check with code, edition, clause and source; a limit of one's own has a source alone.
+    #[must_use]
+    pub fn of_clause(self, clause: &CodeClause) -> VerdictCheck {
+        let of_code = |text: &str| (clause.evidence != Evidence::Given).then(|| text.to_owned());
+        VerdictCheck {
+            code: of_code(clause.standard),
+            edition: of_code(clause.edition),
+            clause: of_code(clause.clause),
+            source: Some(clause.evidence.words().to_owned()),
+            ..self
+        }
+    }
+
+    /// The check, unless it passed by a limit that no source confirms: such a limit can fail a structure, but not accept it.
+    ///
+    /// # Errors
+    /// What stands among the checks that were not done instead.
+    pub fn confirmed(self, clause: &CodeClause) -> Result<VerdictCheck, OmittedCheck> {
+        if clause.evidence != Evidence::Memory || !self.passed() {
+            return Ok(self);
+        }
+        let reason = format!(
+            "the limit {} is from memory: no published source confirms it",
+            self.formula.as_deref().unwrap_or_default()
+        );
+        Err(OmittedCheck::new(self.check, reason).of_code(clause.standard, Some(clause.clause)))
+    }
+
     /// The result in a word: `pass`, `FAIL`, or `FAIL (bound)` where the value is an upper bound.
     #[must_use]
     pub fn word(&self) -> &'static str {
@@ -224,6 +255,16 @@ impl OmittedCheck {
             ..self
         }
     }
+}
+
+/// The checks of a code that the program does not do.
+#[must_use]
+pub fn checks_beyond_program(code: &str) -> Vec<OmittedCheck> {
+    let each = checks_beyond(code_name(code)).iter();
+    each.map(|(check, clause)| {
+        OmittedCheck::new(*check, "girderway does not do this check").of_code(code, *clause)
+    })
+    .collect()
 }
 
 impl fmt::Display for OmittedCheck {
@@ -345,7 +386,7 @@ impl Verdict {
                     .iter()
                     .filter_map(|one| one.code.as_deref());
                 // An edition behind a colon names the same code.
-                for code in named.map(|code| code.split_once(':').map_or(code, |(name, _)| name)) {
+                for code in named.map(code_name) {
                     match codes.iter_mut().find(|known| known.0 == code) {
                         Some(known) => known.1 += 1,
                         None => codes.push((code, 1)),

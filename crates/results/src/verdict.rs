@@ -2,11 +2,10 @@
 
 use formats::scene::{Analysis, Scene};
 use formats::units::Dimension;
-use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck};
+use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
 use practice::clause::Evidence;
 use practice::limit_choice::code_name;
 use practice::limits::{LimitLoads, LimitedDisplacement};
-use practice::scope::checks_beyond;
 use trains::WITHOUT_WARPING;
 
 use crate::case_result::CaseResult;
@@ -15,8 +14,6 @@ use crate::fatigue::FatigueResult;
 use crate::girders::GirderStress;
 use crate::warning::RESIDUAL;
 
-/// Why a check of a code is not done.
-const NOT_IN_PROGRAM: &str = "girderway does not do this check";
 /// Loads of the checks that look at the run itself.
 const OF_THE_RUN: &str = "forces of the run";
 
@@ -99,20 +96,10 @@ fn limits(
             {
                 check.bound = Some(WITHOUT_WARPING.to_owned());
             }
-            if allowable.limit.clause.evidence == Evidence::Memory && check.passed() {
-                let reason = format!(
-                    "the limit {} is from memory: no published source confirms it",
-                    allowable.limit.formula()
-                );
-                let line = OmittedCheck::new(check.check, reason).of_code(
-                    allowable.limit.clause.standard,
-                    Some(allowable.limit.clause.clause),
-                );
-                if !omitted.contains(&line) {
-                    omitted.push(line);
-                }
-            } else {
-                checks.push(check);
+            match check.of_clause(&limit.clause).confirmed(&limit.clause) {
+                Ok(check) => checks.push(check),
+                Err(line) if omitted.contains(&line) => {}
+                Err(line) => omitted.push(line),
             }
         }
     }
@@ -143,13 +130,7 @@ fn of_limit(
         }
         _ => "static wheel loads at the positions of the run, trolley at its approach",
     };
-    let is_own = limit.clause.evidence == Evidence::Given;
-    let of_code = |text: &str| (!is_own).then(|| text.to_owned());
     VerdictCheck {
-        code: of_code(limit.clause.standard),
-        edition: of_code(limit.clause.edition),
-        clause: of_code(limit.clause.clause),
-        source: Some(limit.clause.evidence.words().to_owned()),
         formula: Some(limit.formula()),
         rail: Some(found.rail.clone()),
         x: Some(found.x + 0.0),
@@ -253,10 +234,7 @@ fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
         ] {
             out.push(OmittedCheck::new(check, reason).of_code(code.clone(), None));
         }
-        let each = checks_beyond(code_name(code)).iter();
-        out.extend(each.map(|(check, clause)| {
-            OmittedCheck::new(*check, NOT_IN_PROGRAM).of_code(code.clone(), *clause)
-        }));
+        out.extend(checks_beyond_program(code));
     }
     if let Some(first) = outcome.response.uplifts.first() {
         let count = outcome.response.uplifts.len();
