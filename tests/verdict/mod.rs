@@ -118,6 +118,23 @@ fn a_run_is_judged_by_what_its_scene_names() {
     );
 }
 
+/// A scene names the codes that a design may name; a limit of one's own that bears on nothing is listed.
+#[test]
+fn what_a_run_cannot_judge_is_listed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let practice = json!({"code": "ASCE 7", "limits": {"overhang": "L/250"}});
+    let (output, summary) = run(folder.path(), &scene(practice), &[]);
+    assert_eq!(output.status.code(), Some(0));
+    let listed = summary["verdict"]["not_checked"].to_string();
+    for words in [
+        "own limit overhang",
+        "the code has no limits",
+        "a run does not judge overhangs",
+    ] {
+        assert!(listed.contains(words), "{listed}");
+    }
+}
+
 /// A stiffness a thousand times too large and a hoisting speed of 8 m/s are warned of.
 #[test]
 fn slips_of_units_in_a_scene_are_told() {

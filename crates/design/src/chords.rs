@@ -3,10 +3,32 @@
 use fea::{Model, Rail};
 use formats::design::Design;
 use formats::spec::{Form, Spec};
+use splines::Compliance;
 use trains::{Error, Structure, SupportedEnds, supported_ends};
 
 /// The planes of deflections, in words.
 pub(crate) const PLANES: [&str; 2] = ["vertical", "lateral"];
+
+/// The ends of the spans of all rails of a spec by plane (vertical, lateral); `surface` is that of its solution. Supports of
+/// the short form of a spec hold both planes.
+///
+/// # Errors
+/// Those of [`supported_ends`].
+pub fn plane_ends(
+    spec: &Spec,
+    model: &Model,
+    rails: &[Rail],
+    surface: &dyn Compliance,
+) -> Result<Vec<[SupportedEnds; 2]>, Error> {
+    let candidates = spec.rail_spans(model, rails);
+    if matches!(spec.form, Form::Girder(_)) {
+        let both = candidates
+            .iter()
+            .map(|ends| [0, 1].map(|_| SupportedEnds::all_firm(ends)));
+        return Ok(both.collect());
+    }
+    supported_ends(model, rails, surface, &candidates)
+}
 
 /// The ends of the spans of all rails of a spec, by rail and plane.
 #[derive(Clone, Debug)]
@@ -15,24 +37,16 @@ pub(crate) struct PlaneSpans(Vec<[SupportedEnds; 2]>);
 impl PlaneSpans {
     /// The spans of a spec; `structure` is its solution.
     ///
-    /// Supports of the short form of a spec hold both planes. So do points whose three translations are fixed.
-    ///
     /// # Errors
-    /// Those of [`supported_ends`].
+    /// Those of [`plane_ends`].
     pub fn new(
         spec: &Spec,
         model: &Model,
         rails: &[Rail],
         structure: &Structure,
     ) -> Result<PlaneSpans, Error> {
-        let candidates = spec.rail_spans(model, rails);
-        let all = |ends: &Vec<f64>| SupportedEnds::all_firm(ends);
-        if matches!(spec.form, Form::Girder(_)) {
-            let both = candidates.iter().map(|ends| [all(ends), all(ends)]);
-            return Ok(PlaneSpans(both.collect()));
-        }
         let surface = structure.frame().surface()?.surface;
-        supported_ends(model, rails, &surface, &candidates).map(PlaneSpans)
+        plane_ends(spec, model, rails, &surface).map(PlaneSpans)
     }
 
     /// The chords of a design: those that it gives, otherwise those of the spec.

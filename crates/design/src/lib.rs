@@ -42,6 +42,7 @@ mod verdict;
 mod wheel_stresses;
 mod words;
 
+pub use chords::plane_ends;
 pub use combinations::with_combinations;
 pub use fibres::{FibreStress, Fibres};
 pub use girder_sections::{GirderSections, by_reason};

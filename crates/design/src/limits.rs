@@ -113,7 +113,7 @@ impl Rows<'_> {
             case: self.service.case + 1,
             rail: self.design.spec.rails()[rail].name.clone(),
             span,
-            ends,
+            ends: Some(ends),
             x: governing.x,
             position: governing.trains.first().map(|train| train.position),
             is_sampled: false,

@@ -91,8 +91,8 @@ pub struct LimitCheck {
     pub rail: String,
     /// Number of the span of its plane from 1; 0 and one more than the last for overhangs.
     pub span: usize,
-    /// Coordinates of the ends of the span.
-    pub ends: [f64; 2],
+    /// Coordinates of the ends of the span; `None` for a pair of rails.
+    pub ends: Option<[f64; 2]>,
     /// Coordinate of the largest value.
     pub x: f64,
     /// Position of the first train.

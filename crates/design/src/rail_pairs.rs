@@ -132,7 +132,7 @@ pub(crate) fn pair_limits(design: &Design, responses: &[RailPairResponse]) -> Ve
                 case: found.case,
                 rail: found.rails.join(", "),
                 span: found.span,
-                ends: [0.0, found.distance],
+                ends: None,
                 x: found.x,
                 position: found.governing.trains.first().map(|train| train.position),
                 is_sampled: true,

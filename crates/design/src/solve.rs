@@ -142,7 +142,9 @@ pub fn solve_on(
             envelopes,
         });
     }
-    let mut warnings = warnings(design, &solved);
+    let (mut told, doubts) = doubts(design);
+    told.extend(warnings(design, &solved));
+    let mut warnings = told;
     if error > NOTED_ERROR {
         warnings.push(format!(
             "{}: the relative error of influence lines under the preload may be {error:.1e}; it decreases with the \
@@ -163,7 +165,7 @@ pub fn solve_on(
         &limits,
     );
     left_out.extend(details.left_out);
-    left_out.extend(doubts(design));
+    left_out.extend(doubts);
     Ok(DesignResult {
         cases: solved,
         limits,
@@ -336,25 +338,24 @@ fn places(design: &Design, structure: &Structure) -> Vec<Vec<f64>> {
     rails.iter().enumerate().map(on).collect()
 }
 
-/// Results of half an input, and values that are probably wrong.
-fn doubts(design: &Design) -> Vec<OmittedCheck> {
-    let mut out = design.spec.incomplete.clone();
-    out.extend(design.doubts());
-    let implausible = design.spec.warnings().into_iter();
-    out.extend(implausible.map(|warning| OmittedCheck::new("plausibility of the spec", warning)));
-    out
+/// Results of half an input and values that are probably wrong, as warnings and as what was not checked.
+fn doubts(design: &Design) -> (Vec<String>, Vec<OmittedCheck>) {
+    let implausible = design.spec.warnings();
+    let mut told: Vec<String> = Vec::new();
+    let of_spec = implausible.iter().cloned();
+    let of_spec = of_spec.chain(design.spec.incomplete.iter().map(ToString::to_string));
+    told.extend(of_spec.map(|text| format!("{}: {text}", design.spec_file)));
+    let of_design = design.doubts();
+    told.extend(of_design.iter().map(ToString::to_string));
+    let mut omitted = design.spec.incomplete.clone();
+    omitted.extend(of_design);
+    let plausibility = |warning| OmittedCheck::new("plausibility of the spec", warning);
+    omitted.extend(implausible.into_iter().map(plausibility));
+    (told, omitted)
 }
 
 fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
-    let mut out: Vec<String> = design
-        .spec
-        .warnings()
-        .into_iter()
-        .map(|warning| format!("{}: {warning}", design.spec_file))
-        .collect();
-    let incomplete = design.spec.incomplete.iter();
-    out.extend(incomplete.map(|one| format!("{}: {one}", design.spec_file)));
-    out.extend(design.doubts().iter().map(ToString::to_string));
+    let mut out = Vec::new();
     if design.dead.gravity > 0.0 && !design.spec.has_mass() {
         out.push(format!(
             "{}: no part of the structure has mass, so its weight is 0; specify `mass_per_length` or densities",

@@ -4,9 +4,19 @@ use practice::aist::{BuildingClass, CraneKind};
 use practice::asce::CraneOperation;
 use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::limit_choice::LIMIT_CODES;
 use practice::limits::ServiceClass;
 use practice::local_stress::RailFixing;
 use practice::skew::Guide;
+
+/// A code that has loads but no limits of deflections.
+pub(crate) const ASCE_7: &str = "ASCE 7";
+
+/// The codes that a design or a scene may name, numbered.
+pub(crate) fn codes() -> Vec<(&'static str, usize)> {
+    let all = LIMIT_CODES.into_iter().chain([ASCE_7]).enumerate();
+    all.map(|(number, code)| (code, number)).collect()
+}
 
 /// What resists lateral moments in stresses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

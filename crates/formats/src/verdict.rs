@@ -357,11 +357,6 @@ impl Verdict {
     /// The verdict in one line, without a period.
     #[must_use]
     pub fn banner(&self) -> String {
-        let structural = || {
-            self.checks
-                .iter()
-                .filter(|check| check.kind == CheckKind::Structure)
-        };
         match self.result {
             VerdictResult::NotOk => {
                 let worst = self.checks.iter().find(|check| !check.passed());
@@ -378,7 +373,8 @@ impl Verdict {
             }
             VerdictResult::NotChecked => "NOT CHECKED: no code or limit is named".to_owned(),
             VerdictResult::Ok => {
-                let done = structural().count();
+                let structural = |check: &&VerdictCheck| check.kind == CheckKind::Structure;
+                let done = self.checks.iter().filter(structural).count();
                 let checks = if done == 1 { "check" } else { "checks" };
                 let mut codes: Vec<(&str, usize)> = Vec::new();
                 let named = self

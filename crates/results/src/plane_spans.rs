@@ -1,37 +1,28 @@
 //! The ends of the spans of rails in the planes of deflections.
 
+use design::plane_ends;
 use formats::scene::{Origin, Scene};
-use formats::spec::Form;
 use foundations::{RailChords, SolvedModel};
-use trains::{SupportedEnds, supported_ends};
+use trains::SupportedEnds;
 
 /// Chords of each rail of the scene by plane (vertical, lateral): between the coordinates that the scene gives, otherwise
-/// between the supports of the plane ([`supported_ends`]), and between its firm supports where these are others. None
-/// where a rail has no spans: on an elastic bed, without two supports, and without a solved structure.
+/// between the supports of the plane ([`plane_ends`]), and between its firm supports where these are others. None where a
+/// rail has no spans: on an elastic bed, without two supports, and without a solution. They are kept with the structure.
 pub fn plane_spans(scene: &Scene, solved: &[Option<&SolvedModel>]) -> Vec<RailChords> {
-    let of_structure = |s: usize| -> Vec<RailChords> {
+    let of_structure = |s: usize| -> &[RailChords] {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&scene.structures[s].origin, solved[s])
         else {
-            return Vec::new();
+            return &[];
         };
-        if let Some(known) = solved.chords.get() {
-            return known.clone();
-        }
-        let candidates = spec.rail_spans(&solved.model, &solved.rails);
-        let found = match (&spec.form, &solved.surface) {
-            (Form::Frame(_), Some(surface)) => {
-                supported_ends(&solved.model, &solved.rails, surface, &candidates).ok()
-            }
-            _ => None,
-        };
-        let found = found.unwrap_or_else(|| {
-            let each = candidates.iter();
-            each.map(|ends| [0, 1].map(|_| SupportedEnds::all_firm(ends)))
-                .collect()
-        });
-        found.into_iter().map(|planes| planes.map(chords)).collect()
+        solved.chords.get_or_init(|| {
+            let surface = solved.surface.as_ref();
+            let found = surface
+                .and_then(|surface| plane_ends(spec, &solved.model, &solved.rails, surface).ok());
+            let found = found.unwrap_or_default().into_iter();
+            found.map(|planes| planes.map(chords)).collect()
+        })
     };
-    let all: Vec<Vec<[Vec<[f64; 2]>; 2]>> = (0..scene.structures.len()).map(of_structure).collect();
+    let all: Vec<&[RailChords]> = (0..scene.structures.len()).map(of_structure).collect();
     let of_rail = |(index, rail): (usize, &formats::scene::SceneRail)| {
         let given = scene.output.spans.iter().find(|(known, _)| *known == index);
         match given {

@@ -14,6 +14,8 @@ use crate::fatigue::FatigueResult;
 use crate::girders::GirderStress;
 use crate::warning::RESIDUAL;
 
+/// Why limits of deflections have no value.
+const NO_SPAN: &str = "no span of the runway that is defined carries wheels in the run";
 /// Loads of the checks that look at the run itself.
 const OF_THE_RUN: &str = "forces of the run";
 
@@ -44,6 +46,7 @@ pub fn verdict(scene: &Scene, outcome: &CaseResult) -> Verdict {
         let what = format!("bound of the relative error of influence coefficients, {structure}");
         checks.push(of_calculation(what, *bound, fea::DEFAULT_ACCURACY));
     }
+    omitted.extend(own_without_value(scene, outcome));
     omitted.extend(not_judged(scene, outcome));
     Verdict::new(checks, omitted)
 }
@@ -103,6 +106,27 @@ fn limits(
             }
         }
     }
+}
+
+/// Limits of one's own that bear on nothing in a run.
+fn own_without_value(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
+    let own = scene.practice.iter().flat_map(|practice| &practice.limits);
+    let missing = own.filter(|limit| {
+        let mut all = outcome.codes.iter().flat_map(|codes| &codes.limits);
+        !all.any(|found| found.limits.iter().any(|known| known.limit == **limit))
+    });
+    missing
+        .map(|limit| {
+            let reason = match limit.displacement {
+                LimitedDisplacement::Overhang => "a run does not judge overhangs; use a design",
+                _ => NO_SPAN,
+            };
+            OmittedCheck::new(
+                format!("own limit {}", limit.displacement.word().replace('_', " ")),
+                reason,
+            )
+        })
+        .collect()
 }
 
 /// The code whose limits a name means: those of EN 1991-3 are in EN 1993-6.
@@ -220,8 +244,7 @@ fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
             .flat_map(|found| &found.limits)
             .any(|allowable| code_name(allowable.limit.clause.standard) == name);
         if !has_any {
-            let reason =
-                "no span of the runway carries wheels in the run, or the code needs a `class`";
+            let reason = format!("{NO_SPAN}, or the code has no limits or needs a `class`");
             out.push(
                 OmittedCheck::new("limits of deflections", reason).of_code(code.clone(), None),
             );

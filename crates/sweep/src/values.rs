@@ -244,10 +244,10 @@ fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
 /// Limits and stresses of a design, each as the fraction that is used: the largest of the loads and spans that a name stands
 /// for. Names contain neither sections nor the span that governs, so that they are the same for every run of a sweep.
 fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
-    let name = |entry: &Value, last: &[&str]| {
+    let name = |entry: &Value, span: Option<u64>, last: &[&str]| {
         let text = |key: &str| entry[key].as_str().map(str::to_owned);
         let case = has_several_cases.then(|| format!("case {}", entry["case"]));
-        let span = entry["span"].as_u64().map(|span| format!("span {span}"));
+        let span = span.map(|span| format!("span {span}"));
         let ends = last.iter().map(|key| text(key));
         [case, text("rail"), span]
             .into_iter()
@@ -261,16 +261,18 @@ fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
             && most > 0.0
         {
             row.add_largest(
-                name(limit, &["quantity", "code", "clause"]),
+                name(
+                    limit,
+                    limit["span"].as_u64(),
+                    &["quantity", "code", "clause"],
+                ),
                 value.abs() / most,
             );
         }
     }
     for stress in summary["stresses"].as_array().into_iter().flatten() {
         if let Some(used) = stress["utilisation"].as_f64() {
-            let mut stress = stress.clone();
-            stress["span"] = Value::Null;
-            row.add_largest(name(&stress, &["quantity"]), used);
+            row.add_largest(name(stress, None, &["quantity"]), used);
         }
     }
 }

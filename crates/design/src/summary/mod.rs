@@ -203,8 +203,6 @@ fn limit(check: &LimitCheck) -> Value {
         "case": check.case,
         "rail": check.rail,
         "span": check.span,
-        "from": check.ends[0] + 0.0,
-        "to": check.ends[1] + 0.0,
         "code": check.clause.standard,
         "edition": check.clause.edition,
         "clause": check.clause.clause,
@@ -217,6 +215,10 @@ fn limit(check: &LimitCheck) -> Value {
         "within": check.within(),
         "x": check.x,
     });
+    if let Some([from, to]) = check.ends {
+        out["from"] = json!(from + 0.0);
+        out["to"] = json!(to + 0.0);
+    }
     if check.is_sampled {
         out["sampled"] = json!(true);
     }

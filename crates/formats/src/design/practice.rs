@@ -3,22 +3,20 @@
 use practice::aist::CraneKind;
 use practice::asce::CraneOperation;
 use practice::factor::DriveOnset;
-use practice::limit_choice::{LIMIT_CODES, code_name, limits_of};
+use practice::limit_choice::{code_name, limits_of};
 
 use super::raw::RawDesignPractice;
 use super::values::DesignPractice;
 use crate::check::Check;
 use crate::own_limits;
 use crate::practice_words::{
-    DRIVES, FASTENINGS, HOISTING, KINDS, LATERAL_SECTIONS, OPERATIONS, RELEASE, fatigue_classes,
+    ASCE_7, DRIVES, FASTENINGS, HOISTING, KINDS, LATERAL_SECTIONS, OPERATIONS, RELEASE, codes,
+    fatigue_classes,
 };
 use crate::text::fault::Fault;
 use crate::text::names::resolve;
 use crate::text::place::Place;
 use crate::units::{Dimension, Scale, Units};
-
-/// A code that has loads but no limits of deflections.
-const ASCE_7: &str = "ASCE 7";
 
 /// Reads the member; `units` are those of the file.
 pub(super) fn read(
@@ -114,12 +112,7 @@ fn limits(
         return Vec::new();
     };
     let name = code_name(code);
-    let known: Vec<(&str, usize)> = LIMIT_CODES
-        .iter()
-        .chain([&ASCE_7])
-        .enumerate()
-        .map(|(k, word)| (*word, k))
-        .collect();
+    let known = codes();
     if resolve(name, &known, "code", &at.key("code"), check.faults).is_none() || name == ASCE_7 {
         return Vec::new();
     }

@@ -8,6 +8,7 @@ use practice::skew::Guide;
 
 use crate::check::Check;
 use crate::own_limits;
+use crate::practice_words;
 use crate::practice_words::{
     BUILDINGS, CLASSES, DRIVES, GUIDE, HOISTING, KINDS, LATERAL_SECTIONS, LateralSection, RELEASE,
     fatigue_classes,
@@ -19,7 +20,7 @@ use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
-use practice::limit_choice::{LIMIT_CODES, code_name};
+use practice::limit_choice::code_name;
 
 /// Efficiency of a bumper whose force rises linearly, such as a spring.
 const SPRING_EFFICIENCY: f64 = 0.5;
@@ -220,11 +221,7 @@ pub(super) fn read(
 /// The codes by whose limits a run is judged.
 fn codes(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> Vec<String> {
     let at = at.key("code");
-    let known: Vec<(&str, usize)> = LIMIT_CODES
-        .iter()
-        .enumerate()
-        .map(|(k, code)| (*code, k))
-        .collect();
+    let known = practice_words::codes();
     let mut one = |code: &String, place: &Place<'_>| {
         resolve(code_name(code), &known, "code", place, check.faults).map(|_| code.clone())
     };
