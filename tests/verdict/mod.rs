@@ -148,12 +148,47 @@ fn slips_of_units_in_a_scene_are_told() {
     ] {
         let (output, summary) = run(folder.path(), &scene, &[]);
         assert_eq!(output.status.code(), Some(0));
-        let told = summary["warnings"].to_string().replace("\\\"", "\"");
-        assert!(told.contains(words), "{told}");
+        for place in [&summary["warnings"], &summary["verdict"]["not_checked"]] {
+            let told = place.to_string().replace("\\\"", "\"");
+            assert!(told.contains(words), "{told}");
+        }
     }
     let (_, sound) = run(folder.path(), &scene(json!({})), &[]);
     let told = sound["warnings"].to_string();
     assert!(!told.contains("check its unit"), "{told}");
+}
+
+/// A bridge on four rigid wheels over a dip of the rail: page one names the first uplift in time, says which values are
+/// sampled, and speaks of influence functions only where they are used.
+#[test]
+fn the_first_page_of_a_run_says_what_the_run_had() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut dipped = scene(json!({}));
+    dipped["analysis"] = json!("dynamic");
+    dipped["structures"]["rw"]["foundation"] = json!("modal");
+    dipped["structures"]["rw"]["modes"] = json!(6);
+    dipped["structures"]["rw"]["damping"] = json!(0.02);
+    dipped["structures"]["rw"]["irregularities"] = json!([
+        {"kind": "joint", "rail": "north", "x": 5.2, "depth": 0.02, "length": 0.2},
+        {"kind": "joint", "rail": "south", "x": 4.7, "depth": 0.02, "length": 0.2}]);
+    dipped["wheels"]["w"]["vertical"]["c"] = json!(500);
+    dipped["motions"][0]["position"] = json!([[0, 3], [1, 5]]);
+    dipped["end"]["time"] = json!(0.5);
+    let (_, summary) = run(folder.path(), &dipped, &[]);
+    let uplifts = summary["uplift"].as_array().expect("uplifts");
+    let time = |one: &Value| one["time"].as_f64().expect("a time");
+    let first = uplifts
+        .iter()
+        .min_by(|a, b| time(a).total_cmp(&time(b)))
+        .expect("an uplift");
+    assert_ne!(time(first), time(&uplifts[0]), "{uplifts:?}");
+    let wheel = first["wheel"].as_str().expect("a name");
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    let listed = summary["verdict"]["not_checked"].to_string();
+    assert!(listed.contains(&format!("first {wheel} at")), "{listed}");
+    assert!(page.contains(&format!("first {wheel} at")));
+    assert!(page.contains("largest vertical wheel force, sampled"));
+    assert!(page.contains("rails on natural modes") && !page.contains("influence functions"));
 }
 
 /// Sections are swept: the columns of both runs have the same names, so that their utilisations can be compared.

@@ -7,11 +7,9 @@ use trains::{DeadLoads, Error, TrainCase};
 
 use crate::end_stops::{self, end_stop_forces};
 use crate::girder_sections::GirderSections;
-use crate::outcome::{
-    EndStopForce, LimitCheck, RailPairResponse, SolvedCase, StressCheck, WheelStress,
-};
+use crate::outcome::{EndStopForce, RailPairResponse, SolvedCase, StressCheck, WheelStress};
 use crate::placed::RailLines;
-use crate::rail_pairs::{self, pair_limits, pair_responses};
+use crate::rail_pairs::{self, pair_responses};
 use crate::state_forces::StateForces;
 use crate::stresses::StressBasis;
 use crate::wheel_stresses::{self, wheel_stresses};
@@ -23,28 +21,25 @@ pub(crate) struct Details {
     pub wheel_stresses: Vec<WheelStress>,
     pub end_stops: Vec<EndStopForce>,
     pub pairs: Vec<RailPairResponse>,
-    /// Limits of pairs of rails.
-    pub limits: Vec<LimitCheck>,
     pub left_out: Vec<OmittedCheck>,
 }
 
 impl Details {
-    /// The details of a design; `trains` are its cases with their factors.
+    /// The details of a design; `lines` are its rails, `trains` are its cases with their factors.
     pub fn new(
         design: &Design,
         model: &Model,
         rails: &[Rail],
+        lines: &RailLines,
         dead: &DeadLoads,
         trains: &[TrainCase],
         cases: &[SolvedCase],
     ) -> Result<Details, Error> {
-        let ranges: Vec<[f64; 2]> = design.spec.rails().iter().map(|rail| rail.range).collect();
-        let lines = RailLines::new(rails, &ranges, model.up);
         let sections =
             GirderSections::new(&design.spec, design.practice.lateral_section, model, rails);
         let basis = StressBasis {
             design,
-            lines: &lines,
+            lines,
             sections: &sections,
             trains,
             cases,
@@ -57,18 +52,17 @@ impl Details {
             left_out,
             ..Details::default()
         };
-        let has_pairs = rail_pairs::has_any(design, &lines);
+        let has_pairs = rail_pairs::has_any(design, lines);
         if !(sections.have_strength() || wheel_stresses::has_any(&basis) || has_pairs) {
             return Ok(out);
         }
         let wheels = design.trains.iter().flat_map(|train| &train.wheels);
         let eccentric = wheels.into_iter().any(|wheel| wheel.eccentricity != 0.0);
-        let mut forces = StateForces::new(model, rails, &lines, dead, eccentric)?;
+        let mut forces = StateForces::new(model, rails, lines, dead, eccentric)?;
         out.stresses = basis.check(&mut forces)?;
         out.wheel_stresses = wheel_stresses(&basis, &forces);
         if has_pairs {
-            out.pairs = pair_responses(design, &lines, forces.structure(), trains, cases)?;
-            out.limits = pair_limits(design, &out.pairs);
+            out.pairs = pair_responses(design, lines, forces.structure(), trains, cases)?;
         }
         Ok(out)
     }

@@ -11,8 +11,23 @@ use practice::limits::{DeflectionLimit, LimitedDisplacement};
 use trains::{CaseEnvelopes, GirderResponse, Governing};
 
 use crate::chords::{Chords, PLANES};
-use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse};
+use crate::outcome::{FatigueLoads, LimitCheck};
 use crate::service::{ServiceCase, ServiceLoad};
+
+/// A limited displacement as the quantity of rows of limits.
+pub(crate) fn quantity_name(displacement: LimitedDisplacement) -> &'static str {
+    match displacement {
+        LimitedDisplacement::RunwayVertical
+        | LimitedDisplacement::MonorailVertical
+        | LimitedDisplacement::BridgeGirder => "vertical deflection",
+        LimitedDisplacement::RunwayLateral => "lateral deflection",
+        LimitedDisplacement::FrameLateral => "lateral displacement of the frame",
+        LimitedDisplacement::FrameDifference => "difference of the displacements of frames",
+        LimitedDisplacement::GaugeChange => "change of gauge",
+        LimitedDisplacement::HeightDifference => "difference in height",
+        LimitedDisplacement::Overhang => "deflection of the overhang",
+    }
+}
 
 /// Lateral deflections below this fraction of the largest deflection are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -57,13 +72,9 @@ impl Rows<'_> {
     /// Deflections of spans from their chords. Under vertical loads alone a lateral deflection counts where it is not
     /// rounding: inclined or eccentric rails and unsymmetric structures move sideways.
     fn spans(&self, found: &CaseEnvelopes, out: &mut Vec<LimitCheck>) {
-        let (quantity, wanted) = match self.limit.displacement {
-            LimitedDisplacement::RunwayVertical => {
-                ("vertical deflection", GirderResponse::VerticalDeflection)
-            }
-            LimitedDisplacement::RunwayLateral => {
-                ("lateral deflection", GirderResponse::LateralDeflection)
-            }
+        let wanted = match self.limit.displacement {
+            LimitedDisplacement::RunwayVertical => GirderResponse::VerticalDeflection,
+            LimitedDisplacement::RunwayLateral => GirderResponse::LateralDeflection,
             _ => return,
         };
         let sizes = found.deflections.iter().map(|d| d.governing.value.abs());
@@ -75,7 +86,7 @@ impl Rows<'_> {
                 continue;
             }
             let place = (deflection.rail, deflection.span);
-            out.extend(self.row(quantity, place, deflection.ends, &deflection.governing));
+            out.extend(self.row(place, deflection.ends, &deflection.governing));
         }
     }
 
@@ -87,16 +98,14 @@ impl Rows<'_> {
             });
             let largest =
                 own.max_by(|a, b| a.governing.value.abs().total_cmp(&b.governing.value.abs()));
-            out.extend(largest.and_then(|largest| {
-                let quantity = "deflection of the overhang";
-                self.row(quantity, (rail, span), ends, &largest.governing)
-            }));
+            out.extend(
+                largest.and_then(|largest| self.row((rail, span), ends, &largest.governing)),
+            );
         }
     }
 
     fn row(
         &self,
-        quantity: &'static str,
         (rail, span): (usize, usize),
         ends: [f64; 2],
         governing: &Governing,
@@ -105,7 +114,7 @@ impl Rows<'_> {
         let allowed = self.limit.allowable((ends[1] - ends[0]) * metre).ok()?;
         Some(LimitCheck {
             clause: self.limit.clause,
-            quantity,
+            quantity: quantity_name(self.limit.displacement),
             formula: self.limit.formula(),
             loads: self.service.words(self.limit.loads),
             value: governing.value.abs(),
@@ -122,7 +131,7 @@ impl Rows<'_> {
 }
 
 /// A metre over the unit of length of the design, so that a length times it is in m.
-fn metre(design: &Design) -> f64 {
+pub(crate) fn metre(design: &Design) -> f64 {
     let scale = Scale {
         from: design.units,
         to: Units::SI,
@@ -147,13 +156,12 @@ fn overhangs(design: &Design, vertical: &[Vec<f64>]) -> Vec<(usize, usize, [f64;
     out
 }
 
-/// Limits that a design cannot check, and groups of loads that it cannot form, with the reasons; `pairs` are the responses of
-/// pairs of rails, `rows` the limits that are checked.
+/// Limits that a design cannot check, and groups of loads that it cannot form, with the reasons; `rows` are the limits that
+/// are checked.
 pub(crate) fn left_out(
     design: &Design,
     chords: &Chords,
     groups: Vec<OmittedCheck>,
-    pairs: &[RailPairResponse],
     rows: &[LimitCheck],
 ) -> Vec<OmittedCheck> {
     let mut out = Vec::new();
@@ -161,15 +169,10 @@ pub(crate) fn left_out(
         let omitted = |reason: &str| {
             omitted_limit(limit, &limit.displacement.word().replace('_', " "), reason)
         };
-        let is_checked = rows.iter().any(|row| {
-            row.clause == limit.clause
-                && match limit.displacement {
-                    LimitedDisplacement::RunwayVertical => row.quantity == "vertical deflection",
-                    LimitedDisplacement::RunwayLateral => row.quantity == "lateral deflection",
-                    LimitedDisplacement::Overhang => row.quantity == "deflection of the overhang",
-                    _ => false,
-                }
-        });
+        let quantity = quantity_name(limit.displacement);
+        let is_checked = rows
+            .iter()
+            .any(|row| row.clause == limit.clause && row.quantity == quantity);
         let plane = match limit.displacement {
             LimitedDisplacement::RunwayVertical => Some(0),
             LimitedDisplacement::RunwayLateral => Some(1),
@@ -200,16 +203,9 @@ pub(crate) fn left_out(
                 out.push(omitted("a design calculates runways"));
             }
             LimitedDisplacement::GaugeChange | LimitedDisplacement::HeightDifference => {
-                let quantity = if limit.displacement == LimitedDisplacement::GaugeChange {
-                    "change of gauge"
-                } else {
-                    "difference in height"
-                };
-                if !pairs.iter().any(|pair| pair.quantity == quantity) {
-                    out.push(omitted(
-                        "no train of a case without factors is on two rails that resist these displacements",
-                    ));
-                }
+                out.push(omitted(
+                    "no train has these loads on two rails that resist these displacements",
+                ));
             }
             LimitedDisplacement::FrameLateral | LimitedDisplacement::FrameDifference => {
                 out.push(omitted(

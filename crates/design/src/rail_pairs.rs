@@ -3,15 +3,16 @@
 //! The responses have no envelopes of their own: they are evaluated in the states that govern the deflections of either rail,
 //! at the place of that deflection and opposite to it, under the trains alone.
 
-use formats::design::{Design, DesignCase};
-use formats::units::{Dimension, Scale, Units};
+use formats::design::Design;
 use formats::vector::dot;
 use practice::limits::LimitedDisplacement;
 use splines::{Axis, Compliance, ExactSurface, Probe};
-use trains::{Error, GirderResponse, Governing, RailLoad, Structure, TrainCase};
+use trains::{CaseEnvelopes, Error, GirderResponse, Governing, RailLoad, Structure, TrainCase};
 
+use crate::limits::{metre, quantity_name};
 use crate::outcome::{LimitCheck, RailPairResponse, SolvedCase};
 use crate::placed::RailLines;
+use crate::service::ServiceCase;
 use crate::stresses::span_of;
 
 /// Largest sine of the angle between rails that count as parallel.
@@ -20,8 +21,14 @@ const PARALLEL: f64 = 1e-9;
 /// Of values that differ by no more than this fraction the first counts.
 const TIE: f64 = 1e-12;
 
-/// Pairs of rails on which a train of the case stands.
-fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2]> {
+/// The displacements of pairs of rails, with the direction of each.
+const DISPLACEMENTS: [(LimitedDisplacement, Axis); 2] = [
+    (LimitedDisplacement::GaugeChange, Axis::Lateral),
+    (LimitedDisplacement::HeightDifference, Axis::Vertical),
+];
+
+/// Pairs of parallel rails on both of which one of the trains stands.
+fn pairs(design: &Design, trains: &[usize], lines: &RailLines) -> Vec<[usize; 2]> {
     let stands_on = |train: usize, rail: usize| {
         design.trains[train]
             .wheels
@@ -35,8 +42,7 @@ fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2
             let aside = dot(x, lines.axes(b)[2]);
             let apart = dot(z, lines.axes(b)[0]);
             let is_parallel = aside.abs() < PARALLEL && apart.abs() < PARALLEL;
-            let both = case
-                .trains
+            let both = trains
                 .iter()
                 .any(|&train| stands_on(train, a) && stands_on(train, b));
             if both && is_parallel && lines.distance(a, b) != 0.0 {
@@ -52,7 +58,7 @@ pub(crate) fn has_any(design: &Design, lines: &RailLines) -> bool {
     design
         .cases
         .iter()
-        .any(|case| case.factors.is_empty() && !pairs(design, case, lines).is_empty())
+        .any(|case| case.factors.is_empty() && !pairs(design, &case.trains, lines).is_empty())
 }
 
 /// The responses of all pairs in the cases without factors.
@@ -65,34 +71,72 @@ pub(crate) fn pair_responses(
 ) -> Result<Vec<RailPairResponse>, Error> {
     let surface = structure.frame().surface()?.surface;
     let moved = Moved {
+        design,
         lines,
         structure,
         surface: &surface,
     };
     let mut out = Vec::new();
     for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
-        if !case.factors.is_empty() {
-            continue;
+        if case.factors.is_empty() {
+            let found =
+                moved.responses(number, &case.trains, &trains[number], &solved.envelopes)?;
+            out.extend(found.into_iter().map(|(_, response)| response));
         }
-        for pair in pairs(design, case, lines) {
-            for (quantity, axis) in [
-                ("change of gauge", Axis::Lateral),
-                ("difference in height", Axis::Vertical),
-            ] {
-                let found = moved.largest(pair, axis, solved, &trains[number])?;
-                let Some((value, x, governing)) = found else {
+    }
+    Ok(out)
+}
+
+/// The limits on pairs of rails; `cases` are the trains of the service cases under their loads, `found` their responses.
+pub(crate) fn pair_limits(
+    design: &Design,
+    lines: &RailLines,
+    structure: &Structure,
+    services: &[ServiceCase],
+    cases: &[TrainCase],
+    found: &[CaseEnvelopes],
+) -> Result<Vec<LimitCheck>, Error> {
+    let mut out = Vec::new();
+    if !has_limit(design) {
+        return Ok(out);
+    }
+    let surface = structure.frame().surface()?.surface;
+    let moved = Moved {
+        design,
+        lines,
+        structure,
+        surface: &surface,
+    };
+    let metre = metre(design);
+    for ((service, case), found) in services.iter().zip(cases).zip(found) {
+        let cranes = design.cases[service.case].trains.len();
+        for (displacement, response) in
+            moved.responses(service.case, &service.trains, case, found)?
+        {
+            for limit in &design.practice.limits {
+                if limit.displacement != displacement
+                    || !service.serves(limit.loads, displacement, cranes)
+                {
+                    continue;
+                }
+                let Ok(allowed) = limit.allowable(response.distance * metre) else {
                     continue;
                 };
-                let rails = design.spec.rails();
-                out.push(RailPairResponse {
-                    case: number + 1,
-                    rails: pair.map(|rail| rails[rail].name.clone()),
-                    quantity,
-                    distance: lines.distance(pair[0], pair[1]).abs(),
-                    value,
-                    x,
-                    span: span_of(&design.spans[pair[0]], x),
-                    governing,
+                let train = response.governing.trains.first();
+                out.push(LimitCheck {
+                    clause: limit.clause,
+                    quantity: response.quantity,
+                    formula: limit.formula(),
+                    loads: service.words(limit.loads),
+                    value: response.value.abs(),
+                    limit: allowed / metre,
+                    case: response.case,
+                    rail: response.rails.join(", "),
+                    span: response.span,
+                    ends: None,
+                    x: response.x,
+                    position: train.map(|train| train.position),
+                    is_sampled: true,
                 });
             }
         }
@@ -100,63 +144,60 @@ pub(crate) fn pair_responses(
     Ok(out)
 }
 
-/// The limits of the code for pairs of rails.
-pub(crate) fn pair_limits(design: &Design, responses: &[RailPairResponse]) -> Vec<LimitCheck> {
-    let metric = Scale {
-        from: design.units,
-        to: Units::SI,
-    }
-    .factor(Dimension::LENGTH);
-    let mut out = Vec::new();
-    for found in responses {
-        let wanted = match found.quantity {
-            "change of gauge" => LimitedDisplacement::GaugeChange,
-            _ => LimitedDisplacement::HeightDifference,
-        };
-        for limit in design
-            .practice
-            .limits
-            .iter()
-            .filter(|limit| limit.displacement == wanted)
-        {
-            let Ok(allowed) = limit.allowable(found.distance * metric) else {
-                continue;
-            };
-            out.push(LimitCheck {
-                clause: limit.clause,
-                quantity: found.quantity,
-                formula: limit.formula(),
-                loads: limit.loads.words(),
-                value: found.value.abs(),
-                limit: allowed / metric,
-                case: found.case,
-                rail: found.rails.join(", "),
-                span: found.span,
-                ends: None,
-                x: found.x,
-                position: found.governing.trains.first().map(|train| train.position),
-                is_sampled: true,
-            });
-        }
-    }
-    out
+/// Whether a limit of the design bears on pairs of rails.
+pub(crate) fn has_limit(design: &Design) -> bool {
+    let bears = |limited: LimitedDisplacement| DISPLACEMENTS.iter().any(|(own, _)| *own == limited);
+    let mut limits = design.practice.limits.iter();
+    limits.any(|limit| bears(limit.displacement))
 }
 
 /// Deflections of rails in given states.
 struct Moved<'a> {
+    design: &'a Design,
     lines: &'a RailLines,
     structure: &'a Structure,
     surface: &'a ExactSurface,
 }
 
 impl Moved<'_> {
+    /// The responses of all pairs of rails in the case `number` (from 0), with what each of them is.
+    fn responses(
+        &self,
+        number: usize,
+        trains: &[usize],
+        case: &TrainCase,
+        found: &CaseEnvelopes,
+    ) -> Result<Vec<(LimitedDisplacement, RailPairResponse)>, Error> {
+        let rails = self.design.spec.rails();
+        let mut out = Vec::new();
+        for pair in pairs(self.design, trains, self.lines) {
+            for (displacement, axis) in DISPLACEMENTS {
+                let Some((value, x, governing)) = self.largest(pair, axis, found, case)? else {
+                    continue;
+                };
+                let response = RailPairResponse {
+                    case: number + 1,
+                    rails: pair.map(|rail| rails[rail].name.clone()),
+                    quantity: quantity_name(displacement),
+                    distance: self.lines.distance(pair[0], pair[1]).abs(),
+                    value,
+                    x,
+                    span: span_of(&self.design.spans[pair[0]], x),
+                    governing,
+                };
+                out.push((displacement, response));
+            }
+        }
+        Ok(out)
+    }
+
     /// The difference of largest size over the governing states of both rails, its coordinate on the first rail, and the state.
     /// `None` where a rail does not resist a force in this direction.
     fn largest(
         &self,
         pair: [usize; 2],
         axis: Axis,
-        solved: &SolvedCase,
+        found: &CaseEnvelopes,
         case: &TrainCase,
     ) -> Result<Option<(f64, f64, Governing)>, Error> {
         if pair
@@ -169,7 +210,6 @@ impl Moved<'_> {
             GirderResponse::VerticalDeflection,
             GirderResponse::LateralDeflection,
         ];
-        let found = &solved.envelopes;
         let spans = found
             .extremes
             .iter()

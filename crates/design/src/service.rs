@@ -52,16 +52,16 @@ impl ServiceCase {
             LimitLoads::OneCrane => is_alone && self.load == ServiceLoad::Vertical,
             LimitLoads::Tenth => is_whole && is_lateral && self.load == ServiceLoad::Tenth,
             LimitLoads::Horizontal => is_whole && is_lateral && self.load != ServiceLoad::Tenth,
+            LimitLoads::WithTemperature => is_whole && self.load != ServiceLoad::Tenth,
             LimitLoads::Surge => {
                 is_whole && matches!(self.load, ServiceLoad::SideThrust | ServiceLoad::Vertical)
             }
             LimitLoads::OneSideThrust => {
                 is_alone && matches!(self.load, ServiceLoad::SideThrust | ServiceLoad::Vertical)
             }
-            LimitLoads::OneSideThrustOrWind
-            | LimitLoads::WithTemperature
-            | LimitLoads::Payload
-            | LimitLoads::TrolleyAndLoad => false,
+            LimitLoads::OneSideThrustOrWind | LimitLoads::Payload | LimitLoads::TrolleyAndLoad => {
+                false
+            }
         }
     }
 
@@ -70,6 +70,18 @@ impl ServiceCase {
         match (self.load, named) {
             (ServiceLoad::Vertical, LimitLoads::StaticWheels | LimitLoads::OneCrane)
             | (ServiceLoad::Tenth, _) => named.words(),
+            (_, LimitLoads::WithTemperature) => match self.load {
+                ServiceLoad::Vertical => "vertical wheel loads, without temperature effects",
+                ServiceLoad::SideThrust => {
+                    "characteristic side thrust with vertical wheel loads, without temperature effects"
+                }
+                ServiceLoad::Skewing => {
+                    "characteristic skewing forces with vertical wheel loads, without temperature effects"
+                }
+                _ => {
+                    "characteristic forces of the trolley drives with vertical wheel loads, without temperature effects"
+                }
+            },
             (ServiceLoad::Vertical, _) => {
                 "vertical wheel loads only, which displace the rail laterally"
             }

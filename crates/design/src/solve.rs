@@ -20,6 +20,8 @@ use crate::details::Details;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
+use crate::placed::RailLines;
+use crate::rail_pairs::{has_limit, pair_limits};
 use crate::rounding::Sizes;
 use crate::service::{ServiceCase, ServiceLoad, service_cases};
 use crate::solve_error::solve_error;
@@ -152,18 +154,14 @@ pub fn solve_on(
             design.spec_file
         ));
     }
-    let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(in_files)?;
-    let mut limits =
-        service_limits(design, structure, &chords, &cases, &solved).map_err(in_files)?;
-    limits.extend(details.limits);
+    let ranges: Vec<[f64; 2]> = design.spec.rails().iter().map(|rail| rail.range).collect();
+    let lines = RailLines::new(rails, &ranges, model.up);
+    let details =
+        Details::new(design, model, rails, &lines, &dead, &cases, &solved).map_err(in_files)?;
+    let limits =
+        service_limits(design, structure, &lines, &chords, &cases, &solved).map_err(in_files)?;
     let error_bound = structure.frame().certificate().error_bound;
-    let mut left_out = left_out(
-        design,
-        &chords,
-        groups_left_out(design),
-        &details.pairs,
-        &limits,
-    );
+    let mut left_out = left_out(design, &chords, groups_left_out(design), &limits);
     left_out.extend(details.left_out);
     left_out.extend(doubts);
     Ok(DesignResult {
@@ -190,6 +188,7 @@ pub fn solve_on(
 fn service_limits(
     design: &Design,
     structure: &Structure,
+    lines: &RailLines,
     chords: &Chords,
     cases: &[TrainCase],
     solved: &[SolvedCase],
@@ -201,10 +200,17 @@ fn service_limits(
             .map(|case| case.train_case(design))
             .collect()
     };
+    // Displacements of pairs of rails are sought in the states that govern deflections at these places.
+    let places = if has_limit(design) {
+        places(design, structure)
+    } else {
+        Vec::new()
+    };
     let envelopes = |services: &[ServiceCase], ends: &[Vec<Vec<f64>>; 2]| {
         let request = Request {
             spans: ends[0].clone(),
             chords: ends.clone(),
+            places: places.clone(),
             ..Request::default()
         };
         trains::envelopes(
@@ -225,7 +231,8 @@ fn service_limits(
         };
         cases.iter().position(same).filter(|_| is_alike)
     };
-    let known: Vec<Option<usize>> = trains(&services).iter().map(known).collect();
+    let service_trains = trains(&services);
+    let known: Vec<Option<usize>> = service_trains.iter().map(known).collect();
     let pairs = services.iter().zip(&known);
     let new: Vec<ServiceCase> = pairs
         .filter(|(_, known)| known.is_none())
@@ -242,17 +249,27 @@ fn service_limits(
         })
         .collect();
     let mut out = check_limits(design, &chords.ends[0], &services, &found);
+    out.extend(pair_limits(
+        design,
+        lines,
+        structure,
+        &services,
+        &service_trains,
+        &found,
+    )?);
     if chords.has_soft_supports {
         let differs = chords.firm[0] != chords.ends[0];
         let affected = |service: &&ServiceCase| differs || service.load != ServiceLoad::Vertical;
         let services: Vec<ServiceCase> = services.iter().filter(affected).cloned().collect();
         let found = envelopes(&services, &chords.firm)?;
+        // Trains that stand alone have rows of their own with the same words.
+        let known = out.len();
         for row in check_limits(design, &chords.firm[0], &services, &found) {
             let same = |known: &LimitCheck| {
                 (&known.rail, known.ends, known.quantity) == (&row.rail, row.ends, row.quantity)
                     && (known.case, known.clause, known.loads) == (row.case, row.clause, row.loads)
             };
-            if !out.iter().any(same) {
+            if !out[..known].iter().any(same) {
                 out.push(row);
             }
         }

@@ -24,9 +24,10 @@
 //! ```
 //!
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
-//! [`scene`], [`design`], [`sweep`], [`schema`]; [`verdict`] is what summaries of designs and runs have in common.
+//! [`scene`], [`design`], [`sweep`], [`schema`]; [`verdict`] is what summaries of designs and runs have in common,
+//! [`plausible`] the values beyond which an input is doubted.
 //!
-//! Wings, lowest first: limits, kept, verdict, text, vector, units, check, own_limits, practice_words, spec, grid, tables, scene, design, sweep, schema
+//! Wings, lowest first: limits, kept, verdict, text, vector, units, check, plausible, own_limits, practice_words, spec, grid, tables, scene, design, sweep, schema
 
 pub mod check;
 pub mod design;
@@ -34,6 +35,7 @@ pub mod grid;
 pub mod kept;
 pub mod limits;
 mod own_limits;
+pub mod plausible;
 mod practice_words;
 pub mod scene;
 pub mod schema;

@@ -12,10 +12,12 @@ use crate::case_result::CaseResult;
 use crate::codes::{AllowableDisplacement, StaticDeflection};
 use crate::fatigue::FatigueResult;
 use crate::girders::GirderStress;
-use crate::warning::RESIDUAL;
+use crate::warning::{RESIDUAL, doubts};
 
 /// Why limits of deflections have no value.
 const NO_SPAN: &str = "no span of the runway that is defined carries wheels in the run";
+/// The displacement of a frame in checks.
+const FRAME_DISPLACEMENT: &str = "lateral displacement of the frame at the rail";
 /// Loads of the checks that look at the run itself.
 const OF_THE_RUN: &str = "forces of the run";
 
@@ -26,6 +28,7 @@ pub fn verdict(scene: &Scene, outcome: &CaseResult) -> Verdict {
     let mut checks = Vec::new();
     let mut omitted = Vec::new();
     limits(scene, outcome, &mut checks, &mut omitted);
+    drifts(scene, outcome, &mut checks, &mut omitted);
     let stresses = outcome.girders().stresses.rows.iter();
     checks.extend(stresses.filter_map(|found| of_stress(scene, found)));
     checks.extend(
@@ -46,6 +49,7 @@ pub fn verdict(scene: &Scene, outcome: &CaseResult) -> Verdict {
         let what = format!("bound of the relative error of influence coefficients, {structure}");
         checks.push(of_calculation(what, *bound, fea::DEFAULT_ACCURACY));
     }
+    omitted.extend(doubts(scene, &outcome.columns));
     omitted.extend(own_without_value(scene, outcome));
     omitted.extend(not_judged(scene, outcome));
     Verdict::new(checks, omitted)
@@ -103,6 +107,45 @@ fn limits(
                 Ok(check) => checks.push(check),
                 Err(line) if omitted.contains(&line) => {}
                 Err(line) => omitted.push(line),
+            }
+        }
+    }
+}
+
+/// Lateral displacements of frames. The forces of a run are not the loads that the codes name: they can show that a limit is
+/// exceeded, but not that it is kept.
+fn drifts(
+    scene: &Scene,
+    outcome: &CaseResult,
+    checks: &mut Vec<VerdictCheck>,
+    omitted: &mut Vec<OmittedCheck>,
+) {
+    let codes = scene.practice.iter().flat_map(|practice| &practice.codes);
+    let names: Vec<&str> = codes.map(|code| name_in_limits(code)).collect();
+    let length = scene.units.label(Dimension::LENGTH);
+    for drift in &outcome.response.drifts {
+        let own = drift.limits.iter();
+        for (clause, formula, most) in own.filter(|(c, ..)| names.contains(&code_name(c.standard)))
+        {
+            let check = VerdictCheck {
+                formula: Some((*formula).to_owned()),
+                rail: Some(drift.rail.clone()),
+                x: Some(drift.x + 0.0),
+                time: Some(drift.time),
+                loads: Some(OF_THE_RUN.to_owned()),
+                sampled: true,
+                ..VerdictCheck::new(FRAME_DISPLACEMENT, drift.value, *most, length.clone())
+            };
+            if check.passed() {
+                let reason = format!(
+                    "a run does not derive the loads of the code; its own forces displace rail {} by {:.0} % of {formula}",
+                    drift.rail,
+                    100.0 * check.utilisation
+                );
+                let line = OmittedCheck::new(FRAME_DISPLACEMENT, reason);
+                omitted.push(line.of_code(clause.standard, Some(clause.clause)));
+            } else {
+                checks.push(check.of_clause(clause));
             }
         }
     }
@@ -250,19 +293,21 @@ fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
             );
         }
         let reason = "a run compares them with the limit by `record`, without a verdict";
-        for check in [
-            "lateral displacement of frames at the rail",
-            "change of gauge",
-            "difference in height of the rails",
-        ] {
+        let mut limits = outcome.response.drifts.iter().flat_map(|d| &d.limits);
+        let has_drift = limits.any(|(clause, ..)| code_name(clause.standard) == name);
+        if !has_drift {
+            let line = OmittedCheck::new(FRAME_DISPLACEMENT, reason);
+            out.push(line.of_code(code.clone(), None));
+        }
+        for check in ["change of gauge", "difference in height of the rails"] {
             out.push(OmittedCheck::new(check, reason).of_code(code.clone(), None));
         }
         out.extend(checks_beyond_program(code));
     }
-    if let Some(first) = outcome.response.uplifts.first() {
+    if let Some(first) = outcome.response.first_uplift() {
         let count = outcome.response.uplifts.len();
         let reason = format!(
-            "wheels lose contact {count} times, first {} at {:.4} s; no limit bears on this",
+            "at the output times wheels are without contact {count} times, first {} at {:.4} s; no limit bears on this",
             first.wheel, first.time
         );
         out.push(OmittedCheck::new("uplift of wheels", reason));

@@ -15,7 +15,8 @@
 //!
 //! A girder on an elastic bed has ground stiffness at points that are no ends. Where the removed points of a span
 //! together have more than [`MIN_SUPPORT`] of the stiffness of the girder between the ends of that span, spans are not
-//! defined.
+//! defined. The panel points of a truss that stiffens a girder have such a stiffness too, which the truss carries to its own
+//! supports: a girder with two or more rigid supports of its own, and no springs elsewhere, spans between these.
 
 use fea::{Dof, GroundSpring, Model, Rail};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -106,9 +107,14 @@ pub fn supported_ends(
             return all(rail);
         };
         let mut ends = ends(&candidates[rail], &found);
-        let own = own_supports(original, &rails[rail], axis, &ends);
-        if own.len() >= 2 {
-            ends.firm = own;
+        let own = OwnSupports::new(original, &rails[rail], axis, &candidates[rail]);
+        let is_sprung = own.springs.iter().any(|x| !ends.ends.contains(x));
+        if ends.has_elastic_bed && own.rigid.len() >= 2 && !is_sprung {
+            return SupportedEnds::all_firm(&own.rigid);
+        }
+        let firm = own.firm(&ends);
+        if firm.len() >= 2 {
+            ends.firm = firm;
         }
         ends
     };
@@ -117,38 +123,59 @@ pub fn supported_ends(
         .collect())
 }
 
-/// Ends of spans at which a point of the girder itself has a rigid support in the direction of a plane, or a spring to
-/// ground that makes it firm.
-fn own_supports(model: &Model, rail: &Rail, axis: Axis, found: &SupportedEnds) -> Vec<f64> {
-    let along = Vector3::from(rail.axis).normalize();
-    let up = Vector3::from(model.up);
-    let up = (up - along * up.dot(&along)).normalize();
-    let direction = if axis == Axis::Lateral {
-        along.cross(&up)
-    } else {
-        up
-    };
-    let slack = SAME * found.ends.iter().fold(1.0, |far: f64, x| far.max(x.abs()));
-    let members = rail.segments.iter().map(|segment| segment.member);
-    let points: Vec<usize> = members
-        .flat_map(|member| model.members[member].points)
-        .collect();
-    let is_at = |point: usize, x: f64| {
-        let at = Vector3::from(model.points[point]) - Vector3::from(rail.origin);
-        points.contains(&point) && (at.dot(&along) - x).abs() <= slack
-    };
-    let acts = |dof: usize| dof < 3 && direction[dof].abs() > 1.0 - SAME;
-    let holds = |x: f64| {
-        let rigid = model.supports.iter().any(|support| {
-            is_at(support.point, x) && (0..3).any(|dof| support.fixed[dof] && acts(dof))
-        });
-        let sprung = model
-            .springs
-            .iter()
-            .any(|spring| is_at(spring.point, x) && acts(spring.dof as usize));
-        rigid || sprung && found.firm.contains(&x)
-    };
-    found.ends.iter().copied().filter(|x| holds(*x)).collect()
+/// Coordinates, among the candidates, at which a point of the girder itself is supported in the direction of a plane.
+struct OwnSupports {
+    /// By rigid supports.
+    rigid: Vec<f64>,
+    /// By springs to ground.
+    springs: Vec<f64>,
+}
+
+impl OwnSupports {
+    fn new(model: &Model, rail: &Rail, axis: Axis, candidates: &[f64]) -> OwnSupports {
+        let along = Vector3::from(rail.axis).normalize();
+        let up = Vector3::from(model.up);
+        let up = (up - along * up.dot(&along)).normalize();
+        let direction = if axis == Axis::Lateral {
+            along.cross(&up)
+        } else {
+            up
+        };
+        let slack = SAME * candidates.iter().fold(1.0, |far: f64, x| far.max(x.abs()));
+        let members = rail.segments.iter().map(|segment| segment.member);
+        let points: Vec<usize> = members
+            .flat_map(|member| model.members[member].points)
+            .collect();
+        let is_at = |point: usize, x: f64| {
+            let at = Vector3::from(model.points[point]) - Vector3::from(rail.origin);
+            points.contains(&point) && (at.dot(&along) - x).abs() <= slack
+        };
+        let acts = |dof: usize| dof < 3 && direction[dof].abs() > 1.0 - SAME;
+        let is_rigid = |x: f64| {
+            model.supports.iter().any(|support| {
+                is_at(support.point, x) && (0..3).any(|dof| support.fixed[dof] && acts(dof))
+            })
+        };
+        let is_sprung = |x: f64| {
+            let mut springs = model.springs.iter();
+            springs.any(|spring| is_at(spring.point, x) && acts(spring.dof as usize))
+        };
+        let places = |holds: &dyn Fn(f64) -> bool| {
+            let all = candidates.iter().copied();
+            all.filter(|x| holds(*x)).collect()
+        };
+        OwnSupports {
+            rigid: places(&is_rigid),
+            springs: places(&is_sprung),
+        }
+    }
+
+    /// Ends of spans with a rigid support, or a spring that makes them firm.
+    fn firm(&self, found: &SupportedEnds) -> Vec<f64> {
+        let holds =
+            |x: &f64| self.rigid.contains(x) || self.springs.contains(x) && found.firm.contains(x);
+        found.ends.iter().copied().filter(holds).collect()
+    }
 }
 
 /// The model with springs in place of the translations that its supports fix.

@@ -40,7 +40,8 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }
-    for warning in spec.warnings() {
+    let incomplete = spec.incomplete.iter().map(ToString::to_string);
+    for warning in spec.warnings().into_iter().chain(incomplete) {
         progress.say(&format!("warning: {warning}"));
     }
     for note in spec.notes.iter().chain(&solved.grid.notes) {

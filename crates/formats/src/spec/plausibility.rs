@@ -4,35 +4,12 @@ use fea::{CrossSection, Girder, Model, Rail};
 use sections::rolled;
 
 use super::structure::{Form, Spec};
+use crate::plausible::{
+    BESIDE_ROLLED, DENSITIES, GAP, MODULI, RAIL_HEIGHT, SHAPES, SHEAR_AREA, SHEAR_TO_YOUNG,
+    STIFFNESSES, STRENGTHS, is_within,
+};
 use crate::text::number::{number, rounded};
 use crate::units::{Dimension, Length, Scale, Units};
-
-/// Plausible range of Young's moduli, N/m2. It includes rigid arms a hundred times as stiff as steel.
-const MODULI: [f64; 2] = [2e9, 2e13];
-
-/// Plausible range of densities of structures with their equipment, kg/m3.
-const DENSITIES: [f64; 2] = [50.0, 4e4];
-
-/// Largest gap between two segments of a rail that causes no warning, as a fraction of the shorter segment. Gaps over
-/// column seats are shorter.
-const GAP: f64 = 0.5;
-
-/// Plausible range of yield strengths, N/m2: from wrought iron with a large factor to wires.
-const STRENGTHS: [f64; 2] = [5e7, 2.5e9];
-
-/// Plausible range of I^(1/4) / L, with the second moment of area I of a girder and its longest span L. Rolled girders
-/// have 1/20 to 1/100.
-const STIFFNESSES: [f64; 2] = [1.0 / 400.0, 0.5];
-
-/// Plausible range of I / A^2, with the larger second moment of area I and the area A of a section. A solid square has
-/// 1/12, rolled sections and boxes about 1 to 10; truss members of two slender chords have more.
-const SHAPES: [f64; 2] = [1e-3, 1e3];
-
-/// Ratio of a property to that of the rolled section of the same girder above which one of them is wrong.
-const BESIDE_ROLLED: f64 = 3.0;
-
-/// Largest height of a rail above the axis of its girder, as a fraction of the longest span.
-const RAIL_HEIGHT: f64 = 0.5;
 
 impl Spec {
     /// Warnings about values that are probably wrong, each with what is known of the unit that was meant.
@@ -46,6 +23,24 @@ impl Spec {
         match &self.form {
             Form::Girder(girder) => {
                 all.extend(modulus("the girder's `E`", girder.e, self.units, scale));
+                all.extend(shear_modulus(
+                    "the girder's `G`",
+                    girder.e,
+                    girder.g,
+                    self.units,
+                ));
+                for (key, area) in [
+                    ("kA_vertical", girder.ka_vertical),
+                    ("kA_lateral", girder.ka_lateral),
+                ] {
+                    all.extend(shear_area(
+                        "the girder's",
+                        key,
+                        area,
+                        girder.area,
+                        self.units,
+                    ));
+                }
                 all.extend(self.girder_properties(girder, scale));
                 all.extend(self.rail_height(girder));
             }
@@ -59,6 +54,10 @@ impl Spec {
                 let mut seen: Vec<[u64; 2]> = Vec::new();
                 for (name, section) in named {
                     all.extend(shape(name, section, self.units));
+                    let own = format!("section \"{name}\":");
+                    for (key, area) in [("Asy", section.shear_y), ("Asz", section.shear_z)] {
+                        all.extend(shear_area(&own, key, area, Some(section.area), self.units));
+                    }
                     let key = [section.e, density(section)].map(f64::to_bits);
                     if seen.contains(&key) {
                         continue;
@@ -69,6 +68,12 @@ impl Spec {
                         section.e,
                         self.units,
                         scale,
+                    ));
+                    all.extend(shear_modulus(
+                        &format!("`G` of section \"{name}\""),
+                        section.e,
+                        Some(section.g),
+                        self.units,
                     ));
                     all.extend(heavy(name, section, self.units, scale));
                 }
@@ -169,16 +174,17 @@ impl Spec {
                 .map_or(1.0, |area| girder.i_vertical / (area * area));
             let is_plausible = |i: f64| {
                 let factor = i / girder.i_vertical;
-                within(STIFFNESSES, ratio * factor.powf(0.25)) && within(SHAPES, area * factor)
+                is_within(STIFFNESSES, ratio * factor.powf(0.25))
+                    && is_within(SHAPES, area * factor)
             };
-            if !within(STIFFNESSES, ratio) || !within(SHAPES, area) {
+            if !is_within(STIFFNESSES, ratio) || !is_within(SHAPES, area) {
                 all.push(self.second_moment(girder.i_vertical, span, is_plausible));
             }
         }
         let mass = girder.mass_per_length.filter(|mass| *mass > 0.0);
         if let (Some(mass), Some(area)) = (mass, girder.area) {
             let own = mass / area * scale.factor(Dimension::DENSITY);
-            if !within(DENSITIES, own) {
+            if !is_within(DENSITIES, own) {
                 all.push(format!(
                     "the girder's `mass_per_length` is {} {} on {} {}, a density of {} kg/m3: it is mass (force time^2 / \
                      length) per length; steel has 7850 kg/m3",
@@ -228,15 +234,11 @@ impl Spec {
     }
 }
 
-fn within(range: [f64; 2], value: f64) -> bool {
-    (range[0]..=range[1]).contains(&value)
-}
-
 /// Warning about the second moments and the area of a section of the general form.
 fn shape(name: &str, section: &CrossSection, units: Units) -> Option<String> {
     let largest = section.iy.max(section.iz);
     let ratio = largest / (section.area * section.area);
-    (largest > 0.0 && section.area > 0.0 && !within(SHAPES, ratio)).then(|| {
+    (largest > 0.0 && section.area > 0.0 && !is_within(SHAPES, ratio)).then(|| {
         format!(
             "section \"{name}\" has A = {} {} and a second moment of area of {} {}: these values are \
              inconsistent, check their units",
@@ -252,7 +254,7 @@ fn shape(name: &str, section: &CrossSection, units: Units) -> Option<String> {
 fn strength(fy: f64, units: Units, scale: Scale) -> Option<String> {
     let pascals = fy * scale.factor(Dimension::STRESS);
     let unit = units.label(Dimension::STRESS);
-    (!within(STRENGTHS, pascals)).then(|| {
+    (!is_within(STRENGTHS, pascals)).then(|| {
         format!(
             "`fy` is {} {unit}, {} N/mm2: S235 has {} {unit}",
             number(fy),
@@ -276,12 +278,42 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     let pascals = e * scale.factor(Dimension::STRESS);
     let unit = units.label(Dimension::STRESS);
     let steel = 2e11 / scale.factor(Dimension::STRESS);
-    (!(MODULI[0]..=MODULI[1]).contains(&pascals)).then(|| {
+    (!is_within(MODULI, pascals)).then(|| {
         format!(
             "{what} is {} {unit}, {} GPa: steel has about {} {unit}",
             number(e),
             short(pascals * 1e-9),
             short(steel)
+        )
+    })
+}
+
+/// Warning about a shear modulus that does not fit Young's modulus.
+fn shear_modulus(what: &str, e: f64, g: Option<f64>, units: Units) -> Option<String> {
+    let g = g.filter(|g| *g > 0.0 && e > 0.0 && !is_within(SHEAR_TO_YOUNG, g / e))?;
+    let unit = units.label(Dimension::STRESS);
+    Some(format!(
+        "{what} is {} {unit} beside `E` {} {unit}: steel has G/E = 0.385",
+        number(g),
+        number(e)
+    ))
+}
+
+/// Warning about an effective shear area above the area of its section.
+fn shear_area(
+    what: &str,
+    key: &str,
+    effective: Option<f64>,
+    area: Option<f64>,
+    units: Units,
+) -> Option<String> {
+    let (effective, area) = (effective?, area?);
+    let unit = units.label(Dimension::AREA);
+    (area > 0.0 && effective > SHEAR_AREA * area).then(|| {
+        format!(
+            "{what} `{key}` is {} {unit}, more than the area {} {unit}",
+            short(effective),
+            short(area)
         )
     })
 }
@@ -292,7 +324,7 @@ fn heavy(name: &str, section: &CrossSection, units: Units, scale: Scale) -> Opti
     let si = own * scale.factor(Dimension::DENSITY);
     let unit = units.label(Dimension::DENSITY);
     let steel = 7850.0 / scale.factor(Dimension::DENSITY);
-    (own > 0.0 && !(DENSITIES[0]..=DENSITIES[1]).contains(&si)).then(|| {
+    (own > 0.0 && !is_within(DENSITIES, si)).then(|| {
         format!(
             "`density` of section \"{name}\" is {} {unit}, {} kg/m3: it is mass per volume, steel has about {} {unit}",
             short(own),

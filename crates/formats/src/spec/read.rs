@@ -92,7 +92,7 @@ impl Spec {
             None => outline::of_sections(raw, &root, &mut check),
         };
         let (notes, incomplete) = if check.faults.0.is_empty() {
-            (notes::of(raw, from), incomplete::of(raw, from))
+            (notes::of(raw, from), incomplete::of(raw, &form, from))
         } else {
             Default::default()
         };

@@ -148,11 +148,10 @@ pub fn verdict_lines(verdict: &Verdict, units: Units) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if worst.len() > MAX_LINES {
-        lines.push(format!(
-            "  {} more checks in the report",
-            worst.len() - MAX_LINES
-        ));
+    match worst.len().saturating_sub(MAX_LINES) {
+        0 => {}
+        1 => lines.push("  one more check in the report".to_owned()),
+        more => lines.push(format!("  {more} more checks in the report")),
     }
     if !verdict.not_checked.is_empty() {
         lines.push(format!(

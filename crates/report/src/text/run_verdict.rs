@@ -131,11 +131,10 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
 /// Uplift and fatigue in the first run.
 fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut out = Vec::new();
-    let uplifts = &outcome.response.uplifts;
-    if let Some(first) = uplifts.first() {
+    if let Some(first) = outcome.response.first_uplift() {
         out.push(format!(
-            "Wheels lose contact with their rails {} times, first {} at {} s.",
-            uplifts.len(),
+            "At the output times wheels are without contact {} times, first {} at {} s.",
+            outcome.response.uplifts.len(),
             first.wheel,
             digits(first.time, DIGITS)
         ));

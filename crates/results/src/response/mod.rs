@@ -173,6 +173,13 @@ impl Response {
         Ok(response)
     }
 
+    /// The earliest uplift of a wheel.
+    #[must_use]
+    pub fn first_uplift(&self) -> Option<&Uplift> {
+        let uplifts = self.uplifts.iter();
+        uplifts.min_by(|a, b| a.time.total_cmp(&b.time))
+    }
+
     /// Adds the columns of structure `s` to `record` and to the response.
     fn add_columns(
         &mut self,

@@ -22,9 +22,14 @@ use formats::scene::{
 };
 use formats::spec::Form;
 use formats::text::number::{number, rounded};
+use formats::verdict::OmittedCheck;
 
 /// Residual of the energy audit above which a warning is issued.
 pub const RESIDUAL: f64 = 1e-3;
+
+/// Values that are probably wrong, as what was not checked.
+const PLAUSIBLE_SPEC: &str = "plausibility of the spec";
+const PLAUSIBLE_SCENE: &str = "plausibility of the scene";
 
 /// Ratio of a rail's deflection to its span above which displacements are not small.
 const LARGE_DEFLECTION: f64 = 0.01;
@@ -168,14 +173,8 @@ fn warnings(
             largest_gap(input, run)
         ));
     }
-    for structure in &scene.structures {
-        if let Origin::Spec { spec, .. } = &structure.origin {
-            let of_spec = spec.warnings().into_iter();
-            all.extend(of_spec.map(|warning| format!("{}: {warning}", structure.name)));
-        }
-    }
+    all.extend(doubts(scene, record).iter().map(told));
     all.extend(slack::slack_cables(scene, input, record));
-    all.extend(scene::scene_warnings(scene, record));
     let of_rail = |rail| Wheels {
         input,
         record,
@@ -195,6 +194,36 @@ fn warnings(
     }
     all.extend(lift_off(input, record));
     all
+}
+
+/// Results of half an input, and values that are probably wrong, as what was not checked.
+#[must_use]
+pub(crate) fn doubts(scene: &Scene, record: &NamedColumns) -> Vec<OmittedCheck> {
+    let mut out = Vec::new();
+    for structure in &scene.structures {
+        let Origin::Spec { spec, .. } = &structure.origin else {
+            continue;
+        };
+        let named = |reason: &str| format!("{}: {reason}", structure.name);
+        let of_spec = spec.warnings().into_iter();
+        out.extend(of_spec.map(|warning| OmittedCheck::new(PLAUSIBLE_SPEC, named(&warning))));
+        out.extend(spec.incomplete.iter().map(|line| OmittedCheck {
+            reason: named(&line.reason),
+            ..line.clone()
+        }));
+    }
+    let of_scene = scene::scene_warnings(scene, record).into_iter();
+    out.extend(of_scene.map(|warning| OmittedCheck::new(PLAUSIBLE_SCENE, warning)));
+    out
+}
+
+/// A doubt as a warning; what is implausible needs no name.
+fn told(doubt: &OmittedCheck) -> String {
+    if [PLAUSIBLE_SPEC, PLAUSIBLE_SCENE].contains(&doubt.check.as_str()) {
+        doubt.reason.clone()
+    } else {
+        doubt.to_string()
+    }
 }
 
 /// The step that leaves the most energy unaccounted for, as the end of a sentence; empty if no step is known.

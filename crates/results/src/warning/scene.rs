@@ -2,41 +2,15 @@
 //! entered as masses, bodies that rotate without moment of inertia, structures that extend beyond the body below them, ropes beyond their strength.
 
 use crate::columns::NamedColumns;
+use formats::plausible::{
+    BREAKING_STRAIN, GRAVITIES, HOIST_SPEEDS, LARGE_ROTATION, OVERHANG, PENETRATION, RADII,
+    WHEEL_PRESSURE, WHEEL_STIFFNESS,
+};
 use formats::scene::motion::{NamedWheel, wheels};
 use formats::scene::{Analysis, Body, NormalForceLaw, Origin, Scene, root_body};
 use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
-
-/// Wheel load due to the weight of the body alone, divided by the square of the wheel diameter, above which the
-/// weight is implausible, N/m2. Fully loaded steel wheels bear a third of it.
-const WHEEL_PRESSURE: f64 = 3e6;
-
-/// Distance beyond its outer wheels at which a body may support a structure, as a fraction of the distance between
-/// the outer wheels.
-const OVERHANG: f64 = 0.1;
-
-/// Strain beyond which a rope breaks, for strands of 2000 N/mm2.
-const BREAKING_STRAIN: f64 = 0.03;
-
-/// Plausible range of the acceleration of gravity, m/s2: from that of the moon to three times that of the earth.
-const GRAVITIES: [f64; 2] = [1.0, 30.0];
-
-/// Plausible range of radii of wheels, m.
-const RADII: [f64; 2] = [0.01, 2.0];
-
-/// Plausible range of the stiffness of the contact of a wheel, N/m: from soft suspensions to ten times Hertz's contact of
-/// steel.
-const WHEEL_STIFFNESS: [f64; 2] = [1e3, 5e10];
-
-/// Plausible range of rated hoisting speeds, m/s. Container cranes have up to 3 m/s without load.
-const HOIST_SPEEDS: [f64; 2] = [1e-4, 4.0];
-
-/// Penetration of wheels at the start, relative to their radius, above which their stiffness is implausible.
-const PENETRATION: f64 = 0.25;
-
-/// Rotation of a body, in rad, above which small rotations are no longer those of a rigid body: levers err by half its square.
-const LARGE_ROTATION: f64 = 0.1;
 
 /// Warnings about values of a scene that are probably wrong.
 #[must_use]
