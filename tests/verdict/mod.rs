@@ -127,7 +127,7 @@ fn what_a_run_cannot_judge_is_listed() {
     assert_eq!(output.status.code(), Some(0));
     let listed = summary["verdict"]["not_checked"].to_string();
     for words in [
-        "own limit overhang",
+        "own limit of the deflection of the overhang",
         "the code has no limits",
         "a run does not judge overhangs",
     ] {

@@ -14,21 +14,6 @@ use crate::chords::{Chords, PLANES};
 use crate::outcome::{FatigueLoads, LimitCheck};
 use crate::service::{ServiceCase, ServiceLoad};
 
-/// A limited displacement as the quantity of rows of limits.
-pub(crate) fn quantity_name(displacement: LimitedDisplacement) -> &'static str {
-    match displacement {
-        LimitedDisplacement::RunwayVertical
-        | LimitedDisplacement::MonorailVertical
-        | LimitedDisplacement::BridgeGirder => "vertical deflection",
-        LimitedDisplacement::RunwayLateral => "lateral deflection",
-        LimitedDisplacement::FrameLateral => "lateral displacement of the frame",
-        LimitedDisplacement::FrameDifference => "difference of the displacements of frames",
-        LimitedDisplacement::GaugeChange => "change of gauge",
-        LimitedDisplacement::HeightDifference => "difference in height",
-        LimitedDisplacement::Overhang => "deflection of the overhang",
-    }
-}
-
 /// Lateral deflections below this fraction of the largest deflection are rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -114,7 +99,7 @@ impl Rows<'_> {
         let allowed = self.limit.allowable((ends[1] - ends[0]) * metre).ok()?;
         Some(LimitCheck {
             clause: self.limit.clause,
-            quantity: quantity_name(self.limit.displacement),
+            quantity: self.limit.displacement.phrase(),
             formula: self.limit.formula(),
             loads: self.service.words(self.limit.loads),
             value: governing.value.abs(),
@@ -166,10 +151,8 @@ pub(crate) fn left_out(
 ) -> Vec<OmittedCheck> {
     let mut out = Vec::new();
     for limit in &design.practice.limits {
-        let omitted = |reason: &str| {
-            omitted_limit(limit, &limit.displacement.word().replace('_', " "), reason)
-        };
-        let quantity = quantity_name(limit.displacement);
+        let omitted = |reason: &str| omitted_limit(limit, limit.displacement.phrase(), reason);
+        let quantity = limit.displacement.phrase();
         let is_checked = rows
             .iter()
             .any(|row| row.clause == limit.clause && row.quantity == quantity);

@@ -9,7 +9,7 @@ use practice::limits::LimitedDisplacement;
 use splines::{Axis, Compliance, ExactSurface, Probe};
 use trains::{CaseEnvelopes, Error, GirderResponse, Governing, RailLoad, Structure, TrainCase};
 
-use crate::limits::{metre, quantity_name};
+use crate::limits::metre;
 use crate::outcome::{LimitCheck, RailPairResponse, SolvedCase};
 use crate::placed::RailLines;
 use crate::service::ServiceCase;
@@ -178,7 +178,7 @@ impl Moved<'_> {
                 let response = RailPairResponse {
                     case: number + 1,
                     rails: pair.map(|rail| rails[rail].name.clone()),
-                    quantity: quantity_name(displacement),
+                    quantity: displacement.phrase(),
                     distance: self.lines.distance(pair[0], pair[1]).abs(),
                     value,
                     x,

@@ -4,6 +4,7 @@ use formats::design::Design;
 use formats::units::Dimension;
 use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
 
+use practice::limits::LimitedDisplacement;
 use trains::WITHOUT_WARPING;
 
 use crate::outcome::{DesignResult, LimitCheck, StressCheck};
@@ -23,7 +24,7 @@ pub fn verdict(design: &Design, result: &DesignResult) -> Verdict {
             let index = design.spec.rails().iter().position(|own| own.name == rail);
             index.is_some_and(|index| result.is_lateral_bound[index])
         };
-        if limit.quantity == "lateral deflection" && is_bound(&limit.rail) {
+        if limit.quantity == LimitedDisplacement::RunwayLateral.phrase() && is_bound(&limit.rail) {
             check.bound = Some(WITHOUT_WARPING.to_owned());
         }
         match check.confirmed(&limit.clause) {

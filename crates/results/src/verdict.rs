@@ -16,8 +16,6 @@ use crate::warning::{RESIDUAL, doubts};
 
 /// Why limits of deflections have no value.
 const NO_SPAN: &str = "no span of the runway that is defined carries wheels in the run";
-/// The displacement of a frame in checks.
-const FRAME_DISPLACEMENT: &str = "lateral displacement of the frame at the rail";
 /// Loads of the checks that look at the run itself.
 const OF_THE_RUN: &str = "forces of the run";
 
@@ -87,7 +85,7 @@ fn limits(
                     "a run does not derive {}; use a design",
                     limit.loads.words()
                 );
-                let line = OmittedCheck::new("lateral deflection", reason)
+                let line = OmittedCheck::new(found.displacement.phrase(), reason)
                     .of_code(limit.clause.standard, Some(limit.clause.clause));
                 if !omitted.contains(&line) {
                     omitted.push(line);
@@ -134,7 +132,12 @@ fn drifts(
                 time: Some(drift.time),
                 loads: Some(OF_THE_RUN.to_owned()),
                 sampled: true,
-                ..VerdictCheck::new(FRAME_DISPLACEMENT, drift.value, *most, length.clone())
+                ..VerdictCheck::new(
+                    LimitedDisplacement::FrameLateral.phrase(),
+                    drift.value,
+                    *most,
+                    length.clone(),
+                )
             };
             if check.passed() {
                 let reason = format!(
@@ -142,7 +145,7 @@ fn drifts(
                     drift.rail,
                     100.0 * check.utilisation
                 );
-                let line = OmittedCheck::new(FRAME_DISPLACEMENT, reason);
+                let line = OmittedCheck::new(LimitedDisplacement::FrameLateral.phrase(), reason);
                 omitted.push(line.of_code(clause.standard, Some(clause.clause)));
             } else {
                 checks.push(check.of_clause(clause));
@@ -165,7 +168,7 @@ fn own_without_value(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
                 _ => NO_SPAN,
             };
             OmittedCheck::new(
-                format!("own limit {}", limit.displacement.word().replace('_', " ")),
+                format!("own limit of the {}", limit.displacement.phrase()),
                 reason,
             )
         })
@@ -186,11 +189,6 @@ fn of_limit(
     allowable: &AllowableDisplacement,
 ) -> VerdictCheck {
     let limit = &allowable.limit;
-    let what = match found.displacement {
-        LimitedDisplacement::RunwayLateral => "lateral deflection",
-        LimitedDisplacement::BridgeGirder => "vertical deflection of the bridge girder",
-        _ => "vertical deflection",
-    };
     let loads = match found.displacement {
         LimitedDisplacement::RunwayLateral => {
             "a tenth of the static wheel loads at the positions of the run, lateral"
@@ -205,7 +203,7 @@ fn of_limit(
         loads: Some(loads.to_owned()),
         sampled: true,
         ..VerdictCheck::new(
-            what,
+            found.displacement.phrase(),
             found.value,
             allowable.value,
             scene.units.label(Dimension::LENGTH),
@@ -296,10 +294,13 @@ fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
         let mut limits = outcome.response.drifts.iter().flat_map(|d| &d.limits);
         let has_drift = limits.any(|(clause, ..)| code_name(clause.standard) == name);
         if !has_drift {
-            let line = OmittedCheck::new(FRAME_DISPLACEMENT, reason);
+            let line = OmittedCheck::new(LimitedDisplacement::FrameLateral.phrase(), reason);
             out.push(line.of_code(code.clone(), None));
         }
-        for check in ["change of gauge", "difference in height of the rails"] {
+        for check in [
+            LimitedDisplacement::GaugeChange.phrase(),
+            LimitedDisplacement::HeightDifference.phrase(),
+        ] {
             out.push(OmittedCheck::new(check, reason).of_code(code.clone(), None));
         }
         out.extend(checks_beyond_program(code));

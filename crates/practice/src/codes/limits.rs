@@ -48,6 +48,24 @@ impl LimitedDisplacement {
         }
     }
 
+    /// Its name in checks.
+    #[must_use]
+    pub fn phrase(self) -> &'static str {
+        match self {
+            LimitedDisplacement::RunwayVertical => "vertical deflection",
+            LimitedDisplacement::RunwayLateral => "lateral deflection",
+            LimitedDisplacement::MonorailVertical => "vertical deflection of a monorail girder",
+            LimitedDisplacement::BridgeGirder => "vertical deflection of the bridge girder",
+            LimitedDisplacement::FrameLateral => "lateral displacement of the frame at the rail",
+            LimitedDisplacement::FrameDifference => {
+                "difference of the displacements of neighbouring frames"
+            }
+            LimitedDisplacement::GaugeChange => "change of gauge",
+            LimitedDisplacement::HeightDifference => "difference in height",
+            LimitedDisplacement::Overhang => "deflection of the overhang",
+        }
+    }
+
     /// Symbol of the length that `ratio` divides, and its description.
     #[must_use]
     pub fn reference_length(self) -> [&'static str; 2] {
