@@ -15,7 +15,7 @@ use crate::outcome::{FatigueLoads, LimitCheck};
 use crate::service::{ServiceCase, ServiceLoad};
 
 /// Lateral deflections below this fraction of the largest deflection are rounding.
-const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// The limits on the deflections of all spans and overhangs; `found` are the responses of each service case, whose spans are
 /// those of the vertical plane, with their ends in `vertical` by rail.

@@ -197,7 +197,7 @@ fn tell(run: &SceneRun, progress: &Progress) {
                 continue;
             };
             progress.say(&format!(
-                "{}: {}: maximum deflection {deepest:.6} {unit}",
+                "{}: {}: maximum deflection {deepest:.6} {unit} at the output times",
                 outcome.label, body.name
             ));
         }

@@ -198,7 +198,9 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
         }
     }
     ReportTable {
-        caption: "Deflections under static wheel loads, and limits of codes.".to_owned(),
+        caption: "Deflections under static wheel loads, sampled at the positions of some of the output times, and limits of \
+                  codes."
+            .to_owned(),
         columns,
         rows,
     }

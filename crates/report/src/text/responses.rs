@@ -150,7 +150,7 @@ pub fn comparison(
         ("frequency", "Hz"),
     ];
     let caption = format!(
-        "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this \
+        "Mean over the last quarter of each run, extremes, sampled at the output times, number of excursions from the band of 5 % about this \
          mean, and the frequency of largest amplitude in that quarter.{rest}{without}"
     );
     let columns = columns
@@ -334,7 +334,8 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     }
     ReportTable {
         caption: format!(
-            "Largest lateral displacement of each rail at a column in the run \"{label}\"."
+            "Largest lateral displacement of each rail at a column in the run \"{label}\", sampled at some of \
+             the output times."
         ),
         columns: columns
             .map(|name| TableColumn::new(name, unit_of(name)))
@@ -350,7 +351,7 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let mut table = ReportTable {
         caption: format!(
             "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
-             span-to-deflection ratios. L/600 and L/400 are limits of the deflection under static wheel loads; the \
+             span-to-deflection ratios, sampled at some of the output times. L/600 and L/400 are limits of the deflection under static wheel loads; the \
              deflections here are those of the run."
         ),
         columns: vec![

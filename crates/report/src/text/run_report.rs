@@ -108,7 +108,9 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let length = scene.units.label(Dimension::LENGTH);
     let (unit, factor) = deflection_unit(scene.units);
     let mut table = ReportTable {
-        caption: "Largest deflection of every body below the unloaded rail.".to_owned(),
+        caption:
+            "Largest deflection of every body below the unloaded rail, sampled at the output times."
+                .to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
             TableColumn::new("body", ""),
@@ -287,7 +289,7 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let mut table = ReportTable {
         caption: format!(
-            "Wheel forces of the run \"{}\".",
+            "Wheel forces of the run \"{}\", sampled at the output times.",
             run_name(&outcomes[0].label)
         ),
         columns: vec![
