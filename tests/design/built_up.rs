@@ -98,7 +98,7 @@ fn tapers_without_dimensions_are_left_out_by_name() {
     kinds["sections"][1]["shape"] = json!({"kind": "bar", "height": 0.8, "width": 0.1});
     for spec in [numbers, kinds] {
         let found = solved(&spec, &wheel(100.0, 0.0));
-        let known = "stress utilisation on rail rail: the dimensions of members that taper from section low to section high";
+        let known = "stress utilisation on the rail: the dimensions of members that taper from section low to section high";
         let said = found["left_out"].to_string();
         assert!(
             said.contains(known) && found.get("stresses").is_none(),
@@ -164,7 +164,7 @@ fn a_rail_in_the_section_moves_the_centroid_towards_it() {
         "shear stress",
     );
     let said = found["left_out"].to_string();
-    let known = "direct stress of a crane rail that is a part of the section, on rail rail: the spec does not specify its strength";
+    let known = "direct stress of a crane rail that is a part of the section, on the rail: the spec does not specify its strength";
     assert!(said.contains(known), "{said}");
 }
 

@@ -143,7 +143,7 @@ fn a_stress_above_its_strength_is_a_result() {
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        said.contains("NOT OK: direct stress, rail, span 1, case 1"),
+        said.contains("NOT OK: direct stress, the rail, span 1, case 1"),
         "{said}"
     );
     assert_eq!(summary(&folder)["within"], json!(false));
@@ -163,8 +163,8 @@ fn stresses_without_data_are_left_out_by_name() {
     assert!(found.get("stresses").is_none());
     let said = found["left_out"].to_string();
     for part in [
-        "stress utilisation on rail rail: the material of section HEB 400 has no yield strength `fy`",
-        "local wheel stress in the web on rail rail: specify the `crane_rail`",
+        "stress utilisation on the rail: the material of section HEB 400 has no yield strength `fy`",
+        "local wheel stress in the web on the rail: specify the `crane_rail`",
     ] {
         assert!(said.contains(part), "{said}");
     }

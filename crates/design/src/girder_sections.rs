@@ -5,7 +5,7 @@ use formats::LateralSection;
 use formats::spec::Spec;
 use formats::units::Length;
 use formats::vector::dot;
-use formats::verdict::OmittedCheck;
+use formats::verdict::{OmittedCheck, rail_phrase};
 
 use crate::fibres::{CompositeRail, Fibres};
 use crate::placed::rail_axes;
@@ -158,12 +158,14 @@ pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<OmittedCheck> {
             None => reasons.push((why, vec![rail])),
         }
     }
-    let word = |count: usize| if count == 1 { "rail" } else { "rails" };
     reasons
         .iter()
         .map(|(why, rails)| {
-            let check = format!("{what} on {} {}", word(rails.len()), rails.join(", "));
-            OmittedCheck::new(check, *why)
+            let place = match rails.as_slice() {
+                [rail] => rail_phrase(rail),
+                rails => format!("rails {}", rails.join(", ")),
+            };
+            OmittedCheck::new(format!("{what} on {place}"), *why)
         })
         .collect()
 }

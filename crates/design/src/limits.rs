@@ -3,7 +3,7 @@
 use formats::design::{CODE_PARTS, Design, DesignTrain, DesignWheel, TILTING};
 use formats::text::fault::number;
 use formats::units::{Dimension, Scale, Units};
-use formats::verdict::OmittedCheck;
+use formats::verdict::{OmittedCheck, rail_phrase};
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
 use practice::limit_choice::code_name;
@@ -168,7 +168,7 @@ pub(crate) fn left_out(
             .collect();
         for (plane, rail, reason) in &undefined {
             let name = &design.spec.rails()[*rail].name;
-            let check = format!("{} deflection of rail {name}", PLANES[*plane]);
+            let check = format!("{} deflection of {}", PLANES[*plane], rail_phrase(name));
             out.push(omitted_limit(limit, &check, reason));
         }
         if is_checked || !undefined.is_empty() {
@@ -246,8 +246,8 @@ fn overhangs_without_limit(design: &Design, chords: &Chords) -> Vec<OmittedCheck
     let omitted = |(rail, _, ends): (usize, usize, [f64; 2])| {
         let [from, to] = ends.map(number);
         let check = format!(
-            "deflection of the overhang from {from} to {to} of rail {}",
-            rails[rail].name
+            "deflection of the overhang from {from} to {to} of {}",
+            rail_phrase(&rails[rail].name)
         );
         let reason =
             "no limit of the code for overhangs is known; specify `practice.limits.overhang`";

@@ -2,7 +2,9 @@
 
 use formats::design::Design;
 use formats::units::Dimension;
-use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
+use formats::verdict::{
+    CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program, rail_phrase,
+};
 
 use practice::limits::LimitedDisplacement;
 use trains::WITHOUT_WARPING;
@@ -108,8 +110,10 @@ fn unproved(stress: &StressCheck) -> Option<OmittedCheck> {
         .bound
         .filter(|bound| *bound > 1.0 && stress.utilisation() <= 1.0)?;
     let check = format!(
-        "{} of rail {} in all states, case {}",
-        stress.quantity, stress.rail, stress.case
+        "{} of {} in all states, case {}",
+        stress.quantity,
+        rail_phrase(&stress.rail),
+        stress.case
     );
     let reason = format!(
         "the largest of the evaluated states uses {:.0} % of the strength; no state is proved to exceed {:.0} %",

@@ -204,17 +204,23 @@ impl VerdictCheck {
     /// Rail and span in one phrase, such as `rail north, span 2`; empty where neither is known.
     #[must_use]
     pub fn place(&self) -> String {
-        let rail = self.rail.as_ref().map(|rail| {
-            if rail.starts_with("rail") {
-                rail.clone()
-            } else {
-                format!("rail {rail}")
-            }
-        });
+        let rail = self.rail.as_deref().map(rail_phrase);
         let span = self.span.map(|span| format!("span {span}"));
         let case = self.case.map(|case| format!("case {case}"));
         let parts = [rail, span, case];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A rail in a sentence: `rail north`; the rail of a straight girder, whose name is `rail`, is `the rail`.
+#[must_use]
+pub fn rail_phrase(name: &str) -> String {
+    if name == "rail" {
+        "the rail".to_owned()
+    } else if name.starts_with("rail") {
+        name.to_owned()
+    } else {
+        format!("rail {name}")
     }
 }
 

@@ -7,7 +7,7 @@ use crate::plausible::{
 };
 use crate::text::number::{number, rounded};
 use crate::units::{Dimension, Scale, Units};
-use crate::verdict::OmittedCheck;
+use crate::verdict::{OmittedCheck, rail_phrase};
 
 impl Design {
     /// Values that are probably wrong, each with what is usual.
@@ -50,7 +50,7 @@ impl Design {
                 .fold(0.0, f64::max);
             longest = longest.max(own);
             if self.si(own, Dimension::LENGTH) > SPAN {
-                let what = format!("unit of the spans of rail {}", rail.name);
+                let what = format!("unit of the spans of {}", rail_phrase(&rail.name));
                 let reason = format!("a span has {}", self.words(own, Dimension::LENGTH));
                 out.push(OmittedCheck::new(what, reason));
             }
@@ -98,7 +98,7 @@ impl Design {
         let lines = self.dead.lines.iter().zip(self.spec.rails());
         for (line, rail) in lines {
             if self.si(*line, Dimension::STIFFNESS) > RAIL_WEIGHT {
-                let what = format!("unit of the dead load along rail {}", rail.name);
+                let what = format!("unit of the dead load along {}", rail_phrase(&rail.name));
                 let reason = format!("it is {}", self.words(*line, Dimension::STIFFNESS));
                 out.push(OmittedCheck::new(what, reason));
             }

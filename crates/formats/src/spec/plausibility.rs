@@ -288,9 +288,14 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     })
 }
 
-/// Warning about a shear modulus that does not fit Young's modulus.
+/// Warning about a shear modulus that does not fit Young's modulus, where the latter is plausible.
 fn shear_modulus(what: &str, e: f64, g: Option<f64>, units: Units) -> Option<String> {
-    let g = g.filter(|g| *g > 0.0 && e > 0.0 && !is_within(SHEAR_TO_YOUNG, g / e))?;
+    let scale = Scale {
+        from: units,
+        to: Units::SI,
+    };
+    let is_sound = is_within(MODULI, e * scale.factor(Dimension::STRESS));
+    let g = g.filter(|g| is_sound && *g > 0.0 && !is_within(SHEAR_TO_YOUNG, g / e))?;
     let unit = units.label(Dimension::STRESS);
     Some(format!(
         "{what} is {} {unit} beside `E` {} {unit}: steel has G/E = 0.385",

@@ -6,6 +6,7 @@ use crate::chart::{Chart, ChartAxis, Series, Style};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
 use formats::units::{Dimension, Force, Length, Scale, Units};
+use formats::verdict::rail_phrase;
 use trains::{GirderResponse, Governing, SectionSide};
 
 /// Largest length in mm or in that a table shows in these: longer ones are positions.
@@ -113,15 +114,6 @@ pub(crate) fn quantity_phrase(quantity: GirderResponse) -> String {
     match quantity {
         GirderResponse::Normal | GirderResponse::Torsion => word.to_owned(),
         _ => format!("{} {word}", plane_word(quantity)),
-    }
-}
-
-/// A rail in a sentence: that of the short form has no name of its own.
-pub(crate) fn rail_phrase(name: &str) -> String {
-    if name == "rail" {
-        "the rail".to_owned()
-    } else {
-        format!("rail {name}")
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use super::design::{deflection_unit, digits, rail_phrase, reading_unit, unit_of};
+use super::design::{deflection_unit, digits, reading_unit, unit_of};
 use super::rail_sketch::{FINE, INK, RailSketch, SECTION, WHEEL, WIDTH, placed_texts, write_text};
 use crate::chart::{Svg, stack};
 use ::design::{GoverningLine, LineSubject};
 use formats::design::Design;
 use formats::units::Dimension;
+use formats::verdict::rail_phrase;
 use trains::GirderResponse;
 
 /// Height of the influence line, in pixels.

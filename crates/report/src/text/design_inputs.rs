@@ -1,9 +1,10 @@
 //! The inputs of a design as given: spans, dead load, trains, cases.
 
-use crate::figures::design::{digits, rail_phrase};
+use crate::figures::design::digits;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
+use formats::verdict::rail_phrase;
 
 /// Significant digits of inputs.
 const DIGITS: usize = 6;
