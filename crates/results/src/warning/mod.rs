@@ -174,6 +174,7 @@ fn warnings(
         ));
     }
     all.extend(doubts(scene, record).iter().map(told));
+    all.extend(scene::scene_warnings(scene, record));
     all.extend(slack::slack_cables(scene, input, record));
     let of_rail = |rail| Wheels {
         input,
@@ -212,7 +213,7 @@ pub(crate) fn doubts(scene: &Scene, record: &NamedColumns) -> Vec<OmittedCheck> 
             ..line.clone()
         }));
     }
-    let of_scene = scene::scene_warnings(scene, record).into_iter();
+    let of_scene = scene::implausible_values(scene, record).into_iter();
     out.extend(of_scene.map(|warning| OmittedCheck::new(PLAUSIBLE_SCENE, warning)));
     out
 }

@@ -12,9 +12,9 @@ use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
-/// Warnings about values of a scene that are probably wrong.
+/// Values of a scene that are probably in another unit.
 #[must_use]
-pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String> {
+pub(super) fn implausible_values(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     all.extend(implausible(
         "`gravity`",
@@ -64,10 +64,19 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
             scene,
         ));
     }
-    all.extend(idle_brakes(scene));
     all.extend(soft_wheels(scene, record));
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
+    }
+    all
+}
+
+/// Warnings about what a scene does not say, and about motions beyond its assumptions.
+#[must_use]
+pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String> {
+    let mut all = Vec::new();
+    all.extend(idle_brakes(scene));
+    for body in &scene.bodies {
         all.extend(without_inertia(scene, body));
         all.extend(large_rotation(body, record));
     }
