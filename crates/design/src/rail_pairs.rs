@@ -69,13 +69,7 @@ pub(crate) fn pair_responses(
     trains: &[TrainCase],
     cases: &[SolvedCase],
 ) -> Result<Vec<RailPairResponse>, Error> {
-    let surface = structure.frame().surface()?.surface;
-    let moved = Moved {
-        design,
-        lines,
-        structure,
-        surface: &surface,
-    };
+    let moved = Moved::new(design, lines, structure)?;
     let mut out = Vec::new();
     for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
         if case.factors.is_empty() {
@@ -100,13 +94,7 @@ pub(crate) fn pair_limits(
     if !has_limit(design) {
         return Ok(out);
     }
-    let surface = structure.frame().surface()?.surface;
-    let moved = Moved {
-        design,
-        lines,
-        structure,
-        surface: &surface,
-    };
+    let moved = Moved::new(design, lines, structure)?;
     let metre = metre(design);
     for ((service, case), found) in services.iter().zip(cases).zip(found) {
         let cranes = design.cases[service.case].trains.len();
@@ -163,10 +151,23 @@ struct Moved<'a> {
     design: &'a Design,
     lines: &'a RailLines,
     structure: &'a Structure,
-    surface: &'a ExactSurface,
+    surface: ExactSurface,
 }
 
-impl Moved<'_> {
+impl<'a> Moved<'a> {
+    fn new(
+        design: &'a Design,
+        lines: &'a RailLines,
+        structure: &'a Structure,
+    ) -> Result<Moved<'a>, Error> {
+        Ok(Moved {
+            design,
+            lines,
+            structure,
+            surface: structure.frame().surface()?.surface,
+        })
+    }
+
     /// The responses of all pairs of rails in the case `number` (from 0), with what each of them is.
     fn responses(
         &self,
