@@ -229,8 +229,9 @@ fn given_surface(name: &str, solved: &SolvedModel) -> Result<ExactSurface, Error
 /// Frequencies have a relative error of at most `accuracy`.
 ///
 /// The function computes the `count` lowest modes of the unknowns that wheels can move, and drops those that wheels
-/// excite by no more than rounding, such as modes with nodes at every rail. While fewer than `count` remain, or
-/// while the highest frequency equals that of the next mode, it computes more: two for each that was dropped, at least eight.
+/// excite by no more than rounding, such as modes with nodes at every rail, and those whose frequency the next mode has too,
+/// as the pairs of two equal girders: [`excited_by`] combines all modes of one frequency. While fewer than `count` remain, it
+/// computes more: two for each that was dropped, at least eight.
 fn search(
     solved: &SolvedModel,
     count: usize,
@@ -240,22 +241,29 @@ fn search(
     let forces = excitation.forces();
     let mut requested = count;
     loop {
-        let refined =
+        let mut refined =
             fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
-        let excited = excited_by(&refined, excitation);
-        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
-        // `excited_by` combines all modes of one frequency, so that none of them may be missing
-        let is_split = refined
-            .modes
-            .next
-            .is_some_and(|next| next <= highest * (1.0 + EQUAL));
-        if is_whole || (excited.len() >= count && !is_split) {
+        drop_incomplete_group(&mut refined.modes);
+        let excited = excited_by(&refined, excitation);
+        if is_whole || excited.len() >= count {
             return Ok((refined, excited, is_whole));
         }
-        // as many more as were dropped, and as have the same frequency
         let dropped = requested - excited.len().min(requested);
         requested = (requested + 2 * dropped).clamp(requested + 8, 2 * requested + 8);
+    }
+}
+
+/// Drops the highest modes if the next one has the same frequency.
+fn drop_incomplete_group(found: &mut fea::Modes) {
+    let Some(next) = found.next else {
+        return;
+    };
+    let is_below = |mode: &fea::Mode| next > mode.omega * (1.0 + EQUAL);
+    let complete = found.modes.iter().take_while(|mode| is_below(mode)).count();
+    if let Some(first) = found.modes.get(complete) {
+        found.next = Some(first.omega);
+        found.modes.truncate(complete);
     }
 }
 

@@ -168,6 +168,55 @@ fn a_number_of_modes_has_the_frequencies_of_the_bridge() {
     assert!(ratio.iter().all(|ratio| *ratio == 0.03));
 }
 
+/// Two equal bridges side by side have each frequency twice, analytic as above. An odd number of modes, of which the last pair
+/// is incomplete, needs no finer mesh than an even number some modes above it.
+#[test]
+fn an_odd_number_of_modes_of_two_equal_bridges_needs_few_more() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let spec = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
+        "theory": "euler-bernoulli", "points": [[0, 0, 0], [25, 0, 0], [0, 0, 9], [25, 0, 9]],
+        "cells": [{"type": "line", "data": [[0, 1], [2, 3]]}],
+        "materials": [{"name": "concrete", "E": 2.87e9, "G": 1.2e9, "density": 1151.5}],
+        "sections": [{"name": "bridge", "material": "concrete", "A": 2, "Iy": 1, "Iz": 2.9, "J": 1}],
+        "supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 1, "fix": ["uy", "uz", "rx"]},
+            {"point": 2, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 3, "fix": ["uy", "uz", "rx"]}],
+        "rails": {"a": {"axis": [1, 0, 0], "segments": [{"cell": [0, 0]}], "stations": [0, 25]},
+            "b": {"origin": [0, 0, 9], "axis": [1, 0, 0], "segments": [{"cell": [0, 1]}], "stations": [0, 25]}}}"#;
+    let scene = r#"{"format": "girderway-scene/1", "units": {"length": "m", "force": "N", "time": "s"}, "gravity": 9.81,
+        "structures": {"s": {"spec": "spec.json", "foundation": "modal"}},
+        "bodies": {"car": {"mass": 5750, "inertia": [1000, 1000, 1000], "dof": ["y", "roll", "pitch"], "track": ["s.a", "s.b"]}},
+        "wheels": {"w": {"radius": 0.5, "vertical": {"k": 1.6e6}}},
+        "trucks": [{"name": "a", "body": "car", "tree": [0], "rail": "s.a", "wheel": "w", "at": [0, 0, -4.5]},
+            {"name": "b", "body": "car", "tree": [0], "rail": "s.b", "wheel": "w", "at": [0, 0, 4.5]}],
+        "motions": [{"body": "car", "dof": "x", "kind": "prescribed", "position": [[0, 0], [1, 25]]}],
+        "end": {"time": 1}}"#;
+    let path = folder.path().join("scene.json");
+    std::fs::write(folder.path().join("spec.json"), spec).expect("a writable folder");
+    std::fs::write(&path, scene).expect("a writable folder");
+    let document = Document::open(&path).expect("a scene without faults");
+    let solved = solve_specs(&document, &distinct_specs(&document)).expect("structures that stand");
+    let mesh = |modes: usize| {
+        let mut structure = document.scene().structures[0].clone();
+        structure.foundation = Foundation::Modal {
+            modes,
+            damping: 0.0,
+        };
+        let found = built(&structure, &solved).expect("bridges with mass");
+        let Some(MotionBasis::Modes { refined, .. }) = found.basis else {
+            panic!("natural modes")
+        };
+        (refined.parts, frequencies(&found.foundation))
+    };
+    for modes in [1, 3, 5] {
+        let (parts, omega) = mesh(modes);
+        assert!(parts[0] <= mesh(modes + 9).0[0], "{modes}: {parts:?}");
+        for (k, omega) in omega.iter().take(modes).enumerate() {
+            let error = (omega / bridge(k / 2 + 1) - 1.0).abs();
+            assert!(error < 1e-6, "mode {k} of {modes}: {error:e}");
+        }
+    }
+}
+
 #[test]
 fn a_full_mesh_has_the_frequencies_of_the_bridge_without_damping() {
     let (document, solved) = example("yang_yau");
