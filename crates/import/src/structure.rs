@@ -1,5 +1,6 @@
 //! Structure read from a model of any format, before it is written as a beam spec.
 
+use formats::limits::MAGNITUDES;
 use std::collections::BTreeMap;
 
 use fea::MemberKind;
@@ -102,6 +103,19 @@ pub struct ImportedMass {
     pub inertia: [f64; 3],
     /// Vector from the point to the centre of mass.
     pub offset: [f64; 3],
+}
+
+/// What the sums of masses and moments of inertia must be.
+pub const MASS_RANGE: &str = "must be 0 or between 1e-30 and 1e30 in sum";
+
+impl ImportedMass {
+    /// A mass or moment of inertia that no spec can have ([`MAGNITUDES`]).
+    #[must_use]
+    pub fn beyond_magnitudes(&self) -> Option<f64> {
+        let [least, most] = MAGNITUDES;
+        let mut parts = std::iter::once(self.mass).chain(self.inertia);
+        parts.find(|part| *part != 0.0 && !(least..=most).contains(&part.abs()))
+    }
 }
 
 /// A rail along members.

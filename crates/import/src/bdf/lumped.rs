@@ -11,7 +11,8 @@
 use std::collections::BTreeMap;
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{ImportedMass, ImportedStructure, MassDistribution};
+use crate::structure::{ImportedMass, ImportedStructure, MASS_RANGE, MassDistribution};
+use formats::text::number::number;
 use formats::vector::{length, minus};
 
 /// Mass of a member.
@@ -69,18 +70,13 @@ pub fn add(
             skew.get_or_insert((mass.card, 0)).1 += 1;
         }
     }
-    let finite = |mass: &ImportedMass| {
-        mass.mass.is_finite() && mass.inertia.iter().all(|part| part.is_finite())
-    };
-    if !places.values().all(finite) {
-        let at = masses
-            .first()
-            .map_or(FilePlace::default(), |mass| mass.card);
-        findings.error(ImportFinding::new(
-            at,
-            "mass of elements",
-            "must be within the range of double precision",
-        ));
+    if let Some(wrong) = places.values().find_map(ImportedMass::beyond_magnitudes) {
+        let heaviest = masses
+            .iter()
+            .max_by(|a, b| a.per_length.total_cmp(&b.per_length));
+        let at = heaviest.map_or(FilePlace::default(), |mass| mass.card);
+        let finding = ImportFinding::new(at, "mass of elements", MASS_RANGE);
+        findings.error(finding.with_found(number(wrong)));
         return;
     }
     let first = masses.iter().find(|mass| mass.per_length > 0.0);

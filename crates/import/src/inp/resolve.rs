@@ -12,9 +12,10 @@ use crate::axes::LocalAxes;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::links::{self, PartialLink};
 use crate::structure::{
-    ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure,
+    ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure, MASS_RANGE,
 };
 use fea::MemberKind;
+use formats::text::number::number;
 use formats::vector::{minus, parallel};
 
 pub(super) struct Resolver<'m, 'f> {
@@ -351,20 +352,14 @@ impl Resolver<'_, '_> {
                     .for_each(|(sum, own)| *sum += own);
             }
         }
-        if masses
-            .values()
-            .any(|mass| !mass.mass.is_finite() || mass.inertia.iter().any(|part| !part.is_finite()))
-        {
+        if let Some(wrong) = masses.values().find_map(ImportedMass::beyond_magnitudes) {
             let at = FilePlace {
                 file: 0,
                 line: 1,
                 column: 1,
             };
-            self.findings.error(ImportFinding::new(
-                at,
-                "*MASS",
-                "must have sums within the range of double precision",
-            ));
+            let finding = ImportFinding::new(at, "*MASS", MASS_RANGE);
+            self.findings.error(finding.with_found(number(wrong)));
         }
         self.structure.masses.extend(masses.into_values());
     }
