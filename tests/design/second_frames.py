@@ -243,7 +243,7 @@ class Solution:
 
 # Ends of spans.
 
-LEAST, FIRM = 0.05, 1.0
+LEAST = 0.05
 
 
 class NearThreshold(Exception):
@@ -251,7 +251,7 @@ class NearThreshold(Exception):
 
 
 def ends_of(structure, solution, rail, plane):
-    """Coordinates of the ends of spans, and of the firm ones, of a rail in a plane (0: vertical, 1: lateral).
+    """Coordinates of the ends of spans of a rail in a plane (0: vertical, 1: lateral), and of those with supports of their own.
 
     Supports of the girder's own points are rigid. At other joints the ground has the stiffness of the structure without its
     girders, and the girder that of a beam on all joints."""
@@ -278,23 +278,14 @@ def ends_of(structure, solution, rail, plane):
     kept = list(joints)
     while True:
         ratios = ratio(structure, solution, rail, plane, kept, ground)
-        if any(0.5 * t < r < 2 * t for r in ratios for t in (LEAST, FIRM)):
+        if any(0.5 * LEAST < r < 2 * LEAST for r in ratios):
             raise NearThreshold
         weak = [r for r in ratios if r < LEAST]
         if not weak:
             break
         kept.pop(int(np.argmin(ratios)))
     firm = [x for x in kept if x in own]
-    if len(firm) < 2:
-        firm = list(kept)
-        while True:
-            ratios = ratio(structure, solution, rail, plane, firm, ground)
-            if any(0.5 * FIRM < r < 2 * FIRM for r in ratios):
-                raise NearThreshold
-            if not ratios or min(ratios) >= FIRM:
-                break
-            firm.pop(int(np.argmin(ratios)))
-    return kept, firm
+    return kept, firm if len(firm) >= 2 else kept
 
 
 def ratio(structure, solution, rail, plane, places, ground):
@@ -736,14 +727,15 @@ def compare_design(program, seed):
         sets = [[t] for t in trains] if CODES[code][4] else [trains]
         of = lambda moved: chords(responses.nodes[number], moved[number][plane], (a, b))
         value = max(largest(responses, own, load, of) for own in sets for load in loads)
-        # A row more, between joints within a span, must be right, and may not govern.
+        # A row more must be right. On columns alone it may be between firm ones, which are not sought here; otherwise it is
+        # between joints within a span, and may not govern.
         inside = [v / l for q, r, c, d, v, l in rows if (q, r) == (quantity, rail) and c <= a and b <= d]
         limit = min((b - a) / rule[0], rule[1] or np.inf)
         if row["value"] <= 1e-6 * most:
             continue
         if not 0.985 <= row["value"] / value <= (1.015 if len(trains) == 1 else 1.25) or abs(row["limit"] / limit - 1) > 1e-9:
             errors.append(f"{where}: {quantity} of {rail} from {a} to {b}: {row['value']}, here {value}")
-        if not inside or value / limit > max(inside):
+        if not structure.girders[number]["connected"] and (not inside or value / limit > max(inside)):
             errors.append(f"{where}: a row that is not expected: {quantity} of {rail} from {a} to {b}, {value} of {limit}")
     known = pair_rows(structure, responses, trains, code)
     for quantity, value in known.items():
@@ -806,7 +798,8 @@ def compare_run(program, seed):
             errors.append(f"{where}: no check of {quantity} by {code}, here {known}")
             continue
         found = max(c["utilisation"] for c in own)
-        if not 0.97 * known <= found <= 1.005 * known:
+        # A run evaluates its limits at some of its output times.
+        if not 0.95 * known <= found <= 1.005 * known:
             errors.append(f"{where}: {quantity} by {code}: {found}, here {known}")
         if not own[0].get("sampled"):
             errors.append(f"{where}: {quantity} by {code}: not said to be sampled")

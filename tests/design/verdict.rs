@@ -354,6 +354,37 @@ fn one_banner_covers_limits_and_stresses_of_a_runway() {
     assert_eq!(both["within"], false);
 }
 
+/// Analytic: a crane rail A75 of 85 mm without `rail_height` stands on a section of 400 mm: a lateral force of 10 kN beside a
+/// support twists the girder by 10 kN (0.2 m + 0.085 m).
+#[test]
+fn a_crane_rail_stands_on_the_upper_edge_of_its_section() {
+    let spec = json!({"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
+        "girder": {"spans": [6], "section": "HEB 400", "crane_rail": "A75"}});
+    let mut design = crane(10.0, json!({"code": "EN 1993-6"}));
+    design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": 50}]);
+    let found = solved(&spec, &design);
+    let extremes = found["extremes"].as_array().expect("extremes").iter();
+    let torsion = extremes
+        .filter(|one| one["quantity"] == "torsion")
+        .map(|one| value(one, "value").abs())
+        .fold(0.0, f64::max);
+    assert!((torsion - 2.85).abs() < 1e-9, "{torsion}");
+}
+
+/// Analytic: W24x94 (I = 2700 in4 in the AISC manual) has E = 29,000 ksi unless the spec says otherwise; 10 kip at midspan of
+/// 30 ft deflect it by P L^3/(48 E I). With 210 GPa it would be 5 % less.
+#[test]
+fn w_shapes_have_the_modulus_of_their_manual() {
+    let units = json!({"length": "in", "force": "kip", "time": "s"});
+    let spec = json!({"format": "girderway-beam/1", "units": units, "theory": "euler-bernoulli",
+        "girder": {"spans": [360], "section": "W24x94"}});
+    let design = json!({"format": "girderway-design/1", "units": units, "spec": "spec.json",
+        "trains": [{"name": "c", "wheels": [{"x": 0, "vertical": 10}]}], "practice": {"code": "CMAA 70"}});
+    let found = solved(&spec, &design);
+    let known = 10.0 * 360f64.powi(3) / (48.0 * 29_000.0 * 2700.0);
+    near(check(&found, "vertical deflection"), "applied", known, 5e-3);
+}
+
 /// A monorail whose trolley runs on the bottom flange: its tip and the bending of the flange are named, since neither is checked.
 #[test]
 fn a_monorail_names_what_is_not_checked() {
