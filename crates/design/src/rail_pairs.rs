@@ -91,7 +91,7 @@ pub(crate) fn pair_limits(
     found: &[CaseEnvelopes],
 ) -> Result<Vec<LimitCheck>, Error> {
     let mut out = Vec::new();
-    if !has_limit(design) {
+    if !has_limit(design, lines) {
         return Ok(out);
     }
     let moved = Moved::new(design, lines, structure)?;
@@ -139,11 +139,13 @@ pub(crate) fn pair_limits(
     Ok(out)
 }
 
-/// Whether a limit of the design bears on pairs of rails.
-pub(crate) fn has_limit(design: &Design) -> bool {
+/// Whether a limit of the design bears on a pair of rails on which a train stands.
+pub(crate) fn has_limit(design: &Design, lines: &RailLines) -> bool {
     let bears = |limited: LimitedDisplacement| DISPLACEMENTS.iter().any(|(own, _)| *own == limited);
     let mut limits = design.practice.limits.iter();
+    let mut cases = design.cases.iter();
     limits.any(|limit| bears(limit.displacement))
+        && cases.any(|case| !pairs(design, &case.trains, lines).is_empty())
 }
 
 /// Deflections of rails in given states.

@@ -201,16 +201,16 @@ fn service_limits(
             .collect()
     };
     // Displacements of pairs of rails are sought in the states that govern deflections at these places.
-    let places = if has_limit(design) {
+    let places = if has_limit(design, lines) {
         places(design, structure)
     } else {
         Vec::new()
     };
-    let envelopes = |services: &[ServiceCase], ends: &[Vec<Vec<f64>>; 2]| {
+    let envelopes = |services: &[ServiceCase], ends: &[Vec<Vec<f64>>; 2], places: Vec<Vec<f64>>| {
         let request = Request {
             spans: ends[0].clone(),
             chords: ends.clone(),
-            places: places.clone(),
+            places,
             ..Request::default()
         };
         trains::envelopes(
@@ -238,7 +238,7 @@ fn service_limits(
         .filter(|(_, known)| known.is_none())
         .map(|(service, _)| service.clone())
         .collect();
-    let mut computed = envelopes(&new, &chords.ends)?.into_iter();
+    let mut computed = envelopes(&new, &chords.ends, places)?.into_iter();
     let found: Vec<CaseEnvelopes> = known
         .iter()
         .map(|known| match known {
@@ -261,7 +261,7 @@ fn service_limits(
         let differs = chords.firm[0] != chords.ends[0];
         let affected = |service: &&ServiceCase| differs || service.load != ServiceLoad::Vertical;
         let services: Vec<ServiceCase> = services.iter().filter(affected).cloned().collect();
-        let found = envelopes(&services, &chords.firm)?;
+        let found = envelopes(&services, &chords.firm, Vec::new())?;
         // Trains that stand alone have rows of their own with the same words.
         let known = out.len();
         for row in check_limits(design, &chords.firm[0], &services, &found) {
