@@ -7,12 +7,13 @@ Each structure has one or two girders: in a hall with columns (upright or inclin
 rigid links, rafters, and rails at two heights; on inclined legs; with struts from the feet of the columns; with a surge truss;
 with a hinge between supports. The structure is solved here by beam elements of 0.5 m in three dimensions, with releases, rigid
 arms and links. One or two cranes stand at all positions of a fine grid, in both directions, with both signs of the lateral
-forces. The ends of spans follow from two stiffnesses that are computed apart: that of the structure without its girders, and
-that of the girders alone; structures in which the two are nearly at a threshold of `docs/trains.md` are drawn again.
+forces. The ends of spans follow from the stiffness of the structure without its girders over an estimate of that of a girder
+alone; structures in which this ratio is within a factor of two of the threshold of `docs/trains.md` are drawn again.
 
-Every row of `limits` must be found here with its value (1.5 %; 4 % more under two cranes), its limit and its result, and every row found here must be in
-`limits`. Limits of pairs of rails are sampled: no row may exceed what is found here, or be below 0.8 of it. In runs a bridge
-crosses two such girders, and its deflections are read in the same way.
+Every row that is found here must be in `limits` with its value (1.5 %; up to 4 % more under two cranes, whose pairs of
+positions are sampled more coarsely here), its limit and its result. Further rows must have the right value and limit: on columns
+alone they may lie between firm ones, which are not sought here. Limits of pairs of rails are sampled: none may exceed what is
+found here, or be below 0.8 of it. In runs a bridge crosses two such girders, and its deflections are read in the same way.
 """
 
 import argparse
@@ -35,7 +36,6 @@ SECTIONS = {
 BAR = ("bar", 20e-4)
 # Joints are multiples of this apart; girders are divided by it, girders that stand alone by its half.
 MESH = 0.5
-UP = np.array([0.0, 1.0, 0.0])
 
 
 class Structure:
@@ -250,11 +250,11 @@ class NearThreshold(Exception):
     """The spans of a structure depend on digits of a threshold."""
 
 
-def ends_of(structure, solution, rail, plane):
+def ends_of(structure, rail, plane):
     """Coordinates of the ends of spans of a rail in a plane (0: vertical, 1: lateral), and of those with supports of their own.
 
     Supports of the girder's own points are rigid. At other joints the ground has the stiffness of the structure without its
-    girders, and the girder that of a beam on all joints."""
+    girders."""
     girder = structure.girders[rail]
     joints, own = girder["joints"], girder["own"][plane]
     if plane == 0 and girder.get("struts"):
@@ -277,34 +277,34 @@ def ends_of(structure, solution, rail, plane):
             ground[x] = 0.0
     kept = list(joints)
     while True:
-        ratios = ratio(structure, solution, rail, plane, kept, ground)
+        ratios = ratio(girder, plane, kept, ground)
         if any(0.5 * LEAST < r < 2 * LEAST for r in ratios):
             raise NearThreshold
-        weak = [r for r in ratios if r < LEAST]
-        if not weak:
+        if min(ratios) >= LEAST:
             break
         kept.pop(int(np.argmin(ratios)))
     firm = [x for x in kept if x in own]
     return kept, firm if len(firm) >= 2 else kept
 
 
-def ratio(structure, solution, rail, plane, places, ground):
-    """Stiffness of the ground over that of the girder at each place, the girder being held at these places alone."""
+def ratio(girder, plane, places, ground):
+    """Stiffness of the ground over that of the girder at each place: of a beam that is clamped at the neighbouring places, 12
+    EI/l^3 on each side (a hinged one has 3); none where it is hinged at its joints."""
+    rigid = 0.0 if girder["simple"] else E * SECTIONS[girder["section"]][2 if plane == 0 else 1]
     out = []
-    girder = structure.girders[rail]
     for k, x in enumerate(places):
-        if ground[x] == np.inf:
-            out.append(np.inf)
-            continue
-        if ground[x] == 0:
-            out.append(0.0)
-            continue
         sides = [abs(places[j] - x) for j in (k - 1, k + 1) if 0 <= j < len(places)]
-        rigid = E * SECTIONS[girder["section"]][2 if plane == 0 else 1]
-        # A girder that is clamped at the neighbours is stiffer than it is, a hinged one softer: 12 to 3 EI/l^3.
-        own = sum((12 if not girder["simple"] else 0.0) * rigid / length**3 for length in sides)
-        out.append(ground[x] / own if own else np.inf)
+        own = sum(12 * rigid / length**3 for length in sides)
+        out.append(0.0 if ground[x] == 0 else ground[x] / own if own else np.inf)
     return out
+
+
+def spans_of(structure, rail, plane):
+    """The spans of a rail in a plane: between all ends, and between those with supports of their own."""
+    spans = []
+    for ends in ends_of(structure, rail, plane):
+        spans += [pair for pair in zip(ends, ends[1:]) if pair not in spans]
+    return spans
 
 
 # Trains.
@@ -426,7 +426,6 @@ def hall(rng):
     bracket = float(rng.choice([0.0, 0.4, 0.8]))
     fixed, simple = rng.random() < 0.7, bool(rng.random() < 0.4)
     hinged_roof = fixed and rng.random() < 0.5
-    heads = {}
     frames = []
     for k in range(bays + 1):
         x = k * bay
@@ -594,25 +593,40 @@ def crane(rng, structure, name):
     return {"name": name, "wheels": wheels}
 
 
-def expected(structure, solution, trains, code):
-    """Rows of limits: quantity, rail, from, to, value, limit."""
-    _, vertical, lateral, horizontal, alone = CODES[code]
-    step = 0.1 if len(trains) == 1 else 0.25
-    responses = Responses(structure, solution, step)
-    sets = [[t] for t in trains] if alone else [trains]
-    rows = []
-    for rail, girder in enumerate(structure.girders):
-        for plane, rule, loads in ((0, vertical, ["vertical"]), (1, lateral, horizontal)):
-            quantity = ["vertical deflection", "lateral deflection"][plane]
-            spans = []
-            for ends in ends_of(structure, solution, rail, plane):
-                spans += [pair for pair in zip(ends, ends[1:]) if pair not in spans]
-            for a, b in spans:
-                of = lambda moved: chords(responses.nodes[rail], moved[rail][plane], (a, b))
-                value = max(largest(responses, own, load, of) for own in sets for load in loads)
-                limit = min((b - a) / rule[0], rule[1] or np.inf)
-                rows.append((quantity, girder["name"], a, b, value, limit))
-    return responses, rows
+QUANTITIES = ["vertical deflection", "lateral deflection"]
+
+
+def allowed(rule, length):
+    """The limit of a span by a ratio and a largest deflection."""
+    return min(length / rule[0], rule[1] or np.inf)
+
+
+def deflection(responses, sets, loads, rail, plane, span):
+    """Largest deflection of a span from its chord, over sets of trains and kinds of loads."""
+    of = lambda moved: chords(responses.nodes[rail], moved[rail][plane], span)
+    return max(largest(responses, own, load, of) for own in sets for load in loads)
+
+
+class Reading:
+    """The limits of a code on the deflections of a structure under trains."""
+
+    def __init__(self, structure, solution, trains, code):
+        _, vertical, lateral, horizontal, alone = CODES[code]
+        self.rules, self.loads = (vertical, lateral), (["vertical"], horizontal)
+        self.sets = [[t] for t in trains] if alone else [trains]
+        self.responses = Responses(structure, solution, 0.1 if len(trains) == 1 else 0.25)
+        self.structure = structure
+
+    def row(self, rail, plane, span):
+        """Value and limit of a span."""
+        value = deflection(self.responses, self.sets, self.loads[plane], rail, plane, span)
+        return value, allowed(self.rules[plane], span[1] - span[0])
+
+    def rows(self):
+        """All rows: quantity, rail, from, to, value, limit."""
+        return [(QUANTITIES[plane], girder["name"], *span, *self.row(rail, plane, span))
+                for rail, girder in enumerate(self.structure.girders) for plane in (0, 1)
+                for span in spans_of(self.structure, rail, plane)]
 
 
 def pair_rows(structure, responses, trains, code):
@@ -673,7 +687,7 @@ def draw(rng):
         try:
             for rail in range(len(structure.girders)):
                 for plane in (0, 1):
-                    ends_of(structure, solution, rail, plane)
+                    ends_of(structure, rail, plane)
         except NearThreshold:
             continue
         return kind.__name__, structure, solution
@@ -703,9 +717,9 @@ def compare_design(program, seed):
         if key not in found or row["value"] > found[key]["value"]:
             found[key] = row
     errors = []
-    responses, rows = expected(structure, solution, trains, code)
+    reading = Reading(structure, solution, trains, code)
+    rows = reading.rows()
     most = max(value for *_, value, _ in rows)
-    # Pairs of positions of two trains are sampled more coarsely here.
     more = 1.015 if len(trains) == 1 else 1.04
     count = 0
     for quantity, rail, a, b, value, limit in rows:
@@ -721,23 +735,18 @@ def compare_design(program, seed):
         elif row["within"] != (row["value"] <= row["limit"]):
             errors.append(f"{where}: {quantity} of {rail} from {a} to {b}: within is {row['within']}")
     for (quantity, rail, a, b), row in found.items():
-        plane = int(quantity == "lateral deflection")
-        number = [g["name"] for g in structure.girders].index(rail)
-        rule, loads = ((CODES[code][1], ["vertical"]), (CODES[code][2], CODES[code][3]))[plane]
-        sets = [[t] for t in trains] if CODES[code][4] else [trains]
-        of = lambda moved: chords(responses.nodes[number], moved[number][plane], (a, b))
-        value = max(largest(responses, own, load, of) for own in sets for load in loads)
+        if row["value"] <= 1e-6 * most:
+            continue
+        number = reading.responses.names.index(rail)
+        value, limit = reading.row(number, QUANTITIES.index(quantity), (a, b))
         # A row more must be right. On columns alone it may be between firm ones, which are not sought here; otherwise it is
         # between joints within a span, and may not govern.
         inside = [v / l for q, r, c, d, v, l in rows if (q, r) == (quantity, rail) and c <= a and b <= d]
-        limit = min((b - a) / rule[0], rule[1] or np.inf)
-        if row["value"] <= 1e-6 * most:
-            continue
         if not 0.985 <= row["value"] / value <= (1.015 if len(trains) == 1 else 1.25) or abs(row["limit"] / limit - 1) > 1e-9:
             errors.append(f"{where}: {quantity} of {rail} from {a} to {b}: {row['value']}, here {value}")
         if not structure.girders[number]["connected"] and (not inside or value / limit > max(inside)):
             errors.append(f"{where}: a row that is not expected: {quantity} of {rail} from {a} to {b}, {value} of {limit}")
-    known = pair_rows(structure, responses, trains, code)
+    known = pair_rows(structure, reading.responses, trains, code)
     for quantity, value in known.items():
         count += 1
         if quantity not in pairs:
@@ -782,15 +791,11 @@ def compare_run(program, seed):
     own = {"CMAA 70": (600, None), "EN 1993-6:2007": (600, 0.025), "own": (450, None)}
     worst = {}
     for plane, rules, loads in ((0, own, "vertical"), (1, {"CMAA 70": (400, None)}, "tenth")):
-        spans = []
-        for ends in ends_of(structure, solution, 0, plane):
-            spans += [pair for pair in zip(ends, ends[1:]) if pair not in spans]
-        for a, b in spans:
-            of = lambda moved: chords(responses.nodes[0], moved[0][plane], (a, b))
-            value = largest(responses, [train], loads, of)
-            for code, (ratio_, most) in rules.items():
-                key = (["vertical deflection", "lateral deflection"][plane], code)
-                worst[key] = max(worst.get(key, 0.0), value / min((b - a) / ratio_, most or np.inf))
+        for a, b in spans_of(structure, 0, plane):
+            value = deflection(responses, [[train]], [loads], 0, plane, (a, b))
+            for code, rule in rules.items():
+                key = (QUANTITIES[plane], code)
+                worst[key] = max(worst.get(key, 0.0), value / allowed(rule, b - a))
     errors = []
     for (quantity, code), known in worst.items():
         own = [c for c in summary["verdict"]["checks"] if (c["check"], c.get("code", "own")) == (quantity, code)]
