@@ -30,6 +30,11 @@ const BESIDE: f64 = 1e-2;
 /// Error of the compliance by interpolation along the path, relative to the largest at each wheel, per unit of step tolerance.
 const ALONG: f64 = 3e-2;
 
+/// Distance past the break of a rail, relative to 1 + |x|, up to which a path serves: a step may begin or end by so much before the
+/// break of its rail or behind it. The first constant is the minimum, the second the value per unit of step tolerance.
+const PAST_BREAK: f64 = 1e-9;
+const PAST_BREAK_BY_ERROR: f64 = 1e-3;
+
 /// The compliance between all elements.
 #[derive(Clone)]
 pub(crate) struct RailCompliance {
@@ -125,6 +130,7 @@ impl RailCompliance {
         self.path = PathLimits {
             beside,
             error: ALONG * tolerance,
+            past_break: PAST_BREAK.max(PAST_BREAK_BY_ERROR * tolerance),
         };
     }
 
@@ -180,7 +186,7 @@ impl RailCompliance {
                 continue;
             }
             if let Some(path) = &mut provider.path
-                && path.follow(x, limits.beside, elements, (m, matrices))
+                && path.follow(x, *limits, elements, (m, matrices))
             {
                 provider.is_on_path = true;
                 continue;
@@ -249,7 +255,7 @@ impl RailCompliance {
             let Some(path) = &mut provider.path else {
                 continue;
             };
-            if path.leads_to(from, reach) && path.leads_to(to, reach) {
+            if path.leads_to(from, limits) && path.leads_to(to, limits) {
                 continue;
             }
             // Part of the way from `start` to `end` before the first break of a rail.
@@ -293,7 +299,13 @@ impl RailCompliance {
                         )
                         .is_ok()
                     });
-            if !is_set {
+            if is_set {
+                let contact = |wheel: usize| mechanics.wheels[wheel].contact;
+                path.set_bounds(|wheel, x| {
+                    let rail = mechanics.scene.contacts[contact(wheel)].rail;
+                    mechanics.breaks.about(s, rail, x)
+                });
+            } else {
                 path.clear();
             }
         }

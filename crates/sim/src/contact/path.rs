@@ -40,6 +40,8 @@ pub(crate) struct PathLimits {
     pub beside: f64,
     /// Largest error of the interpolation, relative to the compliance of an element under its own force.
     pub error: f64,
+    /// Distance past the break of a rail, relative to 1 + |x|, up to which a wheel is at the break.
+    pub past_break: f64,
 }
 
 /// The wheels of one contact that act on one element.
@@ -81,6 +83,8 @@ pub(crate) struct CompliancePath {
     nodes: [PathNode; 2],
     /// Rail coordinates of all wheels at the second node.
     last: Vec<f64>,
+    /// For each group, the breaks of its rail between which the path lies. Beyond them the compliance is another function.
+    bounds: Vec<[f64; 2]>,
     /// Distance between the nodes for each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
@@ -195,6 +199,7 @@ impl CompliancePath {
             wheels,
             nodes: [node(), node()],
             last: vec![0.0; mechanics.wheels.len()],
+            bounds: vec![[f64::NEG_INFINITY, f64::INFINITY]; count],
             length: vec![0.0; count],
             offset: vec![0.0; count],
             columns,
@@ -325,9 +330,37 @@ impl CompliancePath {
         largest_error
     }
 
-    /// Whether `places` is within the distance `beside` of the path.
-    pub fn leads_to(&mut self, places: &[f64], beside: f64) -> bool {
-        self.is_set && self.project(places).1 <= beside
+    /// Whether `places` is near enough to the path, and no wheel is past the break of a rail.
+    pub fn leads_to(&mut self, places: &[f64], limits: PathLimits) -> bool {
+        self.is_set
+            && self.is_between_breaks(places, limits)
+            && self.project(places).1 <= limits.beside
+    }
+
+    /// Whether no wheel at `places` is past the break of a rail between which the path lies.
+    fn is_between_breaks(&self, places: &[f64], limits: PathLimits) -> bool {
+        self.groups
+            .iter()
+            .zip(&self.bounds)
+            .all(|(group, [low, high])| {
+                let x = places[group.wheel];
+                let past = limits.past_break * (1.0 + x.abs());
+                x > low - past && x < high + past
+            })
+    }
+
+    /// Sets the bounds of the path that was just set: `around` gives the breaks of the rail of a wheel next to a coordinate.
+    pub fn set_bounds(&mut self, around: impl Fn(usize, f64) -> [f64; 2]) {
+        let CompliancePath {
+            groups,
+            bounds,
+            nodes: [from, _],
+            last,
+            ..
+        } = self;
+        for ((bounds, group), from) in bounds.iter_mut().zip(&*groups).zip(&from.x) {
+            *bounds = around(group.wheel, 0.5 * (from + last[group.wheel]));
+        }
     }
 
     /// Rail coordinates of all wheels at the second node of the path.
@@ -453,23 +486,23 @@ impl CompliancePath {
     }
 
     /// Writes values and slopes between `elements` at the positions `places` into the matrices over `m` elements; entries
-    /// between them and other elements are not needed. Returns false if the path is not set or a wheel is farther than
-    /// `reach` from it.
+    /// between them and other elements are not needed. Returns false if the path is not set, or does not lead there within the
+    /// `limits`.
     ///
     /// At the distances d of the groups from the path, the value of a pair is G(i, j) + B(i, j) + B(j, i), where B(i,
     /// j) is the sum of dG(g, j)/dx_g d_g over the groups g of element i.
     pub fn follow(
         &mut self,
         places: &[f64],
-        reach: f64,
+        limits: PathLimits,
         elements: &Candidates,
         (m, matrices): (usize, &mut RailMatrices),
     ) -> bool {
-        if !self.is_set {
+        if !(self.is_set && self.is_between_breaks(places, limits)) {
             return false;
         }
         let (s, farthest) = self.project(places);
-        if farthest > reach {
+        if farthest > limits.beside {
             return false;
         }
         let RailMatrices {

@@ -65,6 +65,17 @@ impl RailBreaks {
         (bounds[1] > x).then_some(bounds)
     }
 
+    /// Breaks of `rail` of `structure` next before and behind `x`, infinite where there is none.
+    pub fn about(&self, structure: usize, rail: usize, x: f64) -> [f64; 2] {
+        let all = self.of_rail(structure, rail);
+        let behind = all.partition_point(|own| *own <= x);
+        let before = behind.checked_sub(1).map(|at| all[at]);
+        [
+            before.unwrap_or(f64::NEG_INFINITY),
+            all.get(behind).copied().unwrap_or(f64::INFINITY),
+        ]
+    }
+
     fn of_rail(&self, structure: usize, rail: usize) -> &[f64] {
         self.sorted
             .get(structure)
@@ -106,6 +117,9 @@ mod tests {
             [Some([1.0, 2.0]), Some([3.0, 5.0]), Some([5.0, 9.0])]
         );
         assert_eq!([0.5, 1.0, 3.0, 9.0, 9.5, f64::NAN].map(around), [None; 6]);
+        assert_eq!(breaks.about(1, 0, 4.0), [3.0, 5.0]);
+        assert_eq!(breaks.about(1, 0, 0.0), [f64::NEG_INFINITY, 1.0]);
+        assert_eq!(breaks.about(1, 0, 9.5), [9.0, f64::INFINITY]);
         assert_eq!(
             [breaks.around(0, 0, 1.5), breaks.around(1, 1, 1.5)],
             [None; 2]
