@@ -15,13 +15,14 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 19] = [
+const DEPENDENCIES: [(&str, &[&str]); 20] = [
+    ("piecewise", &[]),
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
     ("sections", &[]),
     ("fea", &["splines"]),
-    ("sim", &["splines"]),
+    ("sim", &["piecewise", "splines"]),
     ("trains", &["fea", "splines"]),
     (
         "formats",

@@ -156,7 +156,6 @@ fn scene(body: Body, wheel: Wheel, offsets: &[f64], end: f64) -> Scene {
         output_dt: end / 200.0,
         output_parts: 1,
         accuracy: 1e-9,
-        records_steps: false,
     }
 }
 

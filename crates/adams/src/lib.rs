@@ -71,5 +71,5 @@ pub use language::{
     StatementArgument,
 };
 pub use model::AdamsModel;
-pub use solve::{ConstraintReaction, Equilibrium, Load, Solution};
+pub use solve::{ConstraintReaction, Equilibrium, Load, SolvedModelState};
 pub use tables::{Spline, SplineFunction, SplineMethod, SplineReading, SplineValues, Tables};

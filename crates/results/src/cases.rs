@@ -196,8 +196,7 @@ fn run_case(
 ) -> Result<CaseResult, Error> {
     let known = members.known();
     let mut scene = case.scene.clone();
-    let mut input = simulation_input(&scene)?;
-    input.scene.records_steps = true;
+    let input = simulation_input(&scene)?;
     let recorded = records_dofs(&scene, known);
     let mut observer = ColumnObserver::new(&case.scene, &input, known, trial);
     let chosen = foundations::select_and_run(

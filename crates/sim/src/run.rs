@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
+use piecewise::Side;
 
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
@@ -14,6 +15,8 @@ use crate::mechanics::state::State;
 use crate::record::energy::Audit;
 use crate::record::history::History;
 use crate::record::recorder::Recorder;
+use crate::record::solution::{Solution, SolutionBuilder};
+use crate::time::events::prescribed_break;
 use crate::time::outcome::{Counts, FirstImpact};
 use crate::time::passage::crossing;
 use crate::time::samples::Samples;
@@ -37,6 +40,20 @@ const ALTERNATIVES: [(Method, f64); 6] = [
     (Method::Sdirk4, 0.25),
     (Method::Sdirk4, 0.125),
 ];
+
+/// Times that differ by less, relative to them, are the same.
+const SAME_TIME: f64 = 1e-14;
+
+/// Accuracy of static equilibria between those that are solved, per unit of that of the scene, and the coarsest accuracy of the
+/// scene that counts.
+const REST: f64 = 1e-2;
+const COARSEST: f64 = 1e-4;
+
+/// Least number of intervals of a quasi-static run.
+const INTERVALS: f64 = 64.0;
+
+/// Fraction of an interval within which a static equilibrium is one at its end.
+const INSIDE: f64 = 1e-9;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,13 +101,10 @@ impl Status {
 pub struct Run {
     /// How the run ended.
     pub status: Status,
-    /// Samples over time.
+    /// Every channel as a function of time.
+    pub solution: Solution,
+    /// Rows of it at the output times.
     pub history: History,
-    /// Samples at the output times and at the ends of steps, where [`Scene::records_steps`] asks for them: steps end where
-    /// contacts open and close, so that forces are smooth between these samples. The steps of collocation methods are long,
-    /// and have samples at their nodes as well. Empty for [`Method::Series`], for a quasi-static sweep, and where they would be
-    /// more than 1e7 values.
-    pub steps: History,
     /// Rules that acted, in order of time.
     pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
@@ -207,8 +221,8 @@ fn attempt(
                 } else {
                     Status::Done
                 },
-                history: crossed.history,
-                steps: History::default(),
+                history: rows(scene, &crossed.solution, false),
+                solution: crossed.solution,
                 fired: Vec::new(),
                 audit: crossed.audit,
                 counts: crossed.counts,
@@ -325,7 +339,6 @@ fn integrate(
 ) -> Result<Run, Error> {
     let scene = system.scene;
     begin(system, solver, &mut state)?;
-    let mut samples = Samples::new(solver, &state, scene.records_steps)?;
     let first = (0.1 * scene.output_dt)
         .min(1e-3 * scene.end)
         .max(1e-9 * scene.end);
@@ -336,13 +349,17 @@ fn integrate(
         LOCAL_PER_GLOBAL * scene.accuracy,
         first,
     )?;
+    let step = stepper.step();
+    // steps of a fixed length may be far more accurate than the scene asks for
+    let accuracy = stepping.step.map_or(scene.accuracy, |_| 0.0);
+    let mut samples = Samples::new(step.solver, &step.to, step.propagated(), accuracy)?;
     let mut fired = Vec::new();
     let status = advance(scene, &mut stepper, &mut samples, &mut fired, watch)?;
-    let [history, steps] = samples.histories();
+    let solution = samples.finish();
     Ok(Run {
+        history: rows(scene, &solution, matches!(status, Status::Ended(_))),
         status,
-        history,
-        steps,
+        solution,
         fired,
         audit: stepper.audit(),
         counts: stepper.counts(),
@@ -413,7 +430,6 @@ fn advance(
                 };
                 fired.extend(now);
                 if ends {
-                    samples.close(stepper)?;
                     return Ok(ended(scene, fired));
                 }
             }
@@ -434,7 +450,23 @@ fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
-/// Computes static equilibria at the output times.
+/// Rows of a solution at the output times, and at its end where `with_end` asks for it.
+fn rows(scene: &Scene, solution: &Solution, with_end: bool) -> History {
+    let [_, end] = solution.function().range().unwrap_or_default();
+    let mut times = Vec::new();
+    let mut next = 0;
+    while scene.output_time(next) <= end * (1.0 + SAME_TIME) {
+        times.push(scene.output_time(next));
+        next += 1;
+    }
+    if with_end && times.last().is_none_or(|last| *last < end) {
+        times.push(end);
+    }
+    solution.history(times)
+}
+
+/// Finds static equilibria from the start to the end, between the times at which a wheel passes a break of its rail or a motion
+/// or a load has a corner.
 fn sweep(
     system: &System,
     solver: &mut Solver,
@@ -447,42 +479,78 @@ fn sweep(
     {
         return Err(Error::NotPrescribed { body });
     }
-    let mut recorder = Recorder::new(system);
-    recorder.reserve_for(scene);
     let mut counts = Counts::default();
-    let mut status = Status::Done;
-    let last = (scene.end / scene.output_dt * (1.0 + 1e-12)).floor();
-    // a product that is rounded up would be beyond the end, where wheels may have left their rail
-    let time = |i: u64| (i as f64 * scene.output_dt).min(scene.end);
-    let mut times: Vec<f64> = (0..=last as u64).map(time).collect();
-    if times.last().is_some_and(|&t| t < scene.end * (1.0 - 1e-9)) {
-        times.push(scene.end);
-    }
-    for t in times {
+    let mut rest = |t: f64, recorder: &mut Recorder, row: &mut Vec<f64>| -> Result<(), Error> {
+        counts.steps += 1;
         state.t = t;
         locate_wheels(solver, &state)?;
-        match equilibrate(solver, &mut state).and_then(|()| solver.instant(&mut state)) {
-            Ok(_) => {}
-            Err(error) if t == 0.0 => return Err(error),
-            Err(error) => {
-                status = Status::Failed(t, error);
-                break;
+        equilibrate(solver, &mut state)?;
+        solver.instant(&mut state)?;
+        recorder.row(system, solver.geometry(), &state, row)
+    };
+    let (mut recorder, mut row) = (Recorder::new(system), Vec::new());
+    rest(0.0, &mut recorder, &mut row)?;
+    let accuracy = REST * scene.accuracy.min(COARSEST);
+    let mut builder = SolutionBuilder::new(recorder, accuracy, &row, None);
+    let mut rows = vec![row];
+    let mut status = Status::Done;
+    let mut from = 0.0;
+    'all: for limit in scene.breaks() {
+        while from < limit {
+            let left = (limit - from).min(scene.end / INTERVALS);
+            let length = prescribed_break(system, from, left).unwrap_or(left);
+            let to = if length >= (limit - from) * (1.0 - 1e-12) {
+                limit
+            } else {
+                from + length
+            };
+            // rows are solved themselves
+            while scene.output_time(rows.len() as u64) <= to {
+                let (mut row, t) = (Vec::new(), scene.output_time(rows.len() as u64));
+                match rest(t, builder.recorder(), &mut row) {
+                    Ok(()) => rows.push(row),
+                    Err(error) => {
+                        status = Status::Failed(t, error);
+                        break 'all;
+                    }
+                }
+            }
+            let mut failed = from;
+            let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
+                // each side of a break has values of its own
+                let inside = share.clamp(INSIDE, 1.0 - INSIDE);
+                failed = from + inside * (to - from);
+                rest(failed, recorder, row)
+            };
+            match builder.follow([from, to], from == 0.0, &mut evaluate) {
+                Ok(()) => {}
+                Err(error) => {
+                    status = Status::Failed(failed, error);
+                    break 'all;
+                }
+            }
+            from = to;
+            if watch(from).is_break() {
+                status = Status::Stopped;
+                break 'all;
             }
         }
-        counts.steps += 1;
-        recorder.record(system, solver.geometry(), &state)?;
-        if watch(t).is_break() {
-            status = Status::Stopped;
-            break;
-        }
     }
-    let (history, audit) = (recorder.into_history(), Audit::default());
+    let solution = builder.finish();
+    if status == Status::Done
+        && let Some(last) = rows.last()
+        && last[0] < scene.end
+    {
+        let mut row = Vec::new();
+        solution.row(scene.end, Side::Before, &mut row);
+        rows.push(row);
+    }
     Ok(Run {
+        history: History::of(solution.channels().to_vec(), rows.concat()),
+        solution,
         status,
-        history,
-        steps: History::default(),
         fired: Vec::new(),
-        audit,
+        audit: Audit::default(),
         counts,
         method: None,
         bounces: 0.0,

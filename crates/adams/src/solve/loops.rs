@@ -1,7 +1,7 @@
 //! The slots of a model at a given state, and its algebraic loops.
 
 use super::newton;
-use super::solution::Solution;
+use super::solution::SolvedModelState;
 use crate::model::{AdamsModel, Block, Evaluation};
 use crate::{Dual, Error, ModelState, Scalar, StatementId};
 use nalgebra::DMatrix;
@@ -29,7 +29,7 @@ impl AdamsModel {
     /// assert!((solution.variables[&1] - 1.0 / 11.9).abs() < 1e-16);
     /// # Ok::<(), adams::Error>(())
     /// ```
-    pub fn solve(&self, state: &ModelState) -> Result<Solution, Error> {
+    pub fn solve(&self, state: &ModelState) -> Result<SolvedModelState, Error> {
         let mut on = self.evaluation::<f64>(state)?;
         on.at.values = self.slots.iter().map(|slot| slot.guess).collect();
         let mut dual: Option<Evaluation<'_, Dual>> = None;

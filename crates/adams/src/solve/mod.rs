@@ -11,5 +11,5 @@ mod newton;
 mod solution;
 mod statics;
 
-pub use solution::{Load, Solution};
+pub use solution::{Load, SolvedModelState};
 pub use statics::{ConstraintReaction, Equilibrium};

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The values that the expressions of a data set have at a state.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Solution {
+pub struct SolvedModelState {
     /// The value VARVAL of every VARIABLE, by identifier.
     pub variables: BTreeMap<u32, f64>,
     /// The rate DIF1 of every DIFF, by identifier.
@@ -47,11 +47,11 @@ impl AdamsModel {
         &self,
         on: &Evaluation<'_, f64>,
         iterations: usize,
-    ) -> Result<Solution, Error> {
+    ) -> Result<SolvedModelState, Error> {
         const COLUMNS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
-        let mut out = Solution {
+        let mut out = SolvedModelState {
             iterations,
-            ..Solution::default()
+            ..SolvedModelState::default()
         };
         for (k, (slot, value)) in self.slots.iter().zip(&on.at.values).enumerate() {
             // Every expression is evaluated once more, so that every table read beyond its values is
@@ -125,7 +125,7 @@ impl AdamsModel {
     pub fn evaluate(
         &self,
         state: &ModelState,
-        solution: &Solution,
+        solution: &SolvedModelState,
         text: &str,
     ) -> Result<f64, Error> {
         let refuse = |(offset, fault): (usize, AdamsFault)| Error::In {

@@ -1,6 +1,6 @@
 //! Data sets that are read, resolved and solved at given states.
 
-use adams::{AdamsModel, DataSet, Error, ModelState, Pose, Solution, StatementId};
+use adams::{AdamsModel, DataSet, Error, ModelState, Pose, SolvedModelState, StatementId};
 use nalgebra::{Matrix3, Vector3};
 
 fn model(text: &str) -> AdamsModel {
@@ -8,7 +8,7 @@ fn model(text: &str) -> AdamsModel {
     AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn solved(text: &str, time: f64) -> Solution {
+fn solved(text: &str, time: f64) -> SolvedModelState {
     let model = model(text);
     let state = ModelState {
         time,

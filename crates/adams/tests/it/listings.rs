@@ -3,7 +3,7 @@
 //! by AKISPL and CUBSPL as documented.
 
 use adams::{
-    AdamsModel, DataSet, Error, ModelState, Solution, SplineFunction, SplineMethod, tables,
+    AdamsModel, DataSet, Error, ModelState, SolvedModelState, SplineFunction, SplineMethod, tables,
 };
 use nalgebra::Vector3;
 
@@ -176,7 +176,7 @@ fn held(model: &AdamsModel, x: f64, height: f64) -> ModelState {
     state
 }
 
-fn solved(model: &AdamsModel, state: &ModelState) -> Solution {
+fn solved(model: &AdamsModel, state: &ModelState) -> SolvedModelState {
     model.solve(state).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -1,6 +1,6 @@
 //! Comparison of the components of every GFORCE of the deck with those of the simulator.
 
-use adams::{AdamsModel, ArgumentValue, DataSet, ModelState, Solution, StatementArgument};
+use adams::{AdamsModel, ArgumentValue, DataSet, ModelState, SolvedModelState, StatementArgument};
 use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
@@ -161,7 +161,7 @@ fn solve(
     model: &AdamsModel,
     state: &ModelState,
     expected: &ExpectedForces,
-) -> Result<Solution, adams::Error> {
+) -> Result<SolvedModelState, adams::Error> {
     model.solve(state).or_else(|error| {
         let mut set = set.clone();
         for statement in set

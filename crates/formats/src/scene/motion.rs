@@ -98,7 +98,6 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
         end: scene.end,
         output_dt: scene.dt,
         output_parts: 1,
-        records_steps: false,
         accuracy: scene.accuracy,
     };
     Ok(SimulationInput {

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::{BuiltFoundation, SolvedModel, solution_of};
-use sim::{Foundation, History, Method, Run};
+use sim::{Foundation, History, Run};
 
 use super::GirderExtremes;
 use super::rows::{Prepared, Recorded, of_run};
@@ -113,8 +113,13 @@ impl GirderInputs {
     ) -> GirderInputs {
         // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
         let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
-        let (steps, has_rows) = (take(&mut run.steps), run.history.len() >= 2);
-        let has_inner_times = !matches!(run.method, Some(Method::Sdirk4 | Method::Esdirk5));
+        // static equilibria are solved at rows
+        let steps = match run.method {
+            Some(_) => run.solution.nodes(),
+            None => History::default(),
+        };
+        let has_rows = run.history.len() >= 2;
+        let has_inner_times = false;
         GirderInputs {
             scene,
             built,

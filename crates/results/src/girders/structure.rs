@@ -634,7 +634,6 @@ mod tests {
             solve_specs(&document, &distinct_specs(&document)).expect("structures that stand");
         let mut scene = document.cases[0].scene.clone();
         let mut input = simulation_input(&scene).expect("equal fractions");
-        input.scene.records_steps = true;
         let mut observer = ColumnObserver::new(&document.cases[0].scene, &input, &known, &|_| ());
         let mut watch = |_: f64| ControlFlow::Continue(());
         let run = select_and_run(
@@ -646,11 +645,7 @@ mod tests {
             &mut watch,
         );
         let run = run.expect("a scene that starts");
-        let history = if run.run.steps.is_empty() {
-            &run.run.history
-        } else {
-            &run.run.steps
-        };
+        let history = &run.run.solution.nodes();
         let loads = WheelLoadReader::new(&scene, &input, history);
         let (all, is_stopped) = (SolvedMembers::new(&known), || false);
         let solved = solution_of(all.known(), &scene.structures[0].origin).expect("a spec");

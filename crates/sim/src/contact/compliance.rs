@@ -57,6 +57,8 @@ struct Provider {
     moved: Vec<f64>,
     /// The path along which G is interpolated, or the prescribed way, in which it is a polynomial.
     path: Option<CompliancePath>,
+    /// The path before the last joint that a wheel has passed, which serves inside the step that ended there.
+    path_before: Option<CompliancePath>,
     prescribed: Option<PrescribedPath>,
     /// Whether the matrices were interpolated along a path.
     is_on_path: bool,
@@ -96,6 +98,7 @@ impl RailCompliance {
                 influence: Influence::zeros(entries.len()),
                 probes: entries.iter().map(|entry| entry.probe).collect(),
                 moved: vec![0.0; entries.len()],
+                path_before: path.clone(),
                 path,
                 prescribed,
                 is_on_path: false,
@@ -311,11 +314,20 @@ impl RailCompliance {
         }
     }
 
-    /// Removes the path of structure `s`.
-    pub fn clear_path(&mut self, s: usize) {
+    /// Replaces the path of structure `s` by one that is not set; the present one is kept.
+    pub fn begin_path(&mut self, s: usize) {
+        self.exchange_paths(s);
         if let Some(path) = &mut self.providers[s].path {
             path.clear();
         }
+    }
+
+    /// Exchanges the path of structure `s` and the one before the last joint.
+    pub fn exchange_paths(&mut self, s: usize) {
+        let Provider {
+            path, path_before, ..
+        } = &mut self.providers[s];
+        std::mem::swap(path, path_before);
     }
 }
 

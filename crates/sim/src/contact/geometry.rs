@@ -630,9 +630,14 @@ impl Geometry {
         self.rails.take_paths(&other.rails);
     }
 
-    /// Removes the path of the compliance of structure `s`.
-    pub fn clear_path(&mut self, s: usize) {
-        self.rails.clear_path(s);
+    /// Begins a path of the compliance of structure `s`; the present one is kept.
+    pub fn begin_path(&mut self, s: usize) {
+        self.rails.begin_path(s);
+    }
+
+    /// Exchanges the path of the compliance of structure `s` and the one before the last joint.
+    pub fn exchange_paths(&mut self, s: usize) {
+        self.rails.exchange_paths(s);
     }
 
     /// Sets the rail coordinates of wheels that cross at constant `speed` from their coordinates `start`, at time

@@ -193,6 +193,23 @@ impl<'a> Mechanics<'a> {
         self.kinematics.motion(b, t, q, v)
     }
 
+    /// Rail coordinate of wheel `w` at time `t` and the degrees of freedom `q`.
+    pub fn rail_coordinate(&self, w: usize, t: f64, q: &DVector<f64>) -> f64 {
+        let coordinate = &self.coordinates[w];
+        let travel = |root: usize| {
+            self.scene.bodies[root]
+                .motion
+                .as_ref()
+                .map_or(0.0, |motion| motion.at(t).x)
+        };
+        let moved: f64 = coordinate
+            .terms
+            .iter()
+            .map(|&(number, share)| share * q[number])
+            .sum();
+        coordinate.constant + coordinate.driven.map_or(0.0, travel) + moved
+    }
+
     /// Velocity of the hub of wheel `w` along its rail.
     pub fn speed_along(&self, w: usize, at: &State) -> f64 {
         let coordinate = &self.coordinates[w];

@@ -7,5 +7,6 @@ pub(crate) mod complementarity;
 pub(crate) mod cubic;
 pub(crate) mod dense;
 pub(crate) mod lu;
+pub(crate) mod propagator;
 pub(crate) mod root;
 pub(crate) mod step;

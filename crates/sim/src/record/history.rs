@@ -2,9 +2,6 @@
 
 use crate::scene::channel::Channel;
 
-/// Largest number of values for which memory is reserved.
-const MOST_RESERVED: usize = 4_000_000;
-
 /// Samples of every channel at increasing times.
 ///
 /// Values are stored sample by sample. [`History::samples`] and [`History::sample`] return slices over all channels,
@@ -34,29 +31,9 @@ pub struct History {
 }
 
 impl History {
-    /// Creates an empty history of `channels`.
-    pub(crate) fn new(channels: Vec<Channel>) -> Self {
-        History {
-            channels,
-            values: Vec::new(),
-        }
-    }
-
-    /// Reserves memory for `samples` more samples, as far as they are not too many: the run may end early.
-    pub(crate) fn reserve(&mut self, samples: usize) {
-        let width = self.channels.len();
-        self.values
-            .reserve(samples.min(MOST_RESERVED / width) * width);
-    }
-
-    /// Takes the values out of the history; `put_values` must put them back.
-    pub(crate) fn take_values(&mut self) -> Vec<f64> {
-        std::mem::take(&mut self.values)
-    }
-
-    /// Puts the values back into the history.
-    pub(crate) fn put_values(&mut self, values: Vec<f64>) {
-        self.values = values;
+    /// The history of `channels` with these values, sample by sample.
+    pub(crate) fn of(channels: Vec<Channel>, values: Vec<f64>) -> Self {
+        History { channels, values }
     }
 
     /// Every `step`-th sample from the first one, and the last one if `with_last`.

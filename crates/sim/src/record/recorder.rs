@@ -10,9 +10,8 @@ use crate::mechanics::state::State;
 use crate::mechanics::wheels::WheelPoint;
 use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
-use crate::record::history::History;
 use crate::scene::dof::arm_rows;
-use crate::{Analysis, BodyDof, Channel, Error, Gauge, Scene};
+use crate::{Analysis, BodyDof, Channel, Error, Gauge};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
@@ -30,17 +29,9 @@ fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>
 const OF_BODY: usize = 14;
 const OF_WHEEL: usize = 9;
 
-/// Number of samples at the output times of a whole run.
-pub(crate) fn output_samples(scene: &Scene) -> usize {
-    let intervals = (scene.end / scene.output_dt) as usize;
-    intervals
-        .saturating_mul(scene.output_parts.max(1))
-        .saturating_add(2)
-}
-
 /// Recorder of samples.
 pub(crate) struct Recorder {
-    history: History,
+    channels: Vec<Channel>,
     /// Columns to which the elements add their forces, with the divisors.
     forces: Vec<ForceColumn>,
     /// Elements whose length is recorded, with the columns of the lengths.
@@ -51,6 +42,14 @@ pub(crate) struct Recorder {
     blank: Vec<f64>,
     /// Columns of displacements of bodies that are degrees of freedom, with the numbers of these.
     free: Vec<(usize, usize)>,
+    /// Columns of bodies whose motion is prescribed, or follows from others.
+    moved: Vec<Range<usize>>,
+    /// Column of the first wheel.
+    first_wheel: usize,
+    /// Columns of forces that only press, or only pull.
+    one_sided: Vec<usize>,
+    /// Degrees of freedom of each recorded structure.
+    recorded: Vec<Range<usize>>,
     wheels: Vec<WheelColumns>,
     /// Working memory for the gauges.
     gauges: Vec<f64>,
@@ -96,6 +95,13 @@ impl Recorder {
                     .map(|column| (i, column)),
             );
         }
+        let is_one_sided = |force: &&ForceColumn| match channels[force.column] {
+            Channel::Vertical(_) => !system.law(force.element).bilateral,
+            Channel::Stop(_) | Channel::Tension(_) => true,
+            _ => false,
+        };
+        let one_sided = forces.iter().filter(is_one_sided);
+        let one_sided = one_sided.map(|force| force.column).collect();
         let own_columns = system
             .elements
             .iter()
@@ -116,12 +122,18 @@ impl Recorder {
             .collect();
         let shape = vec![0.0; 2 * system.mechanics.dofs];
         let (mut blank, mut free) = (vec![0.0; channels.len()], Vec::new());
+        let (mut moved, first_wheel) = (Vec::new(), 1 + OF_BODY * system.scene.bodies.len());
         let bodies = system.scene.bodies.iter().enumerate();
         for (b, body) in bodies {
             let first = 1 + OF_BODY * b;
             blank[first..first + 6].copy_from_slice(&body.start);
             // The sum of no forces is -0.0, the sum of an empty iterator.
             blank[first + 12..first + OF_BODY].fill(-0.0);
+            if body.pinned.is_some() {
+                moved.push(first..first + 12);
+            } else if body.motion.is_some() {
+                moved.extend([0, 6, 12].map(|own| first + own..first + own + 1));
+            }
             if body.pinned.is_none() {
                 let numbers = system.mechanics.kinematics.numbers[b].iter().enumerate();
                 free.extend(numbers.filter_map(|(i, number)| Some((first + i, (*number)?))));
@@ -130,7 +142,11 @@ impl Recorder {
         Recorder {
             blank,
             free,
-            history: History::new(channels),
+            channels,
+            moved,
+            first_wheel,
+            one_sided,
+            recorded: recorded(system).map(|(_, range)| range).collect(),
             forces,
             lengths,
             own_columns,
@@ -141,35 +157,43 @@ impl Recorder {
         }
     }
 
-    /// The samples recorded so far.
-    pub fn history(&self) -> &History {
-        &self.history
+    /// The channels, in the order of each row.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
     }
 
-    /// Returns the recorded samples.
-    pub fn into_history(self) -> History {
-        self.history
+    /// Numbers of the degrees of freedom of the recorded structures, in the order of their channels.
+    pub fn modes(&self) -> impl Iterator<Item = usize> {
+        self.recorded.iter().cloned().flatten()
     }
 
-    /// Reserves memory for the samples of a whole run.
-    pub fn reserve_for(&mut self, scene: &Scene) {
-        self.history.reserve(output_samples(scene));
+    /// Positions in a row of the force that presses or pulls alone, never both.
+    pub fn one_sided(&self) -> &[usize] {
+        &self.one_sided
     }
 
-    /// Adds a sample; `geometry` must be current for `at`.
-    ///
-    /// # Errors
-    /// Any error from evaluating the rails at the gauges.
-    pub fn record(
-        &mut self,
-        system: &System,
-        geometry: &Geometry,
-        at: &State,
-    ) -> Result<(), Error> {
-        let mut values = self.history.take_values();
-        let done = self.row(system, geometry, at, &mut values);
-        self.history.put_values(values);
-        done
+    /// Positions in a row of the channels that may change over time.
+    pub fn live(&self) -> Vec<usize> {
+        let mut is_live = vec![false; self.channels.len()];
+        for &(column, _) in &self.free {
+            (is_live[column], is_live[column + 6]) = (true, true);
+        }
+        for own in &self.moved {
+            is_live[own.clone()].fill(true);
+        }
+        for (w, wheel) in self.wheels.iter().enumerate() {
+            let first = self.first_wheel + OF_WHEEL * w;
+            for own in [0, 4, 5] {
+                is_live[first + own] = true;
+            }
+            is_live[first + 6..first + 9].fill(wheel.turns);
+        }
+        let columns = self.forces.iter().map(|own| own.column);
+        for column in columns.chain(self.lengths.iter().map(|own| own.1)) {
+            is_live[column] = true;
+        }
+        is_live[self.first_wheel + OF_WHEEL * self.wheels.len() + self.own_columns..].fill(true);
+        (0..is_live.len()).filter(|at| is_live[*at]).collect()
     }
 
     /// Appends a sample to `values`; `geometry` must be current for `at`.

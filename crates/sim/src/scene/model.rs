@@ -65,8 +65,6 @@ pub struct Scene {
     pub output_dt: f64,
     /// Number of samples of the history in each output interval, at least 1.
     pub output_parts: usize,
-    /// Whether [`crate::Run::steps`] has samples at the end of every step, and at the nodes of collocation methods.
-    pub records_steps: bool,
     /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,
 }
@@ -84,7 +82,6 @@ impl Default for Scene {
             end: 1.0,
             output_dt: 0.01,
             output_parts: 1,
-            records_steps: false,
             accuracy: 1e-6,
         }
     }

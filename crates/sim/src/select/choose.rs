@@ -205,9 +205,8 @@ struct Refinement {
 struct Search<'a, L: FoundationProvider> {
     /// The scene with the sampling of the trials.
     scene: Scene,
-    /// Accuracy of the result, and whether it records the ends of its steps.
+    /// Accuracy of the result.
     accuracy: f64,
-    records_steps: bool,
     /// Whether a run is given up where its steps are too short.
     must_advance: bool,
     tolerances: &'a [Option<Tolerance>],
@@ -234,12 +233,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        let records_steps = scene.records_steps;
         let (must_advance, choices, runs) = (false, Vec::new(), 0);
         Search {
             scene,
             accuracy,
-            records_steps,
             must_advance,
             tolerances,
             provider,
@@ -331,7 +328,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
         // only a run with the accuracy of the result may become the result
-        self.scene.records_steps = self.records_steps && accuracy <= self.accuracy;
         let least = if self.must_advance {
             ADVANCE.1 * fastest_bounce(&self.scene).min(self.scene.end)
         } else {

@@ -167,10 +167,10 @@ mod tests {
         let channels = [0, 1]
             .iter()
             .flat_map(|&w| [Channel::Penetration(w), Channel::Deflection(w)]);
-        let mut history = History::new(channels.collect());
-        history.put_values(vec![
+        let values = vec![
             0.1, 0.3, 0.05, 0.0, 0.2, 0.25, 0.01, 0.7, 0.25, 0.1, 0.0, 0.0,
-        ]);
+        ];
+        let history = History::of(channels.collect(), values);
         let expected = 2.0 * std::f64::consts::PI * (0.71 / scene.gravity).sqrt();
         assert!((slowest_bounce(&scene, &history) / expected - 1.0).abs() < 1e-14);
         let short = Scene {

@@ -14,10 +14,10 @@ use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
+use crate::numerics::propagator::Propagator;
 use crate::record::energy::power;
 use crate::time::node_forces::{NodeForces, NodeMotion};
 use crate::time::nodes::Nodes;
-use crate::time::propagator::Propagator;
 use crate::{Dynamics, Error, Exchanged};
 
 /// Data of a collocation step; n degrees of freedom, m elements, s nodes.
@@ -182,16 +182,6 @@ impl Collocation {
     /// Number of nodes.
     pub fn count(&self) -> usize {
         self.nodes.count()
-    }
-
-    /// Geometries and states at the nodes inside the step just taken.
-    pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
-        let nodes = self
-            .nodes
-            .c
-            .iter()
-            .zip(self.geometries.iter().zip(&self.states));
-        nodes.filter(|(c, _)| **c < 1.0).map(|(_, node)| node)
     }
 
     /// Energy exchanged in the step, by the quadrature of the collocation method.
@@ -435,6 +425,28 @@ impl Collocation {
             (at.q[r], at.v[r]) = (q, v);
             at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
         }
+    }
+
+    /// The motion of the modes with the given `numbers` in the step just taken from `from`: of each, displacement and speed at
+    /// the start and the coefficients of its load by powers of the share of the step.
+    pub fn modal_motion(&self, from: &State, numbers: &[usize], out: &mut Vec<f64>) {
+        let s = self.count();
+        for &r in numbers {
+            out.extend([from.q[r], from.v[r]]);
+            out.extend((0..s).map(|k| {
+                let loads = self.loads.whole.iter().enumerate();
+                let terms = loads.map(|(b, load)| load[r] * self.nodes.lagrange[b * s + k]);
+                terms.sum::<f64>()
+            }));
+        }
+    }
+
+    /// Frequency and damping of the modes with the given `numbers`, and the number of coefficients of a load.
+    pub fn modes(&self, numbers: &[usize]) -> (Vec<[f64; 2]>, usize) {
+        (
+            numbers.iter().map(|r| self.modes[*r]).collect(),
+            self.count(),
+        )
     }
 
     /// Sets the degrees of freedom of bodies in `at` to the motion by the polynomials of their accelerations.

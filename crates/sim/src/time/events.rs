@@ -154,6 +154,11 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
     first
 }
 
+/// Distance, relative to 1 + |x|, within which a wheel is at a break.
+pub(crate) fn at_break_within(slack: f64) -> f64 {
+    PASSED * slack
+}
+
 /// The distance within which wheel `w` is at a break of its rail in the state `at`; `None` if there is no break
 /// within this distance.
 pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Option<f64> {
@@ -162,7 +167,7 @@ pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Opt
         .geometry()
         .places()
         .of_wheel(&system.mechanics, w, &at.q);
-    let near = PASSED * slack * (1.0 + x.abs());
+    let near = at_break_within(slack) * (1.0 + x.abs());
     let contact = &system.scene.contacts[system.mechanics.wheels[w].contact];
     let breaks = &system.mechanics.breaks;
     (breaks

@@ -12,7 +12,6 @@ pub(crate) mod nodes;
 pub(crate) mod outcome;
 pub(crate) mod passage;
 pub(crate) mod penetrations;
-pub(crate) mod propagator;
 pub(crate) mod samples;
 pub(crate) mod sdirk;
 pub(crate) mod step;

@@ -1,7 +1,7 @@
 //! Nodes of collocation on [0, 1]: the abscissae and the integrals of the Lagrange polynomials.
 
-use super::propagator::POWERS;
 use crate::Method;
+use crate::numerics::propagator::POWERS;
 
 /// Coefficients of a collocation method with s nodes.
 pub(crate) struct Nodes {

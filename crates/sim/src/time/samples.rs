@@ -1,37 +1,31 @@
-//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps. The steps of collocation
-//! methods are longer than cubic polynomials between their ends are exact, and have samples at their nodes as well.
+//! The solution of a run, step by step, as the steppers go on.
+//!
+//! A step gives the state at any time inside it: the motion by the polynomials of its method, the penetrations of wheels with a
+//! damper to their rail along it, and the forces by the laws. At its start forces may be others than at the end of the step
+//! before: a wheel is on the next member of its rail, a motion has another speed, an element has become active.
 
+use super::collocation::Collocation;
+use super::events::at_break_within;
 use super::step::Step;
 use super::stepper::Stepper;
+use crate::Error;
 use crate::contact::active::ActiveSet;
 use crate::contact::solver::Solver;
-use crate::instant::settle::{settle, settle_within};
+use crate::instant::settle::settle_within;
 use crate::mechanics::state::State;
-use crate::record::recorder::{Recorder, output_samples};
-use crate::{Error, History};
+use crate::record::modal_motion::ModalMotion;
+use crate::record::recorder::Recorder;
+use crate::record::solution::{Solution, SolutionBuilder};
 
-/// Largest number of values of the history with the ends of steps.
-const MOST_VALUES: usize = 10_000_000;
+/// Largest fraction of a step within which a wheel that begins the step at a break of its rail has passed the break.
+const PASSED: f64 = 1e-2;
 
-/// Fraction of a step behind a break or an event at which a sample shows the forces after it. Wheels roll by more than the
-/// slack within which a step ends at the break.
-const AFTER: f64 = 1e-3;
+/// Distance behind a break of a rail, relative to 1 + |x|, at which a wheel is behind it in spite of rounding.
+const BEHIND: f64 = 1e-13;
 
-/// Samples of a step of collocation. Steps between which memory for all of them need not grow are as long as output intervals.
-const SAMPLES_OF_STEP: usize = 3;
-
-/// Times that differ by less, relative to them, are the same: a step ends by rounding before a wheel is at a break of its rail.
-const SAME_TIME: f64 = 1e-14;
-
-/// Recorder of the history at the output times, and of that with the ends of steps.
+/// Recorder of the solution.
 pub(crate) struct Samples {
-    recorder: Recorder,
-    /// The history with the ends of steps; `None` where it is not wanted.
-    steps: Option<History>,
-    /// Samples inside the step just taken and at its end that are no output times, by increasing time.
-    inside: Vec<f64>,
-    /// Index of the next output time.
-    next: u64,
+    builder: SolutionBuilder,
     sample: State,
     /// Active elements and rail pieces during the step, and those after it.
     begun: Acting,
@@ -65,25 +59,28 @@ impl Acting {
 }
 
 impl Samples {
-    /// Creates the recorder and records the start of the run; the ends of steps are recorded as well if they are `wanted`.
+    /// Begins the solution with the state at the start of the run; `method` is that which moves natural modes by their
+    /// propagators, if one does, and `accuracy` that with which steps are followed.
     ///
     /// # Errors
     /// Any error from evaluating the rails at the gauges.
-    pub fn new(solver: &Solver, start: &State, wanted: bool) -> Result<Self, Error> {
-        let mut recorder = Recorder::new(solver.system());
-        recorder.reserve_for(solver.system().scene);
-        recorder.record(solver.system(), solver.geometry(), start)?;
-        let steps = wanted.then(|| {
-            let mut steps = recorder.history().clone();
-            steps.reserve(output_samples(solver.system().scene).saturating_mul(SAMPLES_OF_STEP));
-            steps
+    pub fn new(
+        solver: &Solver,
+        start: &State,
+        method: Option<&Collocation>,
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        let system = solver.system();
+        let (mut recorder, mut row) = (Recorder::new(system), Vec::new());
+        recorder.row(system, solver.geometry(), start, &mut row)?;
+        let begun = Acting::of(solver);
+        let modes = method.map(|method| {
+            let numbers: Vec<usize> = recorder.modes().collect();
+            let (modes, terms) = method.modes(&numbers);
+            (numbers, ModalMotion::new(modes, terms))
         });
-        let (begun, inside) = (Acting::of(solver), Vec::new());
         Ok(Samples {
-            recorder,
-            steps,
-            inside,
-            next: 1,
+            builder: SolutionBuilder::new(recorder, accuracy, &row, modes),
             sample: start.clone(),
             after: begun.clone(),
             begun,
@@ -95,131 +92,104 @@ impl Samples {
         self.begun.take(stepper.step().solver);
     }
 
-    /// Records the output times of the step just taken.
+    /// Adds the step just taken.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn take(&mut self, stepper: &mut Stepper) -> Result<(), Error> {
+        let (slack, passed_joint) = (stepper.break_slack(), stepper.passed_joint());
         let step = stepper.step();
         let system = step.system();
-        let (from, to) = (step.from.t, step.to.t);
-        self.after.take(step.solver);
-        self.inside.clear();
-        if self.steps.is_some() {
-            self.take_inside(step)?;
-        }
-        let known = self.recorder.history().len();
-        while system.scene.output_time(self.next) <= to * (1.0 + SAME_TIME) {
-            let t = system.scene.output_time(self.next);
-            let is_end = t >= to * (1.0 - SAME_TIME);
-            if is_end && (self.begun != self.after || !step.has_damped_rails()) {
-                self.sample.copy_from(&step.to);
-                settle(step.solver, &mut self.sample)?;
-            } else {
-                let fraction = if is_end {
-                    1.0
-                } else {
-                    (t - from) / (to - from)
-                };
-                // a step ends just before a break of the rail, where the rail has the slope of this side
-                self.sample_within(step, fraction, t.min(to))?;
-                self.sample.t = t;
+        let interval = [step.from.t, step.to.t];
+        let Samples {
+            builder,
+            sample,
+            begun,
+            after,
+        } = self;
+        after.take(step.solver);
+        // the path of this step ends at the joint
+        let exchange = |step: &mut Step| {
+            if let Some(structure) = passed_joint {
+                step.solver.exchange_paths(structure);
             }
-            self.recorder
-                .record(system, step.solver.geometry(), &self.sample)?;
-            self.after.restore(step.solver);
-            self.next += 1;
-        }
-        self.add_step(known, system.scene.output_parts.max(1));
-        Ok(())
-    }
-
-    /// Samples the step just taken: just behind its start, if forces may jump there, at its inner nodes, and at its end before
-    /// a break or an event changes the forces.
-    fn take_inside(&mut self, step: &mut Step) -> Result<(), Error> {
-        let system = step.system();
-        // the geometry of the solver is that of the end until another time is sampled
-        self.recorder.row(
-            system,
-            step.solver.geometry(),
-            &step.arrived,
-            &mut self.inside,
-        )?;
-        let width = self.inside.len();
-        let from = step.from.t;
-        if from > 0.0 && !step.begins_smoothly {
-            self.sample_within(step, AFTER, from + AFTER * step.length())?;
-            self.recorder.row(
-                system,
-                step.solver.geometry(),
-                &self.sample,
-                &mut self.inside,
-            )?;
-            self.after.restore(step.solver);
-        }
-        for (geometry, node) in step.inner_nodes() {
-            self.recorder
-                .row(system, geometry, node, &mut self.inside)?;
-        }
-        self.inside.rotate_left(width);
-        Ok(())
-    }
-
-    /// Sets `sample` to the state at the time `t`, at a fraction of the step just taken, with the elements that were active in
-    /// it. The solver keeps them.
-    fn sample_within(&mut self, step: &mut Step, fraction: f64, t: f64) -> Result<(), Error> {
-        self.begun.restore(step.solver);
-        let is_known = step.sample(fraction, &mut self.sample)?;
-        self.sample.t = t;
-        if !(is_known && step.apply_laws(&mut self.sample)?) {
-            let slack = step.solver.allowed_error();
-            settle_within(step.solver, &mut self.sample, slack)?;
-        }
-        Ok(())
-    }
-
-    /// Adds the samples at the ends of output intervals and those inside the step just taken to those of the steps, by
-    /// increasing time. Output samples from number `known` on are new; every `parts`-th one ends an interval.
-    fn add_step(&mut self, known: usize, parts: usize) {
-        let Some(steps) = &mut self.steps else { return };
-        let history = self.recorder.history();
-        let mut values = steps.take_values();
-        let width = history.channels().len();
-        let mut inside = self.inside.chunks_exact(width).peekable();
-        for k in (known..history.len()).filter(|k| k.is_multiple_of(parts)) {
-            let sample = history.sample(k);
-            while let Some(before) = inside.next_if(|own| own[0] < sample[0] * (1.0 - SAME_TIME)) {
-                values.extend(before);
+        };
+        exchange(step);
+        let is_smooth = step.from.t == 0.0 || step.begins_smoothly;
+        let start = if is_smooth {
+            0.0
+        } else {
+            passed_share(step, slack)
+        };
+        let is_state = step.ends_smoothly && !step.has_damped_rails();
+        let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
+            if share == 1.0 && is_state {
+                // the geometry of the solver is that of the end until another time is sampled
+                return recorder.row(system, step.solver.geometry(), &step.arrived, row);
             }
-            let is_same = |own: &&[f64]| own[0] - sample[0] <= SAME_TIME * sample[0];
-            if !inside.peek().is_some_and(is_same) {
-                values.extend(sample);
-            }
-        }
-        inside.for_each(|own| values.extend(own));
-        let is_too_long = values.len() > MOST_VALUES;
-        steps.put_values(values);
-        if is_too_long {
-            self.steps = None;
-        }
-    }
-
-    /// Records the end of the step just taken if it is not an output time.
-    ///
-    /// # Errors
-    /// Any error from evaluating the rails at the gauges.
-    pub fn close(&mut self, stepper: &mut Stepper) -> Result<(), Error> {
-        let step = stepper.step();
-        let system = step.system();
-        if system.scene.output_time(self.next - 1) < step.to.t {
-            self.recorder
-                .record(system, step.solver.geometry(), &step.to)?;
+            begun.restore(step.solver);
+            sample_within(step, share.max(start), sample)?;
+            recorder.row(system, step.solver.geometry(), sample, row)?;
+            after.restore(step.solver);
+            Ok(())
+        };
+        let done = builder.follow(interval, is_smooth, &mut evaluate);
+        exchange(step);
+        done?;
+        if let (Some(method), Some((numbers, motion))) = (step.propagated(), builder.modes()) {
+            method.modal_motion(&step.from, numbers, motion.begin(interval));
         }
         Ok(())
     }
 
-    /// Returns the samples at the output times, and those with the ends of steps.
-    pub fn histories(self) -> [History; 2] {
-        [self.recorder.into_history(), self.steps.unwrap_or_default()]
+    /// The solution.
+    pub fn finish(self) -> Solution {
+        self.builder.finish()
     }
+}
+
+/// Sets `sample` to the state at a fraction of the step just taken, with the elements that were active in it, which the solver
+/// has.
+fn sample_within(step: &mut Step, fraction: f64, sample: &mut State) -> Result<(), Error> {
+    let is_known = step.sample(fraction, sample)?;
+    let t = step.from.t + fraction * step.length();
+    // a step ends just before a break of a motion, where the motion still has the speed of this side
+    sample.t = t.min(step.to.t.next_down());
+    if !(is_known && step.apply_laws(sample)?) {
+        let slack = step.solver.allowed_error();
+        // a step ends by rounding behind the event that changes the active elements
+        let is_end = fraction == 1.0 && !step.ends_smoothly;
+        if !(is_end && step.solver.instant_within(sample, [slack; 2])?) {
+            settle_within(step.solver, sample, slack)?;
+        }
+    }
+    sample.t = t.min(step.to.t);
+    Ok(())
+}
+
+/// Fraction of the step just taken at which no wheel is any longer before the break of its rail at which it begins the step: steps
+/// end within the `slack` before a break.
+fn passed_share(step: &Step, slack: f64) -> f64 {
+    let system = step.system();
+    let mechanics = &system.mechanics;
+    let mut share = 0.0_f64;
+    for (w, wheel) in mechanics.wheels.iter().enumerate() {
+        let x = mechanics.rail_coordinate(w, step.from.t, &step.from.q);
+        let speed = mechanics.speed_along(w, &step.from);
+        let near = at_break_within(slack) * (1.0 + x.abs());
+        let contact = &system.scene.contacts[wheel.contact];
+        let [back, ahead] = if speed < 0.0 {
+            [x, x - near]
+        } else {
+            [x, x + near]
+        };
+        let breaks = mechanics
+            .breaks
+            .between(contact.structure, contact.rail, back, ahead);
+        if let (Some(place), true) = (breaks.last(), speed != 0.0) {
+            let way = (place - x).abs() + BEHIND * (1.0 + x.abs());
+            share = share.max(way / (speed.abs() * step.length()));
+        }
+    }
+    share.min(PASSED)
 }

@@ -4,7 +4,6 @@ use super::collocation::Collocation;
 use super::nodes::Nodes;
 use super::penetrations::Penetrations;
 use super::sdirk::Sdirk;
-use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
 use crate::contact::solver::errors::{Ringing, StateErrors};
 use crate::contact::system::System;
@@ -317,13 +316,12 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Geometries and states at the nodes of a collocation method inside the step just taken, by increasing time.
-    pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
-        let nodes = match &self.integrator {
-            Integrator::Collocation(collocation) => Some(collocation.inner_nodes()),
-            Integrator::Sdirk(_) => None,
-        };
-        nodes.into_iter().flatten()
+    /// The method, where natural modes move by their propagators.
+    pub fn propagated(&self) -> Option<&Collocation> {
+        match &self.integrator {
+            Integrator::Collocation(own) if own.is_modal() => Some(own),
+            _ => None,
+        }
     }
 
     /// Energy exchanged in the step just taken, of length `h`.

@@ -169,6 +169,8 @@ pub(crate) struct Stepper<'a, 'b> {
     ending: Option<Vec<Guard>>,
     /// The wheel that is at a break of its rail at the end of the step.
     meets: Option<usize>,
+    /// The structure with the joint that a wheel has passed at the end of the step.
+    passed_joint: Option<usize>,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
@@ -217,12 +219,18 @@ impl<'a, 'b> Stepper<'a, 'b> {
             chatter: 0,
             crawling: 0,
             meets: None,
+            passed_joint: None,
         })
     }
 
     /// The last step.
     pub fn step(&mut self) -> &mut Step<'a, 'b> {
         &mut self.step
+    }
+
+    /// The structure with a joint that a wheel has passed at the end of the last step.
+    pub fn passed_joint(&self) -> Option<usize> {
+        self.passed_joint
     }
 
     /// Times at the start and at the end of the last step.
@@ -329,6 +337,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.step.shortest_delay = self.window() / decay;
         }
         self.meets = None;
+        self.passed_joint = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
         let instant = if self.chatter >= RATTLE {
             self.instant()
@@ -528,7 +537,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Some(fraction)
     }
 
-    fn break_slack(&self) -> f64 {
+    /// Distance before a break of a rail, relative to 1 + |x|, within which a step that ends there may end.
+    pub fn break_slack(&self) -> f64 {
         break_slack(self.size.tolerance, self.size.fixed.is_some())
     }
 
@@ -676,7 +686,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         // The path of the next step serves for the place beyond the joint. Other structures keep theirs.
         let contact = system.mechanics.wheels[w].contact;
-        solver.clear_path(system.scene.contacts[contact].structure);
+        let structure = system.scene.contacts[contact].structure;
+        solver.begin_path(structure);
+        self.passed_joint = Some(structure);
         let usual = self.size.planned(1.0, f64::INFINITY);
         self.step.set_paths(
             PathStart::StepEnd,

@@ -39,9 +39,10 @@ impl Triggers {
         let rules = &system.scene.actuators.rules;
         let recorder = (!rules.is_empty()).then(|| Recorder::new(system));
         let column = |channel, rule| {
-            let position = recorder
-                .as_ref()
-                .and_then(|recorder| recorder.history().position(channel));
+            let position = recorder.as_ref().and_then(|recorder| {
+                let channels = recorder.channels();
+                channels.iter().position(|known| *known == channel)
+            });
             position.ok_or(Error::NoSuch {
                 what: "quantity of rule",
                 index: rule,

@@ -295,7 +295,6 @@ fn scene(accuracy: f64) -> Scene {
         end: 22.0,
         output_dt: 0.1,
         output_parts: 1,
-        records_steps: false,
         accuracy,
     }
 }

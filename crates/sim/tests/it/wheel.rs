@@ -68,7 +68,6 @@ fn wheel() -> Scene {
         end: 1.0,
         output_dt: 1e-3,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-7,
     }
 }

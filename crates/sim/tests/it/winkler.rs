@@ -168,7 +168,6 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
         end: rise + held,
         output_dt: 0.05,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-6,
     };
     let foundation = Foundation {

@@ -212,7 +212,6 @@ pub(super) fn crossing(
         end,
         output_dt: end,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-6,
     })
 }

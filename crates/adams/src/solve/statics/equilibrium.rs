@@ -1,7 +1,7 @@
 //! What is reported of a static equilibrium.
 
 use crate::ModelState;
-use crate::solve::solution::Solution;
+use crate::solve::solution::SolvedModelState;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ pub struct Equilibrium {
     /// The poses of the parts, and the values DIF for which every DIF1 is zero.
     pub state: ModelState,
     /// VARIABLEs, forces and requests at that state.
-    pub solution: Solution,
+    pub solution: SolvedModelState,
     /// The reaction of every JOINT, JPRIM and MOTION, by keyword and identifier.
     pub reactions: BTreeMap<(&'static str, u32), ConstraintReaction>,
     /// Newton iterations.

@@ -159,9 +159,14 @@ impl<'a> Solver<'a> {
         self.geometry.set_paths(self.system, ends);
     }
 
-    /// Removes the path of the compliance of structure `s`.
-    pub fn clear_path(&mut self, s: usize) {
-        self.geometry.clear_path(s);
+    /// Begins a path of the compliance of structure `s`; the present one is kept.
+    pub fn begin_path(&mut self, s: usize) {
+        self.geometry.begin_path(s);
+    }
+
+    /// Exchanges the path of the compliance of structure `s` and the one before the last joint.
+    pub fn exchange_paths(&mut self, s: usize) {
+        self.geometry.exchange_paths(s);
     }
 
     /// Exchanges the geometry of the solver with `geometry`, which belongs to the current state.

@@ -17,19 +17,11 @@ fn accelerations_of_a_carrier_are_differences_of_its_speeds() {
         .chain(speeds.map(|dof| Channel::Speed(0, dof)))
         .collect();
     let history = |times: &[f64]| {
-        let mut history = History::new(channels.clone());
-        let sample = |t: &f64| {
-            std::iter::once(*t)
-                .chain((0..6).map(|k| 5.0 + f64::from(k) * t))
-                .collect()
+        let sample = |t: &f64| -> Vec<f64> {
+            let speeds = (0..6).map(|k| 5.0 + f64::from(k) * t);
+            std::iter::once(*t).chain(speeds).collect()
         };
-        history.put_values(
-            times
-                .iter()
-                .flat_map(|t| -> Vec<f64> { sample(t) })
-                .collect(),
-        );
-        history
+        History::of(channels.clone(), times.iter().flat_map(sample).collect())
     };
     let uniform = history(&[0.0, 0.5, 0.75, 2.0]);
     for i in 0..4 {

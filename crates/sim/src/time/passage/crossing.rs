@@ -13,6 +13,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::path::Path;
 use super::series::{Contacts, Impulse, Matrix, ORDER, Series, TERMS, Values, subtract};
+use crate::Error;
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::mobility::Mobility;
@@ -20,8 +21,8 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::solve_general;
 use crate::record::energy::{Audit, stored};
 use crate::record::recorder::Recorder;
+use crate::record::solution::{Solution, SolutionBuilder};
 use crate::time::outcome::Counts;
-use crate::{Error, History};
 
 /// Largest number of contacts.
 pub(crate) const WIDEST: usize = 8;
@@ -49,9 +50,6 @@ const STIFF: f64 = 20.0;
 
 /// Number of steps, estimated from the current step length, above which a series is not used.
 const MANY: f64 = 1e4;
-
-/// Number of samples that are evaluated together.
-const TOGETHER: usize = 3;
 
 /// Abscissae and weights of Lobatto quadrature on [0, 1], exact to degree 13; the weight at 0 and at 1 is [`ENDS`].
 const LOBATTO: [[f64; 2]; 6] = [
@@ -116,7 +114,7 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
 /// Result of a crossing from the start to the end, or until the caller stopped it.
 pub(crate) struct Crossed {
     pub is_stopped: bool,
-    pub history: History,
+    pub solution: Solution,
     pub audit: Audit,
     pub counts: Counts,
     /// Number of bounces over which errors add up.
@@ -325,8 +323,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
             .iter()
             .take(system.elements.len())
             .fold(0.0_f64, |max, s| max.max(*s));
-        let mut recorder = Recorder::new(system);
-        recorder.reserve_for(scene);
+        let mut builder: Option<SolutionBuilder> = None;
         let mut counts = Counts::default();
         let quick = |i: usize| self.contacts.softness[i] / self.contacts.mobile[i][i];
         let quickest = (0..system.elements.len())
@@ -339,8 +336,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         let allowed = LAST * scene.accuracy.min(COARSEST)
             / (self.bounces(quickest).min(MOST_BOUNCES) / BOUNCES).max(1.0);
-        let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
-        let mut due = scene.output_time(next);
+        let (mut t, mut scale) = (0.0, quickest.sqrt());
         for end in self.breaks() {
             let path = Path::new(
                 system,
@@ -354,6 +350,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
             if t == 0.0 && !(placed || self.rest(&path.about(0.0, 1.0)[0])) {
                 return Ok(None);
             }
+            let mut is_smooth = t == 0.0;
             while t < end {
                 self.compliance = path.about(t, scale);
                 let approach = self.approach(&self.q, true);
@@ -391,19 +388,19 @@ impl<'a, const P: usize> Crossing<'a, P> {
                     return Ok(None);
                 }
                 let to = if count == 1.0 { end } else { t + h };
-                while due <= to {
-                    let (mut times, mut count) = ([due; TOGETHER], 0);
-                    while due <= to && count < TOGETHER {
-                        times[count..].fill(due);
-                        (count, next) = (count + 1, next + 1);
-                        due = scene.output_time(next);
+                let solution = match &mut builder {
+                    Some(known) => known,
+                    None => {
+                        let (mut recorder, mut row) = (Recorder::new(system), Vec::new());
+                        self.record(&mut recorder, t, t, &mut row)?;
+                        builder.insert(SolutionBuilder::new(recorder, scene.accuracy, &row, None))
                     }
-                    if let ([time, ..], 1) = (times, count) {
-                        self.record(&mut recorder, t, &[time])?;
-                    } else {
-                        self.record(&mut recorder, t, &times)?;
-                    }
-                }
+                };
+                let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
+                    self.record(recorder, t, t + share * (to - t), row)
+                };
+                solution.follow([t, to], is_smooth, &mut evaluate)?;
+                is_smooth = true;
                 if !self.step(h) {
                     return Ok(None);
                 }
@@ -412,12 +409,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 (t, scale) = (to, h);
                 if watch(t).is_break() {
                     let bounces = self.bounces(quickest);
-                    return Ok(Some(self.finish(true, t, recorder, (counts, bounces))));
+                    return Ok(Some(self.finish(true, t, builder, (counts, bounces))));
                 }
             }
         }
         let bounces = self.bounces(quickest);
-        Ok(Some(self.finish(false, t, recorder, (counts, bounces))))
+        Ok(Some(self.finish(false, t, builder, (counts, bounces))))
     }
 
     /// Number of bounces in the run over which errors add up, with `quickest` the reciprocal square of the
@@ -435,7 +432,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         mut self,
         is_stopped: bool,
         t: f64,
-        recorder: Recorder,
+        builder: Option<SolutionBuilder>,
         (counts, bounces): (Counts, f64),
     ) -> Crossed {
         let s = self.length / self.series.scale;
@@ -445,10 +442,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let [compliance, _] = self.compliance_at(s);
         self.geometry.set_compliance(compliance.iter());
         self.audit.end = stored(self.system, &self.geometry, &self.state);
-        let (history, audit) = (recorder.into_history(), self.audit);
+        let solution = builder.map(SolutionBuilder::finish).unwrap_or_default();
+        let audit = self.audit;
         Crossed {
             is_stopped,
-            history,
+            solution,
             audit,
             counts,
             bounces,
@@ -664,34 +662,23 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [dampers, drives]
     }
 
-    /// Records the state at `times` in the step that began at `start`. Of times that are equal the first alone is recorded.
+    /// Appends the row of the state at `time` in the step that began at `start`.
     ///
     /// # Errors
     /// Any error from evaluating the rails at the gauges.
-    #[inline(always)]
-    fn record<const N: usize>(
+    fn record(
         &mut self,
         recorder: &mut Recorder,
         start: f64,
-        times: &[f64; N],
+        time: f64,
+        row: &mut Vec<f64>,
     ) -> Result<(), Error> {
-        let per_time = 1.0 / self.series.scale;
-        let mut places = *times;
-        places
-            .iter_mut()
-            .for_each(|place| *place = (*place - start) * per_time);
-        let mut last = f64::NAN;
-        for ((time, s), at) in times.iter().zip(places).zip(self.series.impulses(&places)) {
-            if *time == last {
-                break;
-            }
-            last = *time;
-            let [q, v] = self.moved(s, &at);
-            self.fill(*time, &q, &v, &at.force);
-            self.tilt(s, &at.force);
-            recorder.record(self.system, &self.geometry, &self.state)?;
-        }
-        Ok(())
+        let s = (time - start) / self.series.scale;
+        let [at] = self.series.impulses(&[s]);
+        let [q, v] = self.moved(s, &at);
+        self.fill(time, &q, &v, &at.force);
+        self.tilt(s, &at.force);
+        recorder.row(self.system, &self.geometry, &self.state, row)
     }
 
     /// Sets the slopes of the rails at the scaled time `s` under the forces `force`.

@@ -58,7 +58,6 @@ fn scene() -> Scene {
         end: 1.0,
         output_dt: 1.0,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-6,
     }
 }

@@ -143,7 +143,6 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
         end,
         output_dt: 0.01 * end,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-6,
     }
 }

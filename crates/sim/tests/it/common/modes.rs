@@ -135,7 +135,6 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
         end: SPAN / speed,
         output_dt: SPAN / speed / 2000.0,
         output_parts: 1,
-        records_steps: false,
         accuracy: 1e-8,
     }
 }

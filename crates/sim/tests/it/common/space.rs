@@ -59,7 +59,6 @@ pub fn scene(bodies: Vec<Body>, actuators: Actuators, end: f64, accuracy: f64) -
         end,
         output_dt: end / 1000.0,
         output_parts: 1,
-        records_steps: false,
         accuracy,
     }
 }

@@ -11,14 +11,8 @@ fn sampled(times: &[f64], x: impl Fn(f64) -> f64, force: impl Fn(f64) -> f64) ->
         Channel::Lateral(0),
         Channel::Traction(0),
     ];
-    let mut history = History::new(channels);
-    history.put_values(
-        times
-            .iter()
-            .flat_map(|&t| [t, x(t), force(t), 2.0 * force(t), -force(t)])
-            .collect(),
-    );
-    history
+    let row = |&t: &f64| [t, x(t), force(t), 2.0 * force(t), -force(t)];
+    History::of(channels, times.iter().flat_map(row).collect())
 }
 
 fn wheel(steps: &[[f64; 2]], breaks: &[f64], is_damped: bool) -> LoadedWheel {
