@@ -43,6 +43,7 @@ const DEPENDENCIES: [(&str, &[&str]); 20] = [
             "practice",
             "formats",
             "fea",
+            "piecewise",
             "sim",
             "splines",
             "adams",

@@ -64,14 +64,16 @@ fn envelopes_name_the_instant_and_the_place_that_govern() {
     };
     // the middle support has all of a wheel that stands on it
     let middle = of("girder.support2.vertical");
-    assert_eq!(middle.max.bodies, vec![("car".to_owned(), vec![10.0])]);
-    assert!((middle.max.time - 8.5).abs() < 1e-12);
+    assert_eq!(middle.max.bodies[0].0, "car");
+    assert!((middle.max.bodies[0].1[0] - 10.0).abs() < 1e-8);
+    assert!((middle.max.time - 8.5).abs() < 1e-8);
     assert!((middle.max.value / (8000.0 * 9.81) - 1.0).abs() < 1e-10);
     assert!((middle.max.wheels[0].1[0] / (8000.0 * 9.81) - 1.0).abs() < 1e-10);
     // the first lifts most with the wheel at 1/sqrt(3) of the far span: 2 l - l/sqrt(3) = 14.23
     let first = of("girder.support1.vertical");
-    assert!((first.min.bodies[0].1[0] - 14.25).abs() < 1e-12);
-    assert!((first.min.value / (8000.0 * 9.81) + 1.0 / (6.0 * 3.0_f64.sqrt())).abs() < 1e-4);
+    let place = 20.0 - 10.0 / 3.0_f64.sqrt();
+    assert!((first.min.bodies[0].1[0] - place).abs() < 1e-4);
+    assert!((first.min.value / (8000.0 * 9.81) + 1.0 / (6.0 * 3.0_f64.sqrt())).abs() < 1e-8);
 }
 
 /// Analytic: the envelope of moments of a simple beam under one wheel is P x (L - x)/L, also at places that the wheel
@@ -154,7 +156,7 @@ fn a_span_sags_by_the_classical_share_under_a_wheel_at_its_middle() {
         "{:?}",
         found[0]
     );
-    assert_eq!((found[0].x, found[0].time), (5.0, 3.5));
+    assert!((found[0].x - 5.0).abs() < 1e-8 && (found[0].time - 3.5).abs() < 1e-8);
     assert!((found[0].ratio().expect("it sags") / (span / classical) - 1.0).abs() < 1e-9);
     assert!(found[0].is_within(600.0));
 }

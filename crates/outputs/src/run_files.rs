@@ -170,7 +170,7 @@ fn sheets(run: &SceneRun, index: usize) -> Result<NamedFiles, Error> {
         name("history"),
         result.columns.csv().map_err(Error::not_shown)?,
     )];
-    let cycles = fatigue::csv(&result.fatigue, &result.columns).map_err(Error::not_shown)?;
+    let cycles = fatigue::csv(&result.fatigue).map_err(Error::not_shown)?;
     all.extend(cycles.map(|cycles| (name("cycles"), cycles)));
     let envelope = result
         .girders()

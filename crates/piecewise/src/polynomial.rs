@@ -225,18 +225,23 @@ impl Polynomial {
             share: 0.0,
             value: self.coefficients[0],
         };
-        let mut offer = |share: f64, value: f64| {
-            if value > best.value {
-                best = Extreme { share, value };
-            }
-        };
+        if self.coefficients[n] > best.value {
+            best = Extreme {
+                share: 1.0,
+                value: self.coefficients[n],
+            };
+        }
         let [_, high] = self.bounds();
-        if high > self.coefficients[0] && high > self.coefficients[n] {
+        // inside it is larger by more than rounding
+        let rounding = ROUNDING * high.abs().max(best.value.abs());
+        if high > best.value + rounding {
             for share in self.derivative().roots() {
-                offer(share, self.value(share));
+                let value = self.value(share);
+                if value > best.value + rounding {
+                    best = Extreme { share, value };
+                }
             }
         }
-        offer(1.0, self.coefficients[n]);
         best
     }
 

@@ -11,6 +11,7 @@ use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
 use crate::girders::{DeferredGirders, GirderExtremes};
 use crate::response::{ColumnInfluence, Response};
+use crate::steps::{ColumnInstant, ColumnPeak};
 
 /// The result of one case: its run and the quantities computed from it.
 ///
@@ -37,6 +38,8 @@ pub struct CaseResult {
     pub run: Run,
     /// The history as named columns, with reactions, internal forces and stresses.
     pub columns: NamedColumns,
+    /// The largest and the smallest value of every column but time, at whatever time it has them.
+    pub peaks: Vec<ColumnPeak>,
     /// The fidelity chosen for each structure whose foundation is "auto", with the reason.
     pub choices: Vec<sim::Choice>,
     /// Influence lines of the columns of each structure; `None` for a structure without columns.
@@ -84,6 +87,14 @@ impl CaseResult {
             &self.response.envelopes,
             &mut |_| go_on(),
         )
+    }
+
+    /// The largest value of the column `<owner>.<part>`; `None` where there is none.
+    #[must_use]
+    pub fn largest(&self, owner: &str, part: &str) -> Option<ColumnInstant> {
+        let name = format!("{owner}.{part}");
+        let peak = self.peaks.iter().find(|peak| peak.column == name)?;
+        Some(peak.max)
     }
 
     /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders

@@ -19,7 +19,8 @@ use crate::fatigue;
 use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::plane_spans::plane_spans;
-use crate::response::{self, Response, SceneMode, SolvedStructures};
+use crate::response::{self, Response, SceneMode, SolvedStructures, TimeSearch};
+use crate::steps::SteppedColumns;
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
@@ -241,18 +242,20 @@ fn run_case(
         .collect();
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
+    let nodes = run.solution.intervals();
+    let mut steps = SteppedColumns::new(&scene, &nodes);
     let plane_spans = plane_spans(&scene, &solved);
     let mut response = Response::new(
         &scene,
         &input,
-        &run.history,
+        (&run, &nodes),
         &built,
         SolvedStructures {
             models: &solved,
             chords: &plane_spans,
         },
         &lines,
-        &mut record,
+        (&mut record, &mut steps),
     )?;
     let (mut foundations, bases): (Vec<Foundation>, Vec<_>) = built
         .into_iter()
@@ -263,12 +266,16 @@ fn run_case(
     }
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let spans = SpanResponse {
-        history: &run.history,
+        run: TimeSearch {
+            solution: &run.solution,
+            nodes: &nodes,
+            accuracy: scene.accuracy,
+        },
         solved: &solved,
         spans: &plane_spans,
     };
-    let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
-    let fatigue = fatigue::fatigue_results(&scene, &record)?;
+    let codes = CodeCheck::new(&scene, &input, &steps.record, &spans)?;
+    let fatigue = fatigue::fatigue_results(&scene, &steps)?;
     let of_rail = |rail: &SceneRail| {
         let solved = solved[rail.structure];
         solved.is_some_and(|solved| twists_without_warping(&solved.model, &solved.rails[rail.rail]))
@@ -305,6 +312,7 @@ fn run_case(
         input,
         run,
         columns: record,
+        peaks: steps.peaks(),
         choices,
         lines,
         response,

@@ -57,9 +57,6 @@ pub enum Error {
         /// The error of its influence surface.
         source: splines::Error,
     },
-    /// The envelope of a history cannot be computed.
-    #[error(transparent)]
-    Envelope(practice::Error),
     /// The cycles of a stress history cannot be counted.
     #[error("{column}: {source}")]
     Cycles {

@@ -10,7 +10,8 @@ use practice::{Cycle, Damage, Strength, aisc, rainflow};
 use serde_json::{Map, Value, json};
 
 use crate::Error;
-use crate::columns::{NamedColumns, bytes};
+use crate::columns::bytes;
+use crate::steps::{ColumnInstant, SteppedColumns};
 use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
@@ -31,6 +32,8 @@ pub struct FatigueResult {
     pub detail: Detail,
     /// Its cycles, in the order in which they close.
     pub cycles: Vec<Cycle>,
+    /// Times at which each cycle has its extremes.
+    pub times: Vec<[f64; 2]>,
     /// Damage of each cycle.
     pub cycle_damage: Vec<f64>,
     /// Total damage and the largest range.
@@ -94,7 +97,7 @@ impl Resistance {
 ///
 /// # Errors
 /// [`Error::Cycles`] for a history that cannot be counted.
-pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<FatigueResult>, Error> {
+pub fn fatigue_results(scene: &Scene, steps: &SteppedColumns) -> Result<Vec<FatigueResult>, Error> {
     let mut all = Vec::new();
     for structure in &scene.structures {
         let Origin::Spec { spec, .. } = &structure.origin else {
@@ -103,11 +106,11 @@ pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<Fatig
         for cut in &spec.effects {
             for point in &cut.points {
                 let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
-                let values = record.values(&column);
+                let values = steps.record.values(&column);
                 let Some(detail) = point.detail.filter(|_| !values.is_empty()) else {
                     continue;
                 };
-                let result = fatigue_result(scene, column.clone(), detail, values);
+                let result = fatigue_result(scene, column.clone(), detail, &steps.turns(values));
                 all.push(result.map_err(|source| Error::Cycles {
                     column: column.clone(),
                     source,
@@ -118,16 +121,17 @@ pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<Fatig
     Ok(all)
 }
 
-/// Cycles and damage of the stress history `values`.
+/// Cycles and damage of the stress history `turns`.
 fn fatigue_result(
     scene: &Scene,
     column: String,
     detail: Detail,
-    values: &[f64],
+    turns: &[ColumnInstant],
 ) -> Result<FatigueResult, practice::Error> {
     let fatigue = &scene.output.fatigue;
     let resistance = Resistance::new(detail, fatigue, scene.units)?;
-    let cycles = rainflow(values, fatigue.history)?;
+    let values: Vec<f64> = turns.iter().map(|turn| turn.value).collect();
+    let cycles = rainflow(&values, fatigue.history)?;
     let each = cycles
         .iter()
         .map(|cycle| Ok(cycle.count * resistance.damage(cycle.range())?))
@@ -137,6 +141,10 @@ fn fatigue_result(
     Ok(FatigueResult {
         column,
         detail,
+        times: cycles
+            .iter()
+            .map(|cycle| cycle.samples.map(|at| turns[at].time))
+            .collect(),
         cycles,
         cycle_damage: each,
         damage,
@@ -192,25 +200,21 @@ pub fn json(results: &[FatigueResult]) -> Option<Value> {
 ///
 /// # Errors
 /// None in practice: writing to memory does not fail.
-pub fn csv(
-    results: &[FatigueResult],
-    record: &NamedColumns,
-) -> Result<Option<Vec<u8>>, csv::Error> {
+pub fn csv(results: &[FatigueResult]) -> Result<Option<Vec<u8>>, csv::Error> {
     if results.is_empty() {
         return Ok(None);
     }
-    let time = record.values("time");
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["point", "range", "mean", "count", "from", "to", "damage"])?;
     for result in results {
-        for (cycle, damage) in result.cycles.iter().zip(&result.cycle_damage) {
-            let [from, to] = cycle.samples.map(|row| time[row]);
+        let each = result.cycles.iter().zip(&result.times);
+        for ((cycle, [from, to]), damage) in each.zip(&result.cycle_damage) {
             let numbers = [
                 cycle.range(),
                 cycle.mean() + 0.0,
                 cycle.count,
-                from,
-                to,
+                *from,
+                *to,
                 *damage,
             ];
             let numbers = numbers.into_iter().map(|number| format!("{number:?}"));

@@ -24,7 +24,7 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, plane_spans, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
+//! Wings, lowest first: error, threads, columns, steps, layout, plane_spans, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
 //! verdict, summary, observe, cases, scene_run, many
 
 pub mod case_result;
@@ -42,6 +42,7 @@ pub mod preflight;
 pub mod response;
 pub mod run_error;
 pub mod scene_run;
+pub mod steps;
 pub mod summary;
 pub mod threads;
 pub mod verdict;

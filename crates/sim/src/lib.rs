@@ -76,7 +76,7 @@ pub use numerics::step::step;
 pub use piecewise::Side;
 pub use record::energy::{Audit, EnergyGap, EnergyGaps, GapCause};
 pub use record::history::History;
-pub use record::solution::{Solution, TimeExtreme};
+pub use record::solution::{NodeInterval, Solution, SolutionNodes, TimeExtreme};
 pub use run::{Run, Status, check_equilibrium, run, run_by};
 pub use scene::actuators::{Actuators, Brake, Drive, Load, PrescribedSpin};
 pub use scene::body::{Body, Contact, Pin};

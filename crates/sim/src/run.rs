@@ -41,6 +41,9 @@ const ALTERNATIVES: [(Method, f64); 6] = [
     (Method::Sdirk4, 0.125),
 ];
 
+/// Length of the first step that is tried, relative to the run.
+const FIRST: f64 = 1e-3;
+
 /// Times that differ by less, relative to them, are the same.
 const SAME_TIME: f64 = 1e-14;
 
@@ -339,9 +342,7 @@ fn integrate(
 ) -> Result<Run, Error> {
     let scene = system.scene;
     begin(system, solver, &mut state)?;
-    let first = (0.1 * scene.output_dt)
-        .min(1e-3 * scene.end)
-        .max(1e-9 * scene.end);
+    let first = FIRST * scene.end;
     let mut stepper = Stepper::new(
         solver,
         state,

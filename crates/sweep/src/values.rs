@@ -75,17 +75,11 @@ pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow,
 
 /// Largest and smallest value of a column.
 fn peaks(name: &str, outcome: &CaseResult, row: &mut RunRow) {
-    let found = outcome
-        .columns
-        .columns
-        .iter()
-        .find(|column| column.name == name && !column.values.is_empty());
-    let Some(found) = found else { return };
-    let values = &found.values;
-    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    row.add(format!("{name}.max"), most, found.dimension);
-    row.add(format!("{name}.min"), least, found.dimension);
+    let Some(found) = outcome.peaks.iter().find(|peak| peak.column == name) else {
+        return;
+    };
+    row.add(format!("{name}.max"), found.max.value, found.dimension);
+    row.add(format!("{name}.min"), found.min.value, found.dimension);
 }
 
 /// Values of the entries of `extremes` in a summary, named by their members.

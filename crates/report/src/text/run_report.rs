@@ -13,9 +13,9 @@ use formats::text::number::rounded;
 use formats::units::Dimension;
 use foundations::SolvedModel;
 use results::case_result::CaseResult;
-use results::columns::peak;
 use results::response::RunComparison;
 use results::run_error;
+use results::steps::ColumnInstant;
 use results::warning;
 use sim::Method;
 
@@ -125,9 +125,11 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     for body in &scene.bodies {
         let mut first = None;
         for outcome in outcomes {
-            let Some((i, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else {
+            let Some(ColumnInstant { value, time }) = outcome.largest(&body.name, "deflection")
+            else {
                 continue;
             };
+            let deepest = value;
             let base = *first.get_or_insert(deepest);
             let change = if base == 0.0 {
                 0.0
@@ -139,8 +141,8 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
                 TableCell::from(run_name(&outcome.label)),
                 TableCell::from(body.name.clone()),
                 TableCell::from(factor * deepest),
-                TableCell::from(outcome.columns.part(&body.name, "x")[i]),
-                TableCell::from(outcome.columns.values("time")[i]),
+                TableCell::from(outcome.columns.at_time(&body.name, "x", time)),
+                TableCell::from(time),
                 TableCell::from(rounded(change, 3)),
                 TableCell::from(status.to_owned()),
             ]);

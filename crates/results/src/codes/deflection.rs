@@ -4,6 +4,8 @@
 //! chord between its ends is therefore computed once more: at the positions of the wheels in the run, with the static
 //! load of each wheel by statics. Laterally, a tenth of the static loads of the wheels on the span's own rail acts.
 
+use std::collections::HashMap;
+
 use design::clause_json;
 use foundations::{RailChords, SolvedModel};
 use practice::aist::{BuildingClass, CraneKind};
@@ -13,19 +15,22 @@ use practice::limits::{
     design_guide_limits, is_800_limits, mill_limits,
 };
 use serde_json::{Value, json};
-use sim::History;
+use sim::SolutionNodes;
 use splines::{Axis, Compliance, Probe};
 
 use super::crane::{CraneData, to_si};
-use crate::response::{WheelLoad, WheelLoadReader};
+use crate::response::{
+    LargestInTime, TimeSearch, WheelLoad, WheelLoadReader, crest, largest_along,
+};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, root_body};
 use formats::units::{Dimension, Units};
 
-/// Number of positions within a span at which its deflection is evaluated, besides those of the wheels.
-const PLACES: usize = 15;
-/// Largest number of output times at which a span is evaluated.
-const TIMES: usize = 64;
+/// Number of parts of a span at whose ends its deflection is evaluated at all times.
+const PLACES: usize = 16;
+/// Positions of wheels that differ by less than one of so many parts of a span are the same until the largest deflection is looked
+/// for.
+const POSITIONS: f64 = 200.0;
 /// Weight of 50 t, N, at which IS 800 changes the limit of gantry girders.
 const FIFTY_TONNES: f64 = 50.0e3 * 9.806_65;
 
@@ -93,8 +98,8 @@ impl StaticDeflection {
 pub struct SpanResponse<'r> {
     /// Chords of each rail of the scene by plane (vertical, lateral).
     pub spans: &'r [RailChords],
-    /// History of the run.
-    pub history: &'r History,
+    /// The run.
+    pub(crate) run: TimeSearch<'r>,
     /// Solution of each structure of the scene; `None` for a structure without spec.
     pub solved: &'r [Option<&'r SolvedModel>],
 }
@@ -133,15 +138,8 @@ pub(super) fn static_deflections(
 ) -> Vec<StaticDeflection> {
     let limits = all_limits(practice, crane, scene.units);
     let loads = StaticLoads::new(scene, practice, input, crane);
-    let reader = WheelLoadReader::new(scene, input, run.history);
-    let on_rail = |rail: usize, from: f64, to: f64| {
-        let (structure, own) = (scene.rails[rail].structure, scene.rails[rail].rail);
-        (0..run.history.len()).any(|row| {
-            reader.at(run.history.sample(row)).iter().any(|load| {
-                (load.structure, load.rail) == (structure, own) && load.x > from && load.x < to
-            })
-        })
-    };
+    let reader = WheelLoadReader::new(scene, input, &run.run.nodes.rows);
+    let places = WheelPlaces::new(&reader, run.run.nodes);
     let mut found = Vec::new();
     for (rail, outline) in scene.rails.iter().enumerate() {
         let carrier = scene.structures[outline.structure].carrier;
@@ -157,15 +155,12 @@ pub(super) fn static_deflections(
         };
         for &(plane, displacement) in kinds {
             for &ends in &run.spans[rail][plane] {
-                if !on_rail(rail, ends[0], ends[1]) {
-                    continue;
-                }
                 let span = Span {
                     rail,
                     ends,
                     displacement,
                 };
-                found.extend(span.largest(scene, &loads, &reader, run, &limits));
+                found.extend(span.largest(scene, &loads, (&reader, &places), run, &limits));
             }
         }
     }
@@ -214,6 +209,41 @@ impl StaticLoads {
     }
 }
 
+/// Positions of all wheels at the nodes of a solution.
+struct WheelPlaces {
+    /// Structure and rail of each wheel.
+    rails: Vec<(usize, usize)>,
+    /// Row by row.
+    x: Vec<f64>,
+}
+
+impl WheelPlaces {
+    fn new(reader: &WheelLoadReader, nodes: &SolutionNodes) -> WheelPlaces {
+        let first = nodes.rows.samples().next().map(|row| reader.at(row));
+        let rails = first.iter().flatten();
+        let each = nodes.rows.samples().flat_map(|row| reader.places(row));
+        WheelPlaces {
+            rails: rails.map(|load| (load.structure, load.rail)).collect(),
+            x: each.collect(),
+        }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.x.chunks_exact(self.rails.len().max(1))
+    }
+
+    /// The wheels on a rail.
+    fn on(&self, structure: usize, rail: usize) -> impl Iterator<Item = usize> {
+        let is_own = move |w: &usize| self.rails[*w] == (structure, rail);
+        (0..self.rails.len()).filter(is_own)
+    }
+
+    /// The wheels on a structure.
+    fn of_structure(&self, structure: usize) -> impl Iterator<Item = usize> {
+        (0..self.rails.len()).filter(move |w| self.rails[*w].0 == structure)
+    }
+}
+
 /// A span of a rail, and what is evaluated there.
 struct Span {
     /// Index of the rail in the scene.
@@ -229,7 +259,7 @@ impl Span {
         &self,
         scene: &Scene,
         loads: &StaticLoads,
-        reader: &WheelLoadReader,
+        (reader, places): (&WheelLoadReader, &WheelPlaces),
         run: &SpanResponse<'_>,
         limits: &[DeflectionLimit],
     ) -> Option<StaticDeflection> {
@@ -245,7 +275,7 @@ impl Span {
                 value,
             })
         };
-        let mut largest = StaticDeflection {
+        let none = StaticDeflection {
             displacement: self.displacement,
             rail: rail.name.clone(),
             span: self.ends,
@@ -254,55 +284,99 @@ impl Span {
             time: 0.0,
             limits: limits.iter().filter_map(allowable).collect(),
         };
-        let count = run.history.len();
-        let chosen = count.min(TIMES);
-        for row in (0..chosen).map(|k| k * (count - 1) / (chosen - 1).max(1)) {
-            let sample = run.history.sample(row);
-            let wheels: Vec<(WheelLoad, f64)> = reader
-                .at(sample)
-                .into_iter()
-                .zip(forces.iter().copied())
-                .filter(|(load, force)| load.structure == rail.structure && *force != 0.0)
-                .collect();
-            let (x, value) = self.deflection(surface, rail.rail, &wheels)?;
-            if value > largest.value {
-                largest = StaticDeflection {
+        let is_inside = |load: &WheelLoad| load.rail == rail.rail && load.x > from && load.x < to;
+        let wheels = |row: &[f64]| -> Vec<(WheelLoad, f64)> {
+            let all = reader.at(row).into_iter().zip(forces.iter().copied());
+            all.filter(|(load, force)| load.structure == rail.structure && *force != 0.0)
+                .collect()
+        };
+        let (mut is_loaded, mut is_resisted) = (false, true);
+        // the same positions of the wheels come again and again
+        let mut known: HashMap<Vec<i64>, f64> = HashMap::new();
+        let few: Vec<f64> = (1..PLACES)
+            .map(|k| from + (to - from) * k as f64 / PLACES as f64)
+            .collect();
+        let is_heavy = |w: &usize| forces.get(*w).is_some_and(|force| *force != 0.0);
+        let own: Vec<usize> = places
+            .on(rail.structure, rail.rail)
+            .filter(is_heavy)
+            .collect();
+        let all: Vec<usize> = places
+            .of_structure(rail.structure)
+            .filter(is_heavy)
+            .collect();
+        let mut near = Vec::new();
+        for (number, x) in places.rows().enumerate() {
+            if !own.iter().any(|w| x[*w] > from && x[*w] < to) {
+                continue;
+            }
+            is_loaded = true;
+            let steps = all
+                .iter()
+                .map(|w| (x[*w] / (to - from) * POSITIONS).round() as i64);
+            let sag = *known.entry(steps.collect()).or_insert_with(|| {
+                let on = wheels(run.run.nodes.rows.sample(number));
+                let sags = self.sags(surface, rail.rail, &on, &few);
+                is_resisted &= sags.is_some();
+                let sags = sags.unwrap_or_default().into_iter();
+                crest(sags.map(|sag| self.sized(sag)))
+            });
+            near.push((number, sag));
+        }
+        let mut exact = |row: &[f64]| {
+            let on = wheels(row);
+            let inside = on.iter().filter(|(load, _)| is_inside(load));
+            let mut breaks: Vec<f64> = inside.map(|(load, _)| load.x).collect();
+            largest_along(self.ends, &mut breaks, self.is_lateral(), &mut |x| {
+                self.sags(surface, rail.rail, &on, x)
+            })
+        };
+        let found = run.run.largest(&near, &mut exact);
+        if !(is_loaded && is_resisted) {
+            return None;
+        }
+        Some(
+            found.map_or(none.clone(), |LargestInTime { value, x, time }| {
+                StaticDeflection {
                     value,
                     x,
-                    time: sample[0],
-                    ..largest
-                };
-            }
-        }
-        Some(largest)
+                    time,
+                    ..none
+                }
+            }),
+        )
     }
 
-    /// The largest deflection from the chord under the static loads of `wheels` on the structure, with its place;
-    /// `None` where the structure is unrestrained in this direction. `rail` is the rail within the structure.
-    fn deflection(
+    fn is_lateral(&self) -> bool {
+        self.displacement == LimitedDisplacement::RunwayLateral
+    }
+
+    /// A deflection downwards, or to either side.
+    fn sized(&self, sag: f64) -> f64 {
+        if self.is_lateral() { sag.abs() } else { sag }
+    }
+
+    /// The deflections from the chord at the places `x` under the static loads of `wheels` on the structure; `None` where the
+    /// structure is unrestrained in this direction. `rail` is the rail within the structure.
+    fn sags(
         &self,
         surface: &dyn Compliance,
         rail: usize,
         wheels: &[(WheelLoad, f64)],
-    ) -> Option<(f64, f64)> {
+        x: &[f64],
+    ) -> Option<Vec<f64>> {
         let [from, to] = self.ends;
-        let lateral = self.displacement == LimitedDisplacement::RunwayLateral;
+        let lateral = self.is_lateral();
         let axis = if lateral {
             Axis::Lateral
         } else {
             Axis::Vertical
         };
-        let is_inside = |load: &WheelLoad| load.rail == rail && load.x > from && load.x < to;
-        let mut places: Vec<f64> = (0..=PLACES + 1)
-            .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
+        let at: Vec<Probe> = x
+            .iter()
+            .chain(&self.ends)
+            .map(|&x| Probe { rail, x, axis })
             .collect();
-        places.extend(
-            wheels
-                .iter()
-                .filter(|(load, _)| is_inside(load))
-                .map(|(load, _)| load.x),
-        );
-        let at: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
         let on = wheels
             .iter()
             .filter(|(load, _)| !lateral || load.rail == rail);
@@ -325,12 +399,11 @@ impl Span {
             .collect();
         let mut moved = vec![0.0; at.len()];
         surface.displacements(&at, &loads, &mut moved).ok()?;
-        let (first, last) = (moved[0], moved[PLACES + 1]);
-        let sags = places.iter().enumerate().map(|(i, &x)| {
+        let (inside, ends) = moved.split_at(x.len());
+        let sags = x.iter().zip(inside).map(|(&x, moved)| {
             let fraction = (x - from) / (to - from);
-            let sag = (1.0 - fraction) * first + fraction * last - moved[i];
-            (x, if lateral { sag.abs() } else { sag })
+            (1.0 - fraction) * ends[0] + fraction * ends[1] - moved
         });
-        sags.max_by(|a, b| a.1.total_cmp(&b.1))
+        Some(sags.collect())
     }
 }

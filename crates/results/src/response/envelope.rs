@@ -2,10 +2,11 @@
 //! and intervals in which wheels are off their rails.
 
 use serde_json::{Map, Value, json};
-use sim::{BodyDof, Channel, History};
+use sim::{BodyDof, Channel, Side, Solution};
 
 use super::loaded::WheelLoadReader;
 use crate::columns::NamedColumns;
+use crate::steps::{ColumnInstant, SteppedColumns};
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 use formats::scene::motion::SimulationInput;
@@ -26,8 +27,6 @@ pub struct ColumnEnvelope {
 pub struct ColumnExtreme {
     /// The value.
     pub value: f64,
-    /// Its row in the record.
-    pub row: usize,
     /// Its time.
     pub time: f64,
     /// Positions of the bodies at that time, by name: x along the track, or X, Y and Z in space.
@@ -37,48 +36,28 @@ pub struct ColumnExtreme {
 }
 
 impl ColumnEnvelope {
-    /// The envelopes of `columns` of `record`, which has the rows of `history`.
-    ///
-    /// # Errors
-    /// A column without values, or with fewer values than the record has rows.
+    /// The envelopes of `columns` of a run, whose values at the nodes of its solution `steps` has.
     pub fn all(
         columns: &[Column],
         scene: &Scene,
         input: &SimulationInput,
-        history: &History,
+        solution: &Solution,
         loads: &WheelLoadReader,
-        record: &NamedColumns,
-    ) -> Result<Vec<ColumnEnvelope>, practice::Error> {
-        if columns.is_empty() {
-            return Ok(Vec::new());
-        }
-        let series: Vec<&[f64]> = columns
-            .iter()
-            .map(|column| record.values(&column.name))
-            .collect();
-        let run = practice::RunHistories {
-            times: record.values("time"),
-            series: &series,
+        steps: &SteppedColumns,
+    ) -> Vec<ColumnEnvelope> {
+        let extreme = |at: &ColumnInstant| ColumnExtreme {
+            value: at.value,
+            ..scene_at(at.time, scene, input, solution, loads)
         };
-        let found = practice::envelope(&[run], columns.len())?;
-        let extreme = |index: usize, at: &practice::ExtremeInstant| {
-            let value = at.values[index];
-            ColumnExtreme {
-                value,
-                time: at.time,
-                ..scene_at(at.sample, scene, input, history, loads)
-            }
-        };
-        let each = columns
-            .iter()
-            .zip(&found)
-            .enumerate()
-            .map(|(index, (column, found))| ColumnEnvelope {
+        let each = columns.iter().filter_map(|column| {
+            let [max, min] = steps.extremes(steps.record.values(&column.name))?;
+            Some(ColumnEnvelope {
                 column: column.name.clone(),
-                max: extreme(index, &found.max),
-                min: extreme(index, &found.min),
-            });
-        Ok(each.collect())
+                max: extreme(&max),
+                min: extreme(&min),
+            })
+        });
+        each.collect()
     }
 
     /// The envelope as a member of `envelopes`.
@@ -113,22 +92,17 @@ impl ColumnExtreme {
     }
 }
 
-/// State of the scene at a row of the history, as an extreme of value 0.
+/// State of the scene at a time, as an extreme of value 0.
 fn scene_at(
-    row: usize,
+    time: f64,
     scene: &Scene,
     input: &SimulationInput,
-    history: &History,
+    solution: &Solution,
     loads: &WheelLoadReader,
 ) -> ColumnExtreme {
-    let sample = history.sample(row);
-    let of = |channel: Channel| {
-        history
-            .channels()
-            .iter()
-            .position(|c| *c == channel)
-            .map_or(0.0, |at| sample[at])
-    };
+    let mut sample = Vec::new();
+    solution.row(time, Side::Before, &mut sample);
+    let of = |channel: Channel| solution.position(channel).map_or(0.0, |at| sample[at]);
     let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
         let all: &[BodyDof] = if body.in_space {
             &[BodyDof::X, BodyDof::Y, BodyDof::Z]
@@ -138,15 +112,14 @@ fn scene_at(
         let places = all.iter().map(|dof| of(Channel::Displacement(b, *dof)));
         (body.name.clone(), places.collect())
     });
-    let forces = loads.at(sample);
+    let forces = loads.at(&sample);
     let wheels = input.wheels.iter().zip(&forces).map(|(wheel, load)| {
         let [along, up, side] = load.force;
         (wheel.name.clone(), [0.0 - up, side, along])
     });
     ColumnExtreme {
         value: 0.0,
-        row,
-        time: sample[0],
+        time,
         bodies: bodies.collect(),
         wheels: wheels.collect(),
     }
@@ -196,9 +169,9 @@ pub(super) fn sways(scene: &Scene, record: &NamedColumns) -> Vec<Sway> {
 pub struct Uplift {
     /// Name of the wheel.
     pub wheel: String,
-    /// First output time without force.
+    /// Time from which it has no force.
     pub time: f64,
-    /// Duration until the next output time with force, or until the last output time.
+    /// How long.
     pub duration: f64,
 }
 
@@ -210,16 +183,15 @@ impl Uplift {
     }
 }
 
-/// All intervals without force at output times, wheel by wheel.
-pub(super) fn uplifts(input: &SimulationInput, record: &NamedColumns) -> Vec<Uplift> {
-    let time = record.values("time");
+/// All intervals without force, wheel by wheel.
+pub(super) fn uplifts(input: &SimulationInput, steps: &SteppedColumns) -> Vec<Uplift> {
     let of = |name: &str| {
-        let found = zero_intervals(time, record.part(name, "vertical"));
+        let found = steps.zeros(steps.record.part(name, "vertical"));
         let name = name.to_owned();
-        found.into_iter().map(move |[time, duration]| Uplift {
+        found.into_iter().map(move |[from, to]| Uplift {
             wheel: name.clone(),
-            time,
-            duration,
+            time: from,
+            duration: to - from,
         })
     };
     input
@@ -227,37 +199,4 @@ pub(super) fn uplifts(input: &SimulationInput, record: &NamedColumns) -> Vec<Upl
         .iter()
         .flat_map(|wheel| of(&wheel.name))
         .collect()
-}
-
-/// Start and duration of each interval of zeros.
-fn zero_intervals(time: &[f64], force: &[f64]) -> Vec<[f64; 2]> {
-    let mut found = Vec::new();
-    let mut since = None;
-    for (t, force) in time.iter().zip(force) {
-        match since {
-            None if *force == 0.0 => since = Some(*t),
-            Some(from) if *force != 0.0 => {
-                found.push([from, t - from]);
-                since = None;
-            }
-            _ => {}
-        }
-    }
-    if let (Some(from), Some(last)) = (since, time.last()) {
-        found.push([from, last - from]);
-    }
-    found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::zero_intervals;
-
-    #[test]
-    fn intervals_of_zeros_are_found_at_the_start_between_and_at_the_end() {
-        let time: Vec<f64> = (0..8).map(f64::from).collect();
-        let found = zero_intervals(&time, &[0.0, 0.0, 3.0, 0.0, 2.0, 1.0, 0.0, 0.0]);
-        assert_eq!(found, [[0.0, 2.0], [3.0, 1.0], [6.0, 1.0]]);
-        assert!(zero_intervals(&time, &[1.0; 8]).is_empty());
-    }
 }

@@ -6,6 +6,7 @@ use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, PlaceDisplacements, Probe};
 use trains::RailLoad;
 
+use super::over_time::TimeSearch;
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::BuiltFoundation;
@@ -108,6 +109,11 @@ impl WheelLoadReader {
             .filter(move |source| source.structure == structure)
     }
 
+    /// Rail coordinates of the loads of [`WheelLoadReader::at`].
+    pub(crate) fn places(&self, sample: &[f64]) -> impl Iterator<Item = f64> {
+        self.sources.iter().map(|source| source.load_in(sample).x)
+    }
+
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
@@ -129,16 +135,23 @@ pub(super) struct LoadedStructure<'a> {
     pub scene: &'a Scene,
     /// Index of the structure in the scene.
     pub s: usize,
-    pub history: &'a History,
+    /// The run, and its accuracy.
+    pub run: TimeSearch<'a>,
     pub loads: &'a WheelLoadReader,
     pub built: &'a BuiltFoundation,
 }
 
 impl LoadedStructure<'_> {
-    /// Loads on the structure at an output time.
-    pub fn on(&self, row: usize) -> Vec<WheelLoad> {
-        let all = self.loads.at(self.history.sample(row)).into_iter();
-        all.filter(|load| load.structure == self.s).collect()
+    /// Loads on the structure in a row of the solution.
+    pub fn on(&self, row: &[f64]) -> Vec<RailLoad> {
+        let on = self.loads.on(self.s);
+        on.map(|source| source.load_in(row)).collect()
+    }
+
+    /// Displacements of its degrees of freedom in a row.
+    pub fn dofs<'r>(&self, row: &'r [f64]) -> &'r [f64] {
+        let start = self.start();
+        start.map_or(&[][..], |at| &row[at..at + self.built.foundation.dofs()])
     }
 
     /// Whether the displacements can be computed: the structure is flexible, and its degrees of freedom, if any, were
@@ -151,39 +164,9 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Displacements at the probes at output time `row` under the loads `on` the structure at that time; `None` if
-    /// the structure is unrestrained in the direction of a probe.
-    ///
-    /// # Errors
-    /// [`Error::OffRail`] for a place beyond a rail.
-    pub fn displacements(
-        &self,
-        probes: &[Probe],
-        on: &[WheelLoad],
-        row: usize,
-    ) -> Result<Option<Vec<f64>>, Error> {
-        let foundation = &self.built.foundation;
-        let sample = self.history.sample(row);
-        let q = self
-            .start()
-            .map_or(&[][..], |at| &sample[at..at + foundation.dofs()]);
-        let loads: Vec<RailLoad> = on
-            .iter()
-            .map(|&WheelLoad { rail, x, force, .. }| RailLoad { rail, x, force })
-            .collect();
-        match displacements(foundation, probes, &loads, q) {
-            Ok(moved) => Ok(Some(moved)),
-            Err(Error::NoStiffness { .. }) => Ok(None),
-            Err(error) => Err(error),
-        }
-    }
-
     /// Channel of the first degree of freedom of the structure.
     fn start(&self) -> Option<usize> {
-        self.history
-            .channels()
-            .iter()
-            .position(|c| *c == Channel::Coordinate(self.s, 0))
+        self.run.solution.position(Channel::Coordinate(self.s, 0))
     }
 }
 

@@ -4,13 +4,14 @@
 //! All values are computed from the history after the run. Reactions and internal forces are the products of
 //! influence lines and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
 //!
-//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, this one, comparison.
+//! Files, lowest first: over_time, loaded, part_inertia, influence, envelope, serviceability, modes, this one, comparison.
 
 mod comparison;
 mod envelope;
 mod influence;
 mod loaded;
 mod modes;
+mod over_time;
 mod part_inertia;
 mod serviceability;
 
@@ -23,12 +24,15 @@ pub use loaded::{WheelLoad, WheelLoadReader};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift};
 
+pub(crate) use over_time::{LargestInTime, TimeSearch, crest, largest_along};
+
 use loaded::LoadedStructure;
 use serde_json::{Map, Value, json};
-use sim::{Channel, History};
+use sim::{Channel, History, Run, SolutionNodes};
 
 use crate::Error;
 use crate::columns::NamedColumns;
+use crate::steps::SteppedColumns;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
@@ -126,50 +130,57 @@ pub struct SolvedStructures<'s> {
 
 impl Response {
     /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built` and `lines` have
-    /// one entry per structure of `scene`.
+    /// one entry per structure of `scene`; `nodes` are those of the solution of the run, and the columns are added to `steps`, their
+    /// columns, as well.
     ///
     /// # Errors
-    /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
+    /// [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
         input: &SimulationInput,
-        history: &History,
+        (run, nodes): (&Run, &SolutionNodes),
         built: &[BuiltFoundation],
         solved: SolvedStructures<'_>,
         lines: &[Option<ColumnInfluence>],
-        record: &mut NamedColumns,
+        (record, steps): (&mut NamedColumns, &mut SteppedColumns),
     ) -> Result<Response, Error> {
+        let history = &run.history;
         let loads = WheelLoadReader::new(scene, input, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             if let Some(lines) = lines {
-                response.add_columns(scene, s, history, &loads, lines, record);
+                add_columns(scene, s, &nodes.rows, &loads, lines, &mut steps.record);
+                let is_incomplete = add_columns(scene, s, history, &loads, lines, record);
+                response.note_columns(scene, s, lines, is_incomplete);
             }
         }
-        response.envelopes =
-            ColumnEnvelope::all(&response.columns, scene, input, history, &loads, record)
-                .map_err(Error::Envelope)?;
-        for (s, structure) in scene.structures.iter().enumerate() {
-            let failed = |source| Error::Rails {
-                structure: structure.name.clone(),
-                source,
-            };
+        response.envelopes = ColumnEnvelope::all(
+            &response.columns,
+            scene,
+            input,
+            &run.solution,
+            &loads,
+            steps,
+        );
+        for s in 0..scene.structures.len() {
             let loaded = LoadedStructure {
                 scene,
                 s,
-                history,
+                run: TimeSearch {
+                    solution: &run.solution,
+                    nodes,
+                    accuracy: input.scene.accuracy,
+                },
                 loads: &loads,
                 built: &built[s],
             };
-            response
-                .deflections
-                .extend(serviceability::deflections(&loaded, solved).map_err(failed)?);
-            response
-                .drifts
-                .extend(serviceability::drifts(&loaded, solved.models[s]).map_err(failed)?);
+            let deflections = serviceability::deflections(&loaded, solved);
+            response.deflections.extend(deflections);
+            let drifts = serviceability::drifts(&loaded, solved.models[s]);
+            response.drifts.extend(drifts);
         }
-        response.uplifts = envelope::uplifts(input, record);
-        response.sways = envelope::sways(scene, record);
+        response.uplifts = envelope::uplifts(input, steps);
+        response.sways = envelope::sways(scene, &steps.record);
         Ok(response)
     }
 
@@ -180,40 +191,14 @@ impl Response {
         uplifts.min_by(|a, b| a.time.total_cmp(&b.time))
     }
 
-    /// Adds the columns of structure `s` to `record` and to the response.
-    fn add_columns(
+    /// Adds the columns of structure `s`, and a note where the structure does not resist all loads.
+    fn note_columns(
         &mut self,
         scene: &Scene,
         s: usize,
-        history: &History,
-        loads: &WheelLoadReader,
         lines: &ColumnInfluence,
-        record: &mut NamedColumns,
+        is_incomplete: bool,
     ) {
-        let start = history
-            .channels()
-            .iter()
-            .position(|c| *c == Channel::Acceleration(s, 0));
-        let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
-        let mut now = vec![0.0; lines.columns().len()];
-        let mut is_incomplete = false;
-        for i in 0..history.len() {
-            let sample = history.sample(i);
-            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
-            let on = loads.at(sample);
-            is_incomplete |= !lines.at(
-                on.iter().filter(|load| load.structure == s),
-                acceleration,
-                &mut now,
-            );
-            let dead = lines
-                .dead_load()
-                .iter()
-                .map(|own| if scene.output.dead_load { *own } else { 0.0 });
-            for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
-                column.push(value + dead);
-            }
-        }
         if is_incomplete {
             self.notes.push(format!(
                 "{}: its reactions neglect wheel forces in directions in which the structure is unrestrained",
@@ -221,10 +206,7 @@ impl Response {
             ));
         }
         self.dead_load.extend(lines.dead_load());
-        for (column, values) in lines.columns().iter().zip(values) {
-            record.push(column.name.clone(), column.dimension, values);
-            self.columns.push(column.clone());
-        }
+        self.columns.extend(lines.columns().iter().cloned());
     }
 
     /// The members of a run's summary that the response has.
@@ -277,4 +259,59 @@ impl Response {
         }
         out
     }
+}
+
+/// Adds the columns of `lines`, one entry for each structure of `scene`, to `record`, which has the rows of `history`; returns them.
+pub fn add_all_columns(
+    scene: &Scene,
+    input: &SimulationInput,
+    history: &History,
+    lines: &[Option<ColumnInfluence>],
+    record: &mut NamedColumns,
+) -> Vec<Column> {
+    let loads = WheelLoadReader::new(scene, input, history);
+    let mut added = Vec::new();
+    for (s, lines) in lines.iter().enumerate() {
+        if let Some(lines) = lines {
+            add_columns(scene, s, history, &loads, lines, record);
+            added.extend(lines.columns().iter().cloned());
+        }
+    }
+    added
+}
+
+/// Adds the columns of structure `s` to `record`, which has the rows of `history`; returns whether there are loads that the
+/// structure does not resist.
+fn add_columns(
+    scene: &Scene,
+    s: usize,
+    history: &History,
+    loads: &WheelLoadReader,
+    lines: &ColumnInfluence,
+    record: &mut NamedColumns,
+) -> bool {
+    let start = history.position(Channel::Acceleration(s, 0));
+    let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
+    let mut now = vec![0.0; lines.columns().len()];
+    let mut is_incomplete = false;
+    for sample in history.samples() {
+        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
+        let on = loads.at(sample);
+        is_incomplete |= !lines.at(
+            on.iter().filter(|load| load.structure == s),
+            acceleration,
+            &mut now,
+        );
+        let dead = lines
+            .dead_load()
+            .iter()
+            .map(|own| if scene.output.dead_load { *own } else { 0.0 });
+        for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
+            column.push(value + dead);
+        }
+    }
+    for (column, values) in lines.columns().iter().zip(values) {
+        record.push(column.name.clone(), column.dimension, values);
+    }
+    is_incomplete
 }

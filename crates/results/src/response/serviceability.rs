@@ -1,9 +1,9 @@
 //! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their
 //! height.
 //!
-//! Both are evaluated after a run. At selected output times the displacements of the rail are computed from the wheel
-//! forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at several
-//! positions within each span or at the columns of a frame. The largest value is stored with its position and time.
+//! Both are evaluated after a run, from the displacements of the rail by the wheel forces and the recorded degrees of freedom, u =
+//! G F + Phi q ([`LoadedStructure::displacements`]), at all places of each span or at the columns of a frame, and at all times. The
+//! largest value is stored with its position and time.
 
 use design::clause_json;
 use fea::{Model, Rail};
@@ -11,21 +11,19 @@ use nalgebra::Vector3;
 use practice::clause::{CodeClause, Evidence, aist_2021, en_1993_6};
 use practice::cmaa;
 use serde_json::{Value, json};
-use splines::{Axis, Error, Probe};
+use splines::{Axis, Probe};
+use trains::RailLoad;
 
 use super::SolvedStructures;
-use super::loaded::{LoadedStructure, WheelLoad, spread};
+use super::loaded::{LoadedStructure, PlaceMotions, displacements};
+use super::over_time::{LargestInTime, crest, largest_along};
 use formats::scene::Origin;
 use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
 use foundations::SolvedModel;
 
-/// Number of positions evaluated within a span.
-const PLACES: usize = 7;
-/// Largest number of output times at which a span is evaluated.
-const SPAN_TIMES: usize = 64;
-/// Largest number of output times at which a frame is evaluated.
-const FRAME_TIMES: usize = 300;
+/// Number of parts of a span at whose ends it is evaluated at all times.
+const PLACES: usize = 16;
 /// Usual limits of the ratio of span to deflection.
 const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 
@@ -86,22 +84,15 @@ impl Deflection {
 /// The largest deflections of every loaded span of the structure; none for rigid foundations, for tables, for rigid
 /// parts with separate contacts, and where the degrees of freedom of the structure were not recorded.
 ///
-/// Each span is evaluated at seven positions and at up to 64 output times, evenly distributed over those with a wheel
-/// on the span. With the displacement u(x) of the rail and the fraction l of the span at x, the deflection from the
-/// chord between the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
-///
-/// # Errors
-/// [`Error::OffRail`] for a place beyond a rail.
+/// With the displacement u(x) of the rail and the fraction l of the span at x, the deflection from the chord between the
+/// ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards. The largest one is that at any place, at any time with a
+/// wheel on the span ([`super::over_time`]).
 pub(super) fn deflections(
     loaded: &LoadedStructure<'_>,
     solved: SolvedStructures<'_>,
-) -> Result<Vec<Deflection>, Error> {
+) -> Vec<Deflection> {
     let LoadedStructure {
-        scene,
-        s,
-        history,
-        built,
-        ..
+        scene, s, built, ..
     } = *loaded;
     let (Origin::Spec { .. }, Some(_), true, None) = (
         &scene.structures[s].origin,
@@ -109,10 +100,12 @@ pub(super) fn deflections(
         loaded.is_known(),
         &built.foundation.parts,
     ) else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
-    let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
-    let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
+    let rows = &loaded.run.nodes.rows;
+    let lateral = rows
+        .samples()
+        .any(|row| loaded.on(row).iter().any(|load| load.force[2] != 0.0));
     let axes: &[(Axis, &'static str)] = match lateral {
         true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
         false => &[(Axis::Vertical, "vertical")],
@@ -127,77 +120,90 @@ pub(super) fn deflections(
         for (plane, &(axis, direction)) in axes.iter().enumerate() {
             for pair in solved.chords.get(index).map_or(&[][..], |own| &own[plane]) {
                 let span = [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])];
-                let [from, to] = span;
-                let inside = |load: &WheelLoad| {
-                    load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
-                };
-                let rows: Vec<usize> = (0..all.len())
-                    .filter(|&i| all[i].iter().any(inside))
-                    .collect();
-                if from >= to || rows.is_empty() {
+                if span[0] >= span[1] {
                     continue;
                 }
-                let places: Vec<f64> = (0..=PLACES + 1)
-                    .map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64)
-                    .collect();
                 let none = Deflection {
                     rail: rail.name.clone(),
                     direction,
                     span,
                     value: 0.0,
-                    x: from,
+                    x: span[0],
                     time: 0.0,
                 };
-                found.push(largest_deflection(
-                    loaded,
-                    none,
-                    (rail.rail, axis),
-                    &places,
-                    (&rows, &all),
-                )?);
+                found.extend(largest_deflection(loaded, none, (rail.rail, axis)));
             }
         }
     }
-    Ok(found)
+    found
 }
 
-/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the
-/// last place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every
-/// output time.
+/// The largest deflection of the span of `none` in one direction; `None` where no wheel comes onto the span.
 fn largest_deflection(
     loaded: &LoadedStructure<'_>,
     none: Deflection,
     (rail, axis): (usize, Axis),
-    places: &[f64],
-    (rows, all): (&[usize], &[Vec<WheelLoad>]),
-) -> Result<Deflection, Error> {
-    let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
-    let mut largest = none;
-    for row in spread(rows.len(), SPAN_TIMES).map(|k| rows[k]) {
-        // no deflection is reported in a direction in which the structure is unrestrained
-        let Some(moved) = loaded.displacements(&probes, &all[row], row)? else {
-            break;
-        };
-        let time = loaded.history.sample(row)[0];
-        for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
-            let fraction = k as f64 / (PLACES + 1) as f64;
-            let sag = (1.0 - fraction) * moved[0] + fraction * moved[PLACES + 1] - moved[k];
-            let value = if axis == Axis::Vertical {
-                sag
-            } else {
-                sag.abs()
-            };
-            if value > largest.value {
-                largest = Deflection {
-                    value,
-                    x,
-                    time,
-                    ..largest
-                };
-            }
+) -> Option<Deflection> {
+    let [from, to] = none.span;
+    let foundation = &loaded.built.foundation;
+    let is_inside =
+        |load: &RailLoad| load.rail == rail && load.x > from && load.x < to && load.force[1] != 0.0;
+    let (mut is_loaded, is_either) = (false, axis == Axis::Lateral);
+    let probe = |x: f64| Probe { rail, x, axis };
+    let few: Vec<f64> = (1..PLACES)
+        .map(|k| from + (to - from) * k as f64 / PLACES as f64)
+        .collect();
+    let probes: Vec<Probe> = few.iter().chain(&none.span).map(|x| probe(*x)).collect();
+    // no deflection is reported in a direction in which the structure is unrestrained
+    let places = PlaceMotions::new(foundation, &probes).ok();
+    let sag = |x: f64, moved: f64, [a, b]: [f64; 2]| {
+        let fraction = (x - from) / (to - from);
+        (1.0 - fraction) * a + fraction * b - moved
+    };
+    let near = loaded.run.near(&mut |row| {
+        let mut on = loaded.loads.on(loaded.s);
+        if !on.any(|source| is_inside(&source.load_in(row))) {
+            return None;
         }
+        is_loaded = true;
+        let places = places.as_ref()?;
+        let moved = places.under(&loaded.on(row), loaded.dofs(row), &[]).ok()?;
+        let (inside, ends) = moved.split_at(few.len());
+        let sags = few.iter().zip(inside).map(|(x, moved)| {
+            let sag = sag(*x, *moved, [ends[0], ends[1]]);
+            if is_either { sag.abs() } else { sag }
+        });
+        Some(crest(sags))
+    });
+    if !is_loaded {
+        return None;
     }
-    Ok(largest)
+    let rails = foundation.rails.get(rail);
+    let ends = none.span.map(probe);
+    let mut exact = |row: &[f64]| {
+        let mut breaks: Vec<f64> = rails.map_or(&[][..], |own| &own.breaks).to_vec();
+        let (on, dofs) = (loaded.on(row), loaded.dofs(row));
+        let own = on.iter().filter(|load| load.rail == rail);
+        breaks.extend(own.map(|load| load.x));
+        let chord = displacements(foundation, &ends, &on, dofs).ok()?;
+        largest_along(none.span, &mut breaks, is_either, &mut |x| {
+            let at: Vec<Probe> = x.iter().map(|x| probe(*x)).collect();
+            let moved = displacements(foundation, &at, &on, dofs).ok()?;
+            let sags = x.iter().zip(moved);
+            let sags = sags.map(|(x, moved)| sag(*x, moved, [chord[0], chord[1]]));
+            Some(sags.collect())
+        })
+    };
+    let found = loaded.run.largest(&near, &mut exact);
+    Some(match found {
+        Some(LargestInTime { value, x, time }) => Deflection {
+            value,
+            x,
+            time,
+            ..none
+        },
+        None => none,
+    })
 }
 
 /// Largest lateral displacement of a rail at the columns that carry it.
@@ -247,22 +253,11 @@ impl Drift {
     }
 }
 
-/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output
-/// times; none for rigid foundations, without lateral wheel forces, and where the degrees of freedom of the structure
-/// were not recorded.
-///
-/// # Errors
-/// [`Error::OffRail`] for a place beyond a rail.
-pub(super) fn drifts(
-    loaded: &LoadedStructure<'_>,
-    solved: Option<&SolvedModel>,
-) -> Result<Vec<Drift>, Error> {
+/// The column with the largest drift of every rail of a frame on the ground, at any time; none for rigid foundations, without
+/// lateral wheel forces, and where the degrees of freedom of the structure were not recorded.
+pub(super) fn drifts(loaded: &LoadedStructure<'_>, solved: Option<&SolvedModel>) -> Vec<Drift> {
     let LoadedStructure {
-        scene,
-        s,
-        history,
-        built,
-        ..
+        scene, s, built, ..
     } = *loaded;
     let structure = &scene.structures[s];
     let (Origin::Spec { spec, .. }, Some(solved), true, None, None) = (
@@ -272,18 +267,15 @@ pub(super) fn drifts(
         &built.foundation.parts,
         structure.carrier,
     ) else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
-    if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
-        return Ok(Vec::new());
+    if matches!(spec.form, Form::Girder(_)) {
+        return Vec::new();
     }
-    let all: Vec<(usize, Vec<WheelLoad>)> = spread(history.len(), FRAME_TIMES)
-        .map(|row| (row, loaded.on(row)))
-        .collect();
-    let is_loaded = all
-        .iter()
-        .flat_map(|(_, loads)| loads)
-        .any(|load| load.force[2] != 0.0);
+    let rows = &loaded.run.nodes.rows;
+    let is_loaded = rows
+        .samples()
+        .any(|row| loaded.on(row).iter().any(|load| load.force[2] != 0.0));
     let mut found = Vec::new();
     for rail in scene
         .rails
@@ -304,7 +296,7 @@ pub(super) fn drifts(
         };
         let probes: Vec<Probe> = columns.iter().map(probe).collect();
         let limits = drift_limits(scene.units, height);
-        let mut largest = Drift {
+        let none = Drift {
             rail: rail.name.clone(),
             x: columns[0],
             height,
@@ -312,25 +304,27 @@ pub(super) fn drifts(
             time: 0.0,
             limits,
         };
-        for (row, on) in &all {
-            let Some(moved) = loaded.displacements(&probes, on, *row)? else {
-                break;
-            };
-            let time = history.sample(*row)[0];
-            for (x, moved) in columns.iter().zip(moved) {
-                if moved.abs() > largest.value {
-                    largest = Drift {
-                        x: *x,
-                        value: moved.abs(),
-                        time,
-                        ..largest
-                    };
-                }
-            }
-        }
-        found.push(largest);
+        let Ok(places) = PlaceMotions::new(&built.foundation, &probes) else {
+            continue;
+        };
+        let mut moved = |row: &[f64]| {
+            let moved = places.under(&loaded.on(row), loaded.dofs(row), &[]).ok()?;
+            let each = columns.iter().zip(moved);
+            let each = each.map(|(x, moved)| [moved.abs(), *x]);
+            each.reduce(|a, b| if b[0] > a[0] { b } else { a })
+        };
+        let near = loaded.run.near(&mut |row| Some(moved(row)?[0]));
+        let largest = loaded.run.largest(&near, &mut moved);
+        found.push(
+            largest.map_or(none.clone(), |LargestInTime { value, x, time }| Drift {
+                value,
+                x,
+                time,
+                ..none
+            }),
+        );
     }
-    Ok(found)
+    found
 }
 
 /// Limits of the drift of a rail at `height` over the lowest support: clause, formula, displacement.

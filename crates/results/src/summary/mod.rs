@@ -7,6 +7,7 @@ use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
 use crate::fatigue;
 use crate::run_error;
+use crate::steps::{ColumnInstant, ColumnPeak};
 use crate::verdict::verdict;
 use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
@@ -61,12 +62,7 @@ pub fn schema() -> Value {
 /// The summary of one run as JSON; `number` is that of its case in the document, from 1.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
-    let CaseResult {
-        run,
-        columns: record,
-        choices,
-        ..
-    } = outcome;
+    let CaseResult { run, choices, .. } = outcome;
     let (word, why) = run_error::status(&run.status);
     let structures = scene.structures.iter().enumerate();
     let structures: Map<String, Value> = structures
@@ -76,7 +72,7 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
         "status": word,
         "analysis": match scene.analysis { Analysis::Dynamic => "dynamic", Analysis::QuasiStatic => "quasi-static" },
         "foundation": structures,
-        "peaks": peaks(record),
+        "peaks": peaks(&outcome.peaks),
         "steps": {
             "accepted": run.counts.steps,
             "rejected": run.counts.rejected,
@@ -245,28 +241,13 @@ fn tried(tried: &FidelityTrial) -> Value {
 }
 
 /// Largest and smallest value of every column, with their times.
-fn peaks(record: &NamedColumns) -> Value {
-    let time = record.values("time");
-    let mut peaks = Map::new();
-    for column in record
-        .columns
-        .iter()
-        .skip(1)
-        .filter(|column| !column.values.is_empty())
-    {
-        let mut at = [0, 0];
-        for (i, value) in column.values.iter().enumerate() {
-            if *value > column.values[at[0]] {
-                at[0] = i;
-            }
-            if *value < column.values[at[1]] {
-                at[1] = i;
-            }
-        }
-        let [most, least] = at.map(|i| json!({ "value": column.values[i] + 0.0, "time": time[i] }));
-        peaks.insert(column.name.clone(), json!({ "max": most, "min": least }));
-    }
-    Value::Object(peaks)
+fn peaks(found: &[ColumnPeak]) -> Value {
+    let instant = |at: &ColumnInstant| json!({ "value": at.value + 0.0, "time": at.time + 0.0 });
+    let each = found.iter().map(|peak| {
+        let members = json!({ "max": instant(&peak.max), "min": instant(&peak.min) });
+        (peak.column.clone(), members)
+    });
+    Value::Object(each.collect())
 }
 
 /// Units of the columns, by name.

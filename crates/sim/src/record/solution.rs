@@ -184,6 +184,35 @@ impl Solution {
         History::of(self.channels.clone(), values)
     }
 
+    /// Rows at the nodes of all intervals, of which each has one at either end: where values jump there are two of one time.
+    #[must_use]
+    pub fn intervals(&self) -> SolutionNodes {
+        let (mut values, mut intervals, mut count) = (Vec::new(), Vec::new(), 1);
+        self.put(0.0, Side::After, &self.start, &mut values);
+        let mut last: &[f64] = &self.start;
+        for piece in self.function.pieces() {
+            let mut each = piece.nodes().nodes().iter().zip(piece.rows()).peekable();
+            if let Some((_, row)) = each.next_if(|(_, row)| *row == last) {
+                last = row;
+            } else if let Some((_, row)) = each.next() {
+                self.put(piece.interval[0], Side::After, row, &mut values);
+                (last, count) = (row, count + 1);
+            }
+            intervals.push(NodeInterval {
+                first: count - 1,
+                degree: piece.degree(),
+            });
+            for (node, row) in each {
+                self.put(piece.time(*node), Side::Before, row, &mut values);
+                (last, count) = (row, count + 1);
+            }
+        }
+        SolutionNodes {
+            rows: History::of(self.channels.clone(), values),
+            intervals,
+        }
+    }
+
     /// A sum of channels with factors in interval `k` as a polynomial of the share of the interval.
     #[must_use]
     pub fn polynomial(&self, k: usize, terms: &[(Channel, f64)]) -> Polynomial {
@@ -252,6 +281,24 @@ impl Solution {
             value: 0.0 - value,
         })
     }
+}
+
+/// Rows at the nodes of the intervals of a solution.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SolutionNodes {
+    /// The rows, by increasing time.
+    pub rows: History,
+    /// The intervals.
+    pub intervals: Vec<NodeInterval>,
+}
+
+/// An interval of a solution in which every quantity is nearly the polynomial through its values at the nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeInterval {
+    /// Number of the row at its start; those of the other nodes follow.
+    pub first: usize,
+    /// Degree of the polynomials, one less than the number of nodes.
+    pub degree: usize,
 }
 
 /// Kinds of channels, whose values are of one size.

@@ -20,7 +20,7 @@ use foundations::{BuiltFoundation, ComputedModes, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
 use results::cases::records_dofs;
 use results::columns::NamedColumns;
-use results::response::{self, Response, SolvedStructures};
+use results::response;
 
 /// Builds the foundations of settings, and caches modes and tables that several settings use.
 pub struct SetupCache<'k> {
@@ -108,26 +108,16 @@ impl<'k> SetupCache<'k> {
             .collect();
         let lines = response::influence_lines(scene, &built, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
-        let response = Response::new(
-            scene,
-            &case.input,
-            &run.history,
-            &built,
-            SolvedStructures {
-                models: &solved,
-                chords: &[],
-            },
-            &lines,
-            &mut record,
-        )?;
+        let added =
+            response::add_all_columns(scene, &case.input, &run.history, &lines, &mut record);
         let own = quantities(scene).len();
         let mut columns = ComparedColumns {
             time: record.values("time").to_vec(),
             columns: Vec::new(),
         };
         for (index, column) in record.columns.into_iter().enumerate() {
-            let is_reaction = index >= own
-                && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
+            let is_reaction =
+                index >= own && added[index - own].kind == formats::scene::columns::Kind::Reaction;
             if let Some(quantity) = ErrorGroup::of(&column, scene, index < own, is_reaction) {
                 columns.columns.push((column.name, quantity, column.values));
             }
