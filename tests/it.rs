@@ -8,6 +8,7 @@ mod crane;
 mod deck;
 mod design;
 mod examples;
+mod extremes;
 mod history;
 mod house;
 mod import;

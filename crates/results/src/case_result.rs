@@ -11,7 +11,7 @@ use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
 use crate::girders::{DeferredGirders, GirderExtremes};
 use crate::response::{ColumnInfluence, Response};
-use crate::steps::{ColumnInstant, ColumnPeak};
+use crate::steps::ColumnPeak;
 
 /// The result of one case: its run and the quantities computed from it.
 ///
@@ -89,12 +89,11 @@ impl CaseResult {
         )
     }
 
-    /// The largest value of the column `<owner>.<part>`; `None` where there is none.
+    /// The peaks of the column `<owner>.<part>`; `None` where there is none.
     #[must_use]
-    pub fn largest(&self, owner: &str, part: &str) -> Option<ColumnInstant> {
+    pub fn peak(&self, owner: &str, part: &str) -> Option<&ColumnPeak> {
         let name = format!("{owner}.{part}");
-        let peak = self.peaks.iter().find(|peak| peak.column == name)?;
-        Some(peak.max)
+        self.peaks.iter().find(|peak| peak.column == name)
     }
 
     /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders

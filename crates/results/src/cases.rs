@@ -19,8 +19,8 @@ use crate::fatigue;
 use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::plane_spans::plane_spans;
-use crate::response::{self, Response, SceneMode, SolvedStructures, TimeSearch};
-use crate::steps::SteppedColumns;
+use crate::response::{self, ColumnEnvelope, Response, SceneMode, SolvedStructures, TimeSearch};
+use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
@@ -312,7 +312,7 @@ fn run_case(
         input,
         run,
         columns: record,
-        peaks: steps.peaks(),
+        peaks: peaks(&steps, &response.envelopes),
         choices,
         lines,
         response,
@@ -324,6 +324,21 @@ fn run_case(
         second_order: OnceLock::new(),
         warnings: OnceLock::new(),
     })
+}
+
+/// The peaks of all columns. Those of influence lines are their envelopes, which see the times between the nodes.
+fn peaks(steps: &SteppedColumns, envelopes: &[ColumnEnvelope]) -> Vec<ColumnPeak> {
+    let mut peaks = steps.peaks();
+    for peak in &mut peaks {
+        let known = envelopes.iter().find(|own| own.column == peak.column);
+        if let Some(known) = known {
+            [peak.max, peak.min] = [&known.max, &known.min].map(|own| ColumnInstant {
+                value: own.value,
+                time: own.time,
+            });
+        }
+    }
+    peaks
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

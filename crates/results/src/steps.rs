@@ -51,6 +51,18 @@ pub struct ColumnPeak {
     pub min: ColumnInstant,
 }
 
+impl ColumnPeak {
+    /// The peak of larger magnitude.
+    #[must_use]
+    pub fn largest(&self) -> ColumnInstant {
+        if self.min.value.abs() > self.max.value.abs() {
+            self.min
+        } else {
+            self.max
+        }
+    }
+}
+
 impl SteppedColumns {
     /// The columns of a run of `scene`.
     #[must_use]
@@ -107,6 +119,30 @@ impl SteppedColumns {
         }
         best.value *= sign;
         Some(best)
+    }
+
+    /// The intervals in which sign times a column is largest, at most `count` of them, the largest first: starts and ends.
+    pub(crate) fn largest_intervals(
+        &self,
+        values: &[f64],
+        sign: f64,
+        count: usize,
+    ) -> Vec<[f64; 2]> {
+        let times = self.times();
+        let most = |own: &NodeInterval| {
+            let values = &values[own.first..=own.first + own.degree];
+            let size = |most: f64, value: &f64| most.max(sign * value);
+            values.iter().fold(f64::NEG_INFINITY, size)
+        };
+        let mut all: Vec<(f64, &NodeInterval)> =
+            self.intervals.iter().map(|own| (most(own), own)).collect();
+        let count = count.min(all.len());
+        if count == 0 {
+            return Vec::new();
+        }
+        all.select_nth_unstable_by(count - 1, |a, b| b.0.total_cmp(&a.0));
+        let ends = |own: &NodeInterval| [0, own.degree].map(|k| times[own.first + k]);
+        all[..count].iter().map(|(_, own)| ends(own)).collect()
     }
 
     /// The largest and the smallest of the `values` of a column at the nodes and between them; `None` without rows.

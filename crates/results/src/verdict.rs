@@ -308,7 +308,7 @@ fn not_judged(scene: &Scene, outcome: &CaseResult) -> Vec<OmittedCheck> {
     if let Some(first) = outcome.response.first_uplift() {
         let count = outcome.response.uplifts.len();
         let reason = format!(
-            "at the output times wheels are without contact {count} times, first {} at {:.4} s; no limit bears on this",
+            "wheels are without contact {count} times, first {} at {:.4} s; no limit bears on this",
             first.wheel, first.time
         );
         out.push(OmittedCheck::new("uplift of wheels", reason));

@@ -42,7 +42,7 @@ const ALTERNATIVES: [(Method, f64); 6] = [
 ];
 
 /// Length of the first step that is tried, relative to the run.
-const FIRST: f64 = 1e-3;
+const FIRST: f64 = 1e-4;
 
 /// Times that differ by less, relative to them, are the same.
 const SAME_TIME: f64 = 1e-14;

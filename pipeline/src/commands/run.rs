@@ -21,7 +21,6 @@ use outputs::folder::OutputFolder;
 use outputs::planned::{check_names, planned_files};
 use outputs::run_files::{WrittenRun, write_run};
 use results::cases::{RunOptions, SimulationProgress};
-use results::columns::peak;
 use results::preflight;
 use results::scene_run::SceneRun;
 use results::verdict::verdict;
@@ -193,12 +192,12 @@ fn tell(run: &SceneRun, progress: &Progress) {
     let unit = scene.units.length.word();
     for outcome in &run.cases {
         for body in &scene.bodies {
-            let Some((_, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else {
+            let Some(deepest) = outcome.peak(&body.name, "deflection") else {
                 continue;
             };
             progress.say(&format!(
-                "{}: {}: maximum deflection {deepest:.6} {unit} at the output times",
-                outcome.label, body.name
+                "{}: {}: maximum deflection {:.6} {unit}",
+                outcome.label, body.name, deepest.max.value
             ));
         }
     }

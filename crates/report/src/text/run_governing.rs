@@ -11,6 +11,7 @@ use formats::scene::columns::Direction;
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
+use results::steps::ColumnInstant;
 use trains::GirderResponse;
 
 /// Significant digits of values.
@@ -116,8 +117,7 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
         ""
     };
     let caption = format!(
-        "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure; sampled \
-         values are the largest at the output times",
+        "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure",
         run_name(&first.label)
     );
     ReportTable {
@@ -185,7 +185,7 @@ fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> 
     let row = |direction: &str| {
         let (ratio, found) = worst(first, direction)?;
         let same = others.iter().filter_map(|other| worst(other, direction));
-        let words = format!("{direction} deflection from the chord, sampled");
+        let words = format!("{direction} deflection from the chord");
         Some(GoverningRow {
             more: format!(" = L/{ratio:.0}"),
             x: TableCell::from(digits(found.x, DIGITS)),
@@ -211,39 +211,41 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
                 sign * value
             }
         };
-        let mut best: Option<(f64, usize, usize)> = None;
-        for (wheel, own) in outcome.input.wheels.iter().enumerate() {
-            for (row, value) in outcome.columns.part(&own.name, part).iter().enumerate() {
-                if best.is_none_or(|(known, ..)| size(*value) > size(known)) {
-                    best = Some((*value, wheel, row));
-                }
+        let wheels = outcome.input.wheels.iter().enumerate();
+        let peaks = wheels.filter_map(|(wheel, own)| {
+            let peak = outcome.peak(&own.name, part)?;
+            let at = if size(peak.min.value) > size(peak.max.value) {
+                peak.min
+            } else {
+                peak.max
+            };
+            Some((at, wheel))
+        });
+        peaks.reduce(|a, b| {
+            if size(b.0.value) > size(a.0.value) {
+                b
+            } else {
+                a
             }
-        }
-        best
+        })
     };
-    let size = worst(first, "vertical", 0.0).map_or(0.0, |(value, ..)| value.abs());
+    let size = worst(first, "vertical", 0.0).map_or(0.0, |(at, _)| at.value.abs());
     let kinds = [
-        ("largest vertical wheel force, sampled", "vertical", 1.0),
-        ("smallest vertical wheel force, sampled", "vertical", -1.0),
-        ("largest lateral wheel force, sampled", "lateral", 0.0),
+        ("largest vertical wheel force", "vertical", 1.0),
+        ("smallest vertical wheel force", "vertical", -1.0),
+        ("largest lateral wheel force", "lateral", 0.0),
     ];
     let row = |(words, part, sign): (&str, &str, f64)| {
-        let (value, wheel, row) = worst(first, part, sign)
-            .filter(|(value, ..)| part == "vertical" || !is_rounding(*value, size))?;
+        let (ColumnInstant { value, time }, wheel) = worst(first, part, sign)
+            .filter(|(at, _)| part == "vertical" || !is_rounding(at.value, size))?;
         let name = &first.input.wheels[wheel].name;
-        let x = first.columns.part(name, "x").get(row).copied();
-        let time = first
-            .columns
-            .values("time")
-            .get(row)
-            .copied()
-            .unwrap_or_default();
+        let x = first.columns.at_time(name, "x", time);
         Some(GoverningRow {
-            x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
+            x: TableCell::from(digits(x, DIGITS)),
             others: others
                 .iter()
                 .filter_map(|other| worst(other, part, sign))
-                .map(|found| found.0)
+                .map(|(at, _)| at.value)
                 .collect(),
             size,
             ..GoverningRow::new(words, (&unit, factor), value, name, time)

@@ -108,9 +108,7 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let length = scene.units.label(Dimension::LENGTH);
     let (unit, factor) = deflection_unit(scene.units);
     let mut table = ReportTable {
-        caption:
-            "Largest deflection of every body below the unloaded rail, sampled at the output times."
-                .to_owned(),
+        caption: "Largest deflection of every body below the unloaded rail.".to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
             TableColumn::new("body", ""),
@@ -125,10 +123,10 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     for body in &scene.bodies {
         let mut first = None;
         for outcome in outcomes {
-            let Some(ColumnInstant { value, time }) = outcome.largest(&body.name, "deflection")
-            else {
+            let Some(peak) = outcome.peak(&body.name, "deflection") else {
                 continue;
             };
+            let ColumnInstant { value, time } = peak.max;
             let deepest = value;
             let base = *first.get_or_insert(deepest);
             let change = if base == 0.0 {
@@ -291,7 +289,7 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let mut table = ReportTable {
         caption: format!(
-            "Wheel forces of the run \"{}\", sampled at the output times.",
+            "Wheel forces of the run \"{}\".",
             run_name(&outcomes[0].label)
         ),
         columns: vec![
@@ -305,16 +303,9 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     };
     for wheel in &outcomes[0].input.wheels {
         let name = &wheel.name;
-        let values = |part: &str| outcomes[0].columns.part(name, part);
-        let largest = |part: &str| {
-            values(part)
-                .iter()
-                .fold(0.0_f64, |max, value| max.max(value.abs()))
-        };
-        let least = values("vertical")
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
+        let peak = |part: &str| outcomes[0].peak(name, part);
+        let largest = |part: &str| peak(part).map_or(0.0, |peak| peak.largest().value.abs());
+        let least = peak("vertical").map_or(0.0, |peak| peak.min.value);
         table.rows.push(vec![
             TableCell::from(name.clone()),
             TableCell::from(factor * largest("vertical")),

@@ -27,7 +27,7 @@ use foundations::{BuiltFoundation, SolvedModel};
 const MAX_VALUES: usize = 2_000_000;
 /// Tolerances within which loads are straight lines between the rows that are needed, and the largest number of values of
 /// these rows, finer and coarser. Also where the number of values decides, the finer ones are more.
-const NEEDED: [(f64, usize); 2] = [(1e-5, 3 * MAX_VALUES), (1e-4, MAX_VALUES)];
+const NEEDED: [(f64, usize); 2] = [(1e-5, usize::MAX), (1e-4, usize::MAX)];
 /// Largest number of values that a scan evaluates of the rows of long steps.
 const MAX_SAMPLED: usize = 3 * MAX_VALUES;
 /// Number of rows beside a time at which a load is at an end of a member that are kept: cubic polynomials do not extend across

@@ -152,17 +152,27 @@ impl Response {
                 add_columns(scene, s, &nodes.rows, &loads, lines, &mut steps.record);
                 let is_incomplete = add_columns(scene, s, history, &loads, lines, record);
                 response.note_columns(scene, s, lines, is_incomplete);
+                response.envelopes.extend(ColumnEnvelope::all(
+                    lines.columns(),
+                    scene,
+                    input,
+                    &run.solution,
+                    &loads,
+                    steps,
+                    &|row| {
+                        values_in(
+                            scene,
+                            (s, nodes.rows.position(Channel::Acceleration(s, 0))),
+                            &loads,
+                            lines,
+                            row,
+                        )
+                        .0
+                    },
+                ));
             }
         }
-        response.envelopes = ColumnEnvelope::all(
-            &response.columns,
-            scene,
-            input,
-            &run.solution,
-            &loads,
-            steps,
-        );
-        for s in 0..scene.structures.len() {
+        for (s, built) in built.iter().enumerate() {
             let loaded = LoadedStructure {
                 scene,
                 s,
@@ -172,7 +182,7 @@ impl Response {
                     accuracy: input.scene.accuracy,
                 },
                 loads: &loads,
-                built: &built[s],
+                built,
             };
             let deflections = serviceability::deflections(&loaded, solved);
             response.deflections.extend(deflections);
@@ -292,26 +302,37 @@ fn add_columns(
 ) -> bool {
     let start = history.position(Channel::Acceleration(s, 0));
     let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
-    let mut now = vec![0.0; lines.columns().len()];
     let mut is_incomplete = false;
     for sample in history.samples() {
-        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
-        let on = loads.at(sample);
-        is_incomplete |= !lines.at(
-            on.iter().filter(|load| load.structure == s),
-            acceleration,
-            &mut now,
-        );
-        let dead = lines
-            .dead_load()
-            .iter()
-            .map(|own| if scene.output.dead_load { *own } else { 0.0 });
-        for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
-            column.push(value + dead);
+        let (now, is_complete) = values_in(scene, (s, start), loads, lines, sample);
+        is_incomplete |= !is_complete;
+        for (column, value) in values.iter_mut().zip(now) {
+            column.push(value);
         }
     }
     for (column, values) in lines.columns().iter().zip(values) {
         record.push(column.name.clone(), column.dimension, values);
     }
     is_incomplete
+}
+
+/// Values of the columns of structure `s` in a row, and whether it resists all loads; `start` is the position of its first
+/// acceleration.
+fn values_in(
+    scene: &Scene,
+    (s, start): (usize, Option<usize>),
+    loads: &WheelLoadReader,
+    lines: &ColumnInfluence,
+    row: &[f64],
+) -> (Vec<f64>, bool) {
+    let mut now = vec![0.0; lines.columns().len()];
+    let acceleration = start.map_or(&[][..], |at| &row[at..at + lines.dofs()]);
+    let on = loads.at(row);
+    let own = on.iter().filter(|load| load.structure == s);
+    let is_complete = lines.at(own, acceleration, &mut now);
+    if scene.output.dead_load {
+        let dead = now.iter_mut().zip(lines.dead_load());
+        dead.for_each(|(value, dead)| *value += dead);
+    }
+    (now, is_complete)
 }
