@@ -299,6 +299,9 @@ fn run_case(
     let built = built
         .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
         .collect();
+    let peaks = peaks(&steps, &response.envelopes);
+    // the nodes are not needed any more, and may be many
+    drop((nodes, steps));
     let inputs = GirderInputs::new(scene, built, Arc::clone(members), &mut run);
     let girders = match when {
         GirderTime::OnDemand => DeferredGirders::of(inputs),
@@ -312,7 +315,7 @@ fn run_case(
         input,
         run,
         columns: record,
-        peaks: peaks(&steps, &response.envelopes),
+        peaks,
         choices,
         lines,
         response,

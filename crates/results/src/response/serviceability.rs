@@ -2,7 +2,7 @@
 //! height.
 //!
 //! Both are evaluated after a run, from the displacements of the rail by the wheel forces and the recorded degrees of freedom, u =
-//! G F + Phi q ([`LoadedStructure::displacements`]), at all places of each span or at the columns of a frame, and at all times. The
+//! G F + Phi q ([`displacements`]), at all places of each span or at the columns of a frame, and at all times. The
 //! largest value is stored with its position and time.
 
 use design::clause_json;
