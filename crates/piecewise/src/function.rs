@@ -152,12 +152,6 @@ impl Piecewise {
     pub fn shrink(&mut self) {
         self.values.shrink_to_fit();
     }
-
-    /// Bytes of memory of the values.
-    #[must_use]
-    pub fn memory(&self) -> usize {
-        size_of::<f64>() * self.values.capacity()
-    }
 }
 
 impl<'a> Piece<'a> {

@@ -19,7 +19,9 @@ use crate::fatigue;
 use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::plane_spans::plane_spans;
-use crate::response::{self, ColumnEnvelope, Response, SceneMode, SolvedStructures, TimeSearch};
+use crate::response::{
+    self, ColumnEnvelope, ColumnExtreme, Response, SceneMode, SolvedStructures, TimeSearch,
+};
 use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
@@ -77,7 +79,7 @@ pub struct RunOptions {
 ///
 /// # Errors
 /// [`Error::Foundation`] for a foundation that cannot be built, [`Error::Run`] for a scene that cannot start,
-/// [`Error::NotFinite`] for a column with a value that is not a finite number, and the errors of [`Response::new`], [`CodeCheck::new`] and [`fatigue::fatigue_results`].
+/// [`Error::NotFinite`] for a column with a value that is not a finite number, and the errors of [`CodeCheck::new`] and [`fatigue::fatigue_results`].
 pub fn simulate(
     document: &Document,
     known: &[SolvedStructure],
@@ -214,7 +216,7 @@ fn run_case(
         .unwrap_or_else(|| foundation_label(&scene));
     let foundations::AutoRun {
         choices,
-        mut run,
+        run,
         built,
     } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
@@ -256,7 +258,7 @@ fn run_case(
         },
         &lines,
         (&mut record, &mut steps),
-    )?;
+    );
     let (mut foundations, bases): (Vec<Foundation>, Vec<_>) = built
         .into_iter()
         .map(|built| (built.foundation, built.basis))
@@ -300,9 +302,9 @@ fn run_case(
         .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
         .collect();
     let peaks = peaks(&steps, &response.envelopes);
-    // the nodes are not needed any more, and may be many
-    drop((nodes, steps));
-    let inputs = GirderInputs::new(scene, built, Arc::clone(members), &mut run);
+    // not needed any more, and may be large
+    drop(steps);
+    let inputs = GirderInputs::new(scene, built, Arc::clone(members), (&run, nodes));
     let girders = match when {
         GirderTime::OnDemand => DeferredGirders::of(inputs),
         GirderTime::WithRun => {
@@ -331,17 +333,25 @@ fn run_case(
 
 /// The peaks of all columns. Those of influence lines are their envelopes, which see the times between the nodes.
 fn peaks(steps: &SteppedColumns, envelopes: &[ColumnEnvelope]) -> Vec<ColumnPeak> {
-    let mut peaks = steps.peaks();
-    for peak in &mut peaks {
-        let known = envelopes.iter().find(|own| own.column == peak.column);
-        if let Some(known) = known {
-            [peak.max, peak.min] = [&known.max, &known.min].map(|own| ColumnInstant {
-                value: own.value,
-                time: own.time,
-            });
-        }
-    }
-    peaks
+    let instant = |own: &ColumnExtreme| ColumnInstant {
+        value: own.value,
+        time: own.time,
+    };
+    let columns = steps.record.columns.iter().skip(1);
+    let peak = columns.filter_map(|column| {
+        let known = envelopes.iter().find(|own| own.column == column.name);
+        let [max, min] = match known {
+            Some(known) => [&known.max, &known.min].map(instant),
+            None => steps.extremes(&column.values)?,
+        };
+        Some(ColumnPeak {
+            column: column.name.clone(),
+            dimension: column.dimension,
+            max,
+            min,
+        })
+    });
+    peak.collect()
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

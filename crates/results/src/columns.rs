@@ -98,28 +98,23 @@ impl NamedColumns {
         self.values(&format!("{owner}.{part}"))
     }
 
-    /// Value of the column `<owner>.<part>` at a time, by a straight line between the rows beside it; 0 where there is none.
+    /// Value of the column `<owner>.<part>` at a time, by a straight line between the rows beside it; `None`
+    /// where there is no such column.
     #[must_use]
-    pub fn at_time(&self, owner: &str, part: &str, time: f64) -> f64 {
+    pub fn at_time(&self, owner: &str, part: &str, time: f64) -> Option<f64> {
         let (times, values) = (self.values("time"), self.part(owner, part));
         let next = times
             .partition_point(|t| *t < time)
             .min(values.len().saturating_sub(1));
         let before = next.saturating_sub(1);
-        let Some([from, to]) = values
-            .get(before)
-            .zip(values.get(next))
-            .map(|(a, b)| [*a, *b])
-        else {
-            return 0.0;
-        };
+        let [from, to] = [*values.get(before)?, *values.get(next)?];
         let length = times[next] - times[before];
         let share = if length > 0.0 {
             (time - times[before]) / length
         } else {
             1.0
         };
-        from + share.clamp(0.0, 1.0) * (to - from)
+        Some(from + share.clamp(0.0, 1.0) * (to - from))
     }
 
     /// The points (x, y) of two columns.

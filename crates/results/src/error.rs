@@ -49,14 +49,6 @@ pub enum Error {
         /// The error of the structural solver.
         source: trains::Error,
     },
-    /// The deflections of a structure cannot be evaluated.
-    #[error("{structure}: {source}")]
-    Rails {
-        /// Name of the structure.
-        structure: String,
-        /// The error of its influence surface.
-        source: splines::Error,
-    },
     /// The cycles of a stress history cannot be counted.
     #[error("{column}: {source}")]
     Cycles {

@@ -157,22 +157,6 @@ impl SteppedColumns {
         Some([max, min])
     }
 
-    /// The peaks of all columns but time, in their order.
-    #[must_use]
-    pub fn peaks(&self) -> Vec<ColumnPeak> {
-        let columns = self.record.columns.iter().skip(1);
-        let peak = columns.filter_map(|column| {
-            let [max, min] = self.extremes(&column.values)?;
-            Some(ColumnPeak {
-                column: column.name.clone(),
-                dimension: column.dimension,
-                max,
-                min,
-            })
-        });
-        peak.collect()
-    }
-
     /// Starts and ends of the times at which a column is zero.
     #[must_use]
     pub fn zeros(&self, values: &[f64]) -> Vec<[f64; 2]> {
@@ -222,5 +206,57 @@ impl SteppedColumns {
             out.push(at(last));
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns with straight lines between the times 0, 1, 2 and so on.
+    fn straight(values: &[f64]) -> SteppedColumns {
+        let mut record = NamedColumns::default();
+        let times = (0..values.len()).map(|k| k as f64).collect();
+        record.push("time", Dimension::NUMBER, times);
+        let intervals = (1..values.len()).map(|k| NodeInterval {
+            first: k - 1,
+            degree: 1,
+        });
+        SteppedColumns {
+            intervals: intervals.collect(),
+            record,
+        }
+    }
+
+    #[test]
+    fn intervals_of_zeros_are_found_at_the_start_between_and_at_the_end() {
+        let force = [0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0];
+        let found = straight(&force).zeros(&force);
+        assert_eq!(found, [[0.0, 1.0], [3.0, 5.0], [7.0, 8.0]]);
+        // a zero at one time has no length
+        let touched = [1.0, 0.0, 1.0];
+        assert!(straight(&touched).zeros(&touched).is_empty());
+    }
+
+    /// Analytic: t (2 - t) in one interval of degree 2 has its largest value between the nodes of a coarser one.
+    #[test]
+    fn extremes_and_turns_lie_between_the_nodes() {
+        let mut own = straight(&[0.0, 0.0, 0.0]);
+        own.record = NamedColumns::default();
+        own.record
+            .push("time", Dimension::NUMBER, vec![0.0, 0.75, 1.5]);
+        own.intervals = vec![NodeInterval {
+            first: 0,
+            degree: 2,
+        }];
+        let values = [0.0, 0.9375, 0.75];
+        let [max, min] = own.extremes(&values).expect("rows");
+        assert!((max.value - 1.0).abs() < 1e-14 && (max.time - 1.0).abs() < 1e-12);
+        assert_eq!((min.value, min.time), (0.0, 0.0));
+        let turns: Vec<f64> = own.turns(&values).iter().map(|at| at.time).collect();
+        assert!(
+            turns.len() == 3 && (turns[1] - 1.0).abs() < 1e-12,
+            "{turns:?}"
+        );
     }
 }

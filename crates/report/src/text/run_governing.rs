@@ -241,7 +241,7 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
         let name = &first.input.wheels[wheel].name;
         let x = first.columns.at_time(name, "x", time);
         Some(GoverningRow {
-            x: TableCell::from(digits(x, DIGITS)),
+            x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
             others: others
                 .iter()
                 .filter_map(|other| worst(other, part, sign))

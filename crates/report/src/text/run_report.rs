@@ -139,7 +139,10 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
                 TableCell::from(run_name(&outcome.label)),
                 TableCell::from(body.name.clone()),
                 TableCell::from(factor * deepest),
-                TableCell::from(outcome.columns.at_time(&body.name, "x", time)),
+                outcome
+                    .columns
+                    .at_time(&body.name, "x", time)
+                    .map_or(TableCell::Empty, TableCell::from),
                 TableCell::from(time),
                 TableCell::from(rounded(change, 3)),
                 TableCell::from(status.to_owned()),

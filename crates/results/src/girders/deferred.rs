@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::{BuiltFoundation, SolvedModel, solution_of};
-use sim::{Foundation, History, Run};
+use sim::{Foundation, History, Run, SolutionNodes};
 
 use super::GirderExtremes;
 use super::rows::{Prepared, Recorded, of_run};
@@ -104,18 +104,18 @@ pub(crate) struct GirderInputs {
 }
 
 impl GirderInputs {
-    /// Keeps what is needed of a run of `scene` on the foundations `built`, and takes the ends of its steps.
+    /// Keeps what is needed of a run of `scene` on the foundations `built`, and of the nodes of its solution.
     pub fn new(
         scene: Scene,
         built: Vec<BuiltFoundation>,
         members: Arc<SolvedMembers>,
-        run: &mut Run,
+        (run, nodes): (&Run, SolutionNodes),
     ) -> GirderInputs {
         // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
         let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
         // static equilibria are solved at rows
         let steps = match run.method {
-            Some(_) => run.solution.nodes(),
+            Some(_) => nodes.increasing(),
             None => History::default(),
         };
         let has_rows = run.history.len() >= 2;

@@ -645,7 +645,7 @@ mod tests {
             &mut watch,
         );
         let run = run.expect("a scene that starts");
-        let history = &run.run.solution.nodes();
+        let history = &run.run.solution.intervals().increasing();
         let loads = WheelLoadReader::new(&scene, &input, history);
         let (all, is_stopped) = (SolvedMembers::new(&known), || false);
         let solved = solution_of(all.known(), &scene.structures[0].origin).expect("a spec");

@@ -132,9 +132,6 @@ impl Response {
     /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built` and `lines` have
     /// one entry per structure of `scene`; `nodes` are those of the solution of the run, and the columns are added to `steps`, their
     /// columns, as well.
-    ///
-    /// # Errors
-    /// [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
         input: &SimulationInput,
@@ -143,7 +140,7 @@ impl Response {
         solved: SolvedStructures<'_>,
         lines: &[Option<ColumnInfluence>],
         (record, steps): (&mut NamedColumns, &mut SteppedColumns),
-    ) -> Result<Response, Error> {
+    ) -> Response {
         let history = &run.history;
         let loads = WheelLoadReader::new(scene, input, history);
         let mut response = Response::default();
@@ -191,7 +188,7 @@ impl Response {
         }
         response.uplifts = envelope::uplifts(input, steps);
         response.sways = envelope::sways(scene, &steps.record);
-        Ok(response)
+        response
     }
 
     /// The earliest uplift of a wheel.

@@ -170,20 +170,6 @@ impl Solution {
         History::of(self.channels.clone(), values)
     }
 
-    /// Rows at the nodes of all polynomials: two at the times at which values jump, or one.
-    #[must_use]
-    pub fn nodes(&self) -> History {
-        let mut values = Vec::new();
-        self.put(0.0, Side::After, &self.start, &mut values);
-        for piece in self.function.pieces() {
-            let each = piece.nodes().nodes().iter().zip(piece.rows());
-            for (node, row) in each.skip(1) {
-                self.put(piece.time(*node), Side::Before, row, &mut values);
-            }
-        }
-        History::of(self.channels.clone(), values)
-    }
-
     /// Rows at the nodes of all intervals, of which each has one at either end: where values jump there are two of one time.
     #[must_use]
     pub fn intervals(&self) -> SolutionNodes {
@@ -213,13 +199,7 @@ impl Solution {
         }
     }
 
-    /// A sum of channels with factors in interval `k` as a polynomial of the share of the interval.
-    #[must_use]
-    pub fn polynomial(&self, k: usize, terms: &[(Channel, f64)]) -> Polynomial {
-        let (columns, fixed) = self.columns(terms);
-        self.in_piece(k, &columns, fixed)
-    }
-
+    /// A sum of columns and a constant in interval `k` as a polynomial of the share of the interval.
     fn in_piece(&self, k: usize, columns: &[(usize, f64)], fixed: f64) -> Polynomial {
         let own = self.function.piece(k).combination(columns);
         if fixed == 0.0 {
@@ -290,6 +270,21 @@ pub struct SolutionNodes {
     pub rows: History,
     /// The intervals.
     pub intervals: Vec<NodeInterval>,
+}
+
+impl SolutionNodes {
+    /// The rows at increasing times: where values jump, the one before the jump.
+    #[must_use]
+    pub fn increasing(mut self) -> History {
+        let mut last = f64::NEG_INFINITY;
+        self.rows.retain(|row| {
+            // the first channel is the time
+            let is_later = row[0] > last;
+            last = row[0];
+            is_later
+        });
+        self.rows
+    }
 }
 
 /// An interval of a solution in which every quantity is nearly the polynomial through its values at the nodes.

@@ -327,7 +327,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             )
             .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
-        // only a run with the accuracy of the result may become the result
         let least = if self.must_advance {
             ADVANCE.1 * fastest_bounce(&self.scene).min(self.scene.end)
         } else {
