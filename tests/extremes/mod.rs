@@ -161,3 +161,78 @@ fn page_one_does_not_depend_on_the_output_interval() {
         }
     }
 }
+
+/// External, the same run at an accuracy of 1e-8 and a far finer history: the reaction of a support while a wheel passes it was
+/// 5.853 kN at 1e-3.
+#[test]
+fn a_lateral_reaction_has_its_peak() {
+    let found = summary("lateral", &json!({}));
+    let most = number(&found["peaks"]["g.support2.lateral"]["max"]["value"]);
+    assert!((most / 6.1126 - 1.0).abs() < 1e-3, "{most}");
+}
+
+/// External, one trip at a fine history: the largest moment of a span is the same after any number of trips.
+#[test]
+fn trips_repeat_the_moments_of_one() {
+    let found = summary("trips", &json!({}));
+    let all = found["extremes"].as_array().expect("extremes");
+    let is_own = |entry: &&Value| {
+        entry["span"] == 3 && entry["quantity"] == "moment" && entry["kind"] == "max"
+    };
+    let moment = all.iter().find(is_own).map(|entry| number(&entry["value"]));
+    let moment = moment.expect("a moment of span 3");
+    assert!((moment / 128.0 - 1.0).abs() < 1e-3, "{moment}");
+}
+
+/// Identity: natural modes belong to stated positions, whatever the output interval.
+#[test]
+fn natural_modes_stand_at_their_positions() {
+    let [coarse, fine] = [0.04, 0.01].map(|dt| summary("modes", &json!({"output": {"dt": dt}})));
+    assert_eq!(coarse["natural_modes"], fine["natural_modes"]);
+    let mode = &fine["natural_modes"][0];
+    let x = number(&mode["positions"]["b"]);
+    // 2 m, 1.25 m in the first second, and 2.5 m/s up to 5.25 s
+    assert!(
+        (x - 13.875).abs() < 1e-9 && (number(&mode["time"]) - 5.25).abs() < 1e-12,
+        "{mode}"
+    );
+}
+
+/// Where wheels bounce without damping, the last digits of the input decide on the largest forces: from run to run they differ by
+/// a third, and the summary, the verdict and the first page say so. A bogie that lifts off, but is damped, is determined.
+#[test]
+fn what_bounces_do_not_determine_is_said() {
+    let found = summary("bounces", &json!({}));
+    let all = found["undetermined"].as_array().expect("undetermined");
+    let reaction = all
+        .iter()
+        .find(|own| own["quantity"] == "g.support2.vertical");
+    let reaction = reaction.unwrap_or_else(|| panic!("{all:?}"));
+    assert!(
+        number(&reaction["high"]) > 1.1 * number(&reaction["low"]),
+        "{reaction}"
+    );
+    let omitted = found["verdict"]["not_checked"]
+        .as_array()
+        .expect("checks that were not done");
+    let is_said = |own: &Value| {
+        own["check"]
+            .as_str()
+            .is_some_and(|check| check.contains("not determined"))
+    };
+    assert!(omitted.iter().any(is_said), "{omitted:?}");
+    let plain = summary("lift_off", &json!({}));
+    assert!(plain["undetermined"].is_null(), "{}", plain["undetermined"]);
+}
+
+/// A gauge and the envelope differ while an end stop is hit: the note says which of them has its force.
+#[test]
+fn a_run_says_where_end_stops_act() {
+    let found = summary("stop", &json!({}));
+    let notes = found["notes"].as_array().expect("notes");
+    let is_said = |note: &Value| {
+        note.as_str()
+            .is_some_and(|note| note.contains("forces of end stops (end) act"))
+    };
+    assert!(notes.iter().any(is_said), "{notes:?}");
+}

@@ -83,7 +83,7 @@ fn a_lateral_support_halves_no_vertical_span_of_a_run() {
             "{code}: {applied}, {known}"
         );
         assert_eq!(own["result"], "fail", "{own}");
-        assert_eq!(own["sampled"], true);
+        assert!(own["sampled"].is_null(), "{own}");
     }
     let ratios = summary["deflection_ratios"].as_array().expect("ratios");
     assert!(

@@ -108,6 +108,41 @@ impl Polynomial {
     }
 
     /// The first part has the first coefficients of all levels; the other is what is left in place.
+    /// The coefficients c of its powers, sum of c_k s^k: binomial(n, k) times the k-th difference of the Bernstein coefficients.
+    ///
+    /// ```
+    /// let cubic = piecewise::Polynomial::new([1.0, 1.0, 1.0, 2.0]); // 1 + s^3
+    /// assert_eq!(cubic.powers().as_slice(), [1.0, 0.0, 0.0, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn powers(&self) -> SmallVec<[f64; MAX_DEGREE + 1]> {
+        let n = self.degree();
+        let mut differences = self.coefficients.clone();
+        let mut binomial = 1.0;
+        let mut out = SmallVec::new();
+        for k in 0..=n {
+            out.push(binomial * differences[0]);
+            for i in 0..n - k {
+                differences[i] = differences[i + 1] - differences[i];
+            }
+            binomial *= (n - k) as f64 / (k + 1) as f64;
+        }
+        out
+    }
+
+    /// The polynomial on a part of the interval, as a function of the share of the part.
+    ///
+    /// ```
+    /// let square = piecewise::Polynomial::new([0.0, 0.0, 1.0]); // s^2
+    /// assert_eq!(square.part([0.5, 1.0]).value(0.5), 0.75 * 0.75);
+    /// ```
+    #[must_use]
+    pub fn part(&self, [from, to]: [f64; 2]) -> Polynomial {
+        let [first, _] = self.split(to);
+        let [_, own] = first.split(if to == 0.0 { 0.0 } else { from / to });
+        own
+    }
+
     fn split_of(first: Coefficients, second: Coefficients) -> [Polynomial; 2] {
         [
             Polynomial {

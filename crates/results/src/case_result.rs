@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 use formats::scene::motion::SimulationInput;
-use sim::{History, Run};
+use sim::{History, Run, Solution};
 
 use crate::codes::CodeCheck;
 use crate::columns::NamedColumns;
@@ -12,6 +12,7 @@ use crate::fatigue::FatigueResult;
 use crate::girders::{DeferredGirders, GirderExtremes};
 use crate::response::{ColumnInfluence, Response};
 use crate::steps::ColumnPeak;
+use crate::undetermined::Undetermined;
 
 /// The result of one case: its run and the quantities computed from it.
 ///
@@ -40,6 +41,8 @@ pub struct CaseResult {
     pub columns: NamedColumns,
     /// The largest and the smallest value of every column but time, at whatever time it has them.
     pub peaks: Vec<ColumnPeak>,
+    /// Extremes that the run does not determine.
+    pub undetermined: Vec<Undetermined>,
     /// The fidelity chosen for each structure whose foundation is "auto", with the reason.
     pub choices: Vec<sim::Choice>,
     /// Influence lines of the columns of each structure; `None` for a structure without columns.
@@ -74,19 +77,15 @@ impl CaseResult {
     /// ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)), the first who asks computes them.
     #[must_use]
     pub fn girders(&self) -> &GirderExtremes {
-        self.girders
-            .get(&self.input, &self.run.history, &self.response.envelopes)
+        self.girders.get(&self.input, &self.run.solution)
     }
 
     /// The extremes and envelopes of the girders as [`CaseResult::girders`] returns them; `None` where `go_on` has broken
     /// off. Who asks again computes them from the beginning.
     pub fn girders_while(&self, go_on: &dyn Fn() -> ControlFlow<()>) -> Option<&GirderExtremes> {
-        self.girders.get_while(
-            &self.input,
-            &self.run.history,
-            &self.response.envelopes,
-            &mut |_| go_on(),
-        )
+        let solution = &self.run.solution;
+        self.girders
+            .get_while(&self.input, solution, &mut || go_on())
     }
 
     /// The peaks of the column `<owner>.<part>`; `None` where there is none.
@@ -96,10 +95,12 @@ impl CaseResult {
         self.peaks.iter().find(|peak| peak.column == name)
     }
 
-    /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders
-    /// need them.
+    /// Drops the history of the run, whose values are in the columns, and its solution, unless extremes of girders are still to be
+    /// computed from it.
     pub fn drop_history(&mut self) {
-        self.girders.keep_rows(&mut self.run.history);
         self.run.history = History::default();
+        if self.girders.is_found() {
+            self.run.solution = Solution::default();
+        }
     }
 }

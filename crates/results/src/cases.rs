@@ -20,10 +20,13 @@ use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::plane_spans::plane_spans;
 use crate::response::{
-    self, ColumnEnvelope, ColumnExtreme, Response, SceneMode, SolvedStructures, TimeSearch,
+    self, ColumnExtreme, ColumnsInTime, Response, SceneMode, SolvedStructures, TimeSearch,
+    WheelLoadReader,
 };
 use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
+use crate::undetermined::{self, undetermined};
+use formats::scene::columns::Column;
 use formats::scene::motion::simulation_input;
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
@@ -39,8 +42,7 @@ pub enum SimulationProgress<'a> {
     Trial(&'a str),
 }
 
-/// When the extremes of girders are computed, which can take many times as long as a run: at all its steps, at many
-/// sections, and in repetitions with more rows. They are the same at either time.
+/// When the extremes of girders are computed, which can take longer than a run. They are the same at either time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GirderTime {
     /// With the run, on its thread; `progress` can break off.
@@ -245,7 +247,7 @@ fn run_case(
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
     let nodes = run.solution.intervals();
-    let mut steps = SteppedColumns::new(&scene, &nodes);
+    let steps = SteppedColumns::new(&scene, &nodes);
     let plane_spans = plane_spans(&scene, &solved);
     let mut response = Response::new(
         &scene,
@@ -257,7 +259,7 @@ fn run_case(
             chords: &plane_spans,
         },
         &lines,
-        (&mut record, &mut steps),
+        (&mut record, &steps),
     );
     let (mut foundations, bases): (Vec<Foundation>, Vec<_>) = built
         .into_iter()
@@ -267,6 +269,39 @@ fn run_case(
         foundation.recorded = recorded(s, foundation);
     }
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
+    let mut peaks = recorded_peaks(&steps);
+    let envelopes = response.columns.iter().zip(&response.envelopes);
+    peaks.extend(envelopes.map(|(column, own)| {
+        let instant = |own: &ColumnExtreme| ColumnInstant {
+            value: own.value,
+            time: own.time,
+        };
+        peak_of(column, [instant(&own.max), instant(&own.min)])
+    }));
+    let losses = undetermined::losses(&steps, input.wheels.iter().map(|wheel| wheel.name.clone()));
+    let mut again = |factor: f64| {
+        let accuracy = factor * input.scene.accuracy;
+        let other = sim::Scene {
+            accuracy,
+            ..input.scene.clone()
+        };
+        let run = sim::run_by(scene.stepping, &other, &foundations, watch).ok()?;
+        let nodes = run.solution.intervals();
+        let mut found = recorded_peaks(&SteppedColumns::new(&scene, &nodes));
+        let loads = WheelLoadReader::new(&scene, &input, &nodes.rows);
+        for (s, lines) in lines.iter().enumerate() {
+            let Some(lines) = lines else { continue };
+            let dofs = foundations[s].dofs();
+            let own = ColumnsInTime::new((&scene, s), (&run, &nodes), &loads, lines, dofs);
+            let each = lines.columns().iter().zip(own.extremes);
+            found.extend(each.map(|(column, extremes)| peak_of(column, extremes)));
+        }
+        run.status.is_complete().then_some(found)
+    };
+    let undetermined = match run.status.is_complete() {
+        true => undetermined(scene.accuracy, losses, &peaks, &mut again),
+        false => Vec::new(),
+    };
     let spans = SpanResponse {
         run: TimeSearch {
             solution: &run.solution,
@@ -277,7 +312,7 @@ fn run_case(
         spans: &plane_spans,
     };
     let codes = CodeCheck::new(&scene, &input, &steps.record, &spans)?;
-    let fatigue = fatigue::fatigue_results(&scene, &steps)?;
+    let fatigue = fatigue::fatigue_results(&scene, &response)?;
     let of_rail = |rail: &SceneRail| {
         let solved = solved[rail.structure];
         solved.is_some_and(|solved| twists_without_warping(&solved.model, &solved.rails[rail.rail]))
@@ -301,15 +336,20 @@ fn run_case(
     let built = built
         .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
         .collect();
-    let peaks = peaks(&steps, &response.envelopes);
     // not needed any more, and may be large
     drop(steps);
-    let inputs = GirderInputs::new(scene, built, Arc::clone(members), (&run, nodes));
+    let members = Arc::clone(members);
+    let inputs = GirderInputs {
+        scene,
+        built,
+        members,
+    };
     let girders = match when {
         GirderTime::OnDemand => DeferredGirders::of(inputs),
         GirderTime::WithRun => {
-            let found = Box::new(inputs).extremes(&input, &run.history, &response.envelopes, watch);
-            found.map_err(|_| Error::Stopped)?.into()
+            let end = input.scene.end;
+            let found = inputs.extremes(&input, (&run.solution, &nodes), &mut || watch(end));
+            found.ok_or(Error::Stopped)?.into()
         }
     };
     Ok(CaseResult {
@@ -318,6 +358,7 @@ fn run_case(
         run,
         columns: record,
         peaks,
+        undetermined,
         choices,
         lines,
         response,
@@ -331,27 +372,30 @@ fn run_case(
     })
 }
 
-/// The peaks of all columns. Those of influence lines are their envelopes, which see the times between the nodes.
-fn peaks(steps: &SteppedColumns, envelopes: &[ColumnEnvelope]) -> Vec<ColumnPeak> {
-    let instant = |own: &ColumnExtreme| ColumnInstant {
-        value: own.value,
-        time: own.time,
-    };
+/// The peaks of all columns of the solution itself.
+fn recorded_peaks(steps: &SteppedColumns) -> Vec<ColumnPeak> {
     let columns = steps.record.columns.iter().skip(1);
     let peak = columns.filter_map(|column| {
-        let known = envelopes.iter().find(|own| own.column == column.name);
-        let [max, min] = match known {
-            Some(known) => [&known.max, &known.min].map(instant),
-            None => steps.extremes(&column.values)?,
-        };
+        let [max, min] = steps.extremes(&column.values)?;
+        let (column, dimension) = (column.name.clone(), column.dimension);
         Some(ColumnPeak {
-            column: column.name.clone(),
-            dimension: column.dimension,
+            column,
+            dimension,
             max,
             min,
         })
     });
     peak.collect()
+}
+
+/// The peak of a column of influence lines.
+fn peak_of(column: &Column, [max, min]: [ColumnInstant; 2]) -> ColumnPeak {
+    ColumnPeak {
+        column: column.name.clone(),
+        dimension: column.dimension,
+        max,
+        min,
+    }
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

@@ -11,7 +11,8 @@ use serde_json::{Map, Value, json};
 
 use crate::Error;
 use crate::columns::bytes;
-use crate::steps::{ColumnInstant, SteppedColumns};
+use crate::response::Response;
+use crate::steps::ColumnInstant;
 use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
@@ -97,7 +98,7 @@ impl Resistance {
 ///
 /// # Errors
 /// [`Error::Cycles`] for a history that cannot be counted.
-pub fn fatigue_results(scene: &Scene, steps: &SteppedColumns) -> Result<Vec<FatigueResult>, Error> {
+pub fn fatigue_results(scene: &Scene, response: &Response) -> Result<Vec<FatigueResult>, Error> {
     let mut all = Vec::new();
     for structure in &scene.structures {
         let Origin::Spec { spec, .. } = &structure.origin else {
@@ -106,11 +107,11 @@ pub fn fatigue_results(scene: &Scene, steps: &SteppedColumns) -> Result<Vec<Fati
         for cut in &spec.effects {
             for point in &cut.points {
                 let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
-                let values = steps.record.values(&column);
-                let Some(detail) = point.detail.filter(|_| !values.is_empty()) else {
+                let turns = response.turns.iter().find(|(name, _)| *name == column);
+                let Some((detail, (_, turns))) = point.detail.zip(turns) else {
                     continue;
                 };
-                let result = fatigue_result(scene, column.clone(), detail, &steps.turns(values));
+                let result = fatigue_result(scene, column.clone(), detail, turns);
                 all.push(result.map_err(|source| Error::Cycles {
                     column: column.clone(),
                     source,

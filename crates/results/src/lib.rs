@@ -24,7 +24,7 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, steps, layout, plane_spans, response, girders, codes, fatigue, case_result, run_error, preflight, warning,
+//! Wings, lowest first: error, threads, columns, loads, steps, pieces, layout, plane_spans, response, undetermined, girders, codes, fatigue, case_result, run_error, preflight, warning,
 //! verdict, summary, observe, cases, scene_run, many
 
 pub mod case_result;
@@ -35,8 +35,10 @@ mod error;
 pub mod fatigue;
 pub mod girders;
 pub mod layout;
+mod loads;
 pub mod many;
 pub mod observe;
+mod pieces;
 mod plane_spans;
 pub mod preflight;
 pub mod response;
@@ -45,6 +47,7 @@ pub mod scene_run;
 pub mod steps;
 pub mod summary;
 pub mod threads;
+pub mod undetermined;
 pub mod verdict;
 pub mod warning;
 

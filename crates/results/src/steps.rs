@@ -121,30 +121,6 @@ impl SteppedColumns {
         Some(best)
     }
 
-    /// The intervals in which sign times a column is largest, at most `count` of them, the largest first: starts and ends.
-    pub(crate) fn largest_intervals(
-        &self,
-        values: &[f64],
-        sign: f64,
-        count: usize,
-    ) -> Vec<[f64; 2]> {
-        let times = self.times();
-        let most = |own: &NodeInterval| {
-            let values = &values[own.first..=own.first + own.degree];
-            let size = |most: f64, value: &f64| most.max(sign * value);
-            values.iter().fold(f64::NEG_INFINITY, size)
-        };
-        let mut all: Vec<(f64, &NodeInterval)> =
-            self.intervals.iter().map(|own| (most(own), own)).collect();
-        let count = count.min(all.len());
-        if count == 0 {
-            return Vec::new();
-        }
-        all.select_nth_unstable_by(count - 1, |a, b| b.0.total_cmp(&a.0));
-        let ends = |own: &NodeInterval| [0, own.degree].map(|k| times[own.first + k]);
-        all[..count].iter().map(|(_, own)| ends(own)).collect()
-    }
-
     /// The largest and the smallest of the `values` of a column at the nodes and between them; `None` without rows.
     #[must_use]
     pub fn extremes(&self, values: &[f64]) -> Option<[ColumnInstant; 2]> {
@@ -177,35 +153,6 @@ impl SteppedColumns {
             }
         }
         found
-    }
-
-    /// Values of a column in their order: those at the ends of intervals, and those at which it turns between them.
-    #[must_use]
-    pub fn turns(&self, values: &[f64]) -> Vec<ColumnInstant> {
-        let times = self.times();
-        let at = |row: usize| ColumnInstant {
-            value: values[row],
-            time: times[row],
-        };
-        let mut out: Vec<ColumnInstant> = (!values.is_empty()).then(|| at(0)).into_iter().collect();
-        let mut last = 0;
-        for &interval in &self.intervals {
-            let NodeInterval { first, degree } = interval;
-            if first != last {
-                out.push(at(first));
-            }
-            let polynomial = Lobatto::of(degree).polynomial(&values[first..=first + degree]);
-            let slope = polynomial.derivative();
-            if slope.bounds()[0] < 0.0 && slope.bounds()[1] > 0.0 {
-                out.extend(slope.roots().into_iter().map(|share| ColumnInstant {
-                    value: polynomial.value(share),
-                    time: Self::time(times, interval, share),
-                }));
-            }
-            last = first + degree;
-            out.push(at(last));
-        }
-        out
     }
 }
 
@@ -240,7 +187,7 @@ mod tests {
 
     /// Analytic: t (2 - t) in one interval of degree 2 has its largest value between the nodes of a coarser one.
     #[test]
-    fn extremes_and_turns_lie_between_the_nodes() {
+    fn extremes_lie_between_the_nodes() {
         let mut own = straight(&[0.0, 0.0, 0.0]);
         own.record = NamedColumns::default();
         own.record
@@ -253,10 +200,5 @@ mod tests {
         let [max, min] = own.extremes(&values).expect("rows");
         assert!((max.value - 1.0).abs() < 1e-14 && (max.time - 1.0).abs() < 1e-12);
         assert_eq!((min.value, min.time), (0.0, 0.0));
-        let turns: Vec<f64> = own.turns(&values).iter().map(|at| at.time).collect();
-        assert!(
-            turns.len() == 3 && (turns[1] - 1.0).abs() < 1e-12,
-            "{turns:?}"
-        );
     }
 }

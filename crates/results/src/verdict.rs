@@ -1,6 +1,7 @@
 //! The verdict on a run: all its checks in one table, and what was not checked.
 
 use formats::scene::{Analysis, Scene};
+use formats::text::number::{number, rounded};
 use formats::units::Dimension;
 use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
 use practice::clause::Evidence;
@@ -48,9 +49,34 @@ pub fn verdict(scene: &Scene, outcome: &CaseResult) -> Verdict {
         checks.push(of_calculation(what, *bound, fea::DEFAULT_ACCURACY));
     }
     omitted.extend(doubts(scene, &outcome.columns));
+    omitted.extend(undetermined(scene, outcome));
     omitted.extend(own_without_value(scene, outcome));
     omitted.extend(not_judged(scene, outcome));
     Verdict::new(checks, omitted)
+}
+
+/// What depends on forces that the run does not determine.
+fn undetermined(scene: &Scene, outcome: &CaseResult) -> Option<OmittedCheck> {
+    let worst = outcome.undetermined.first()?;
+    let dimension = outcome
+        .peaks
+        .iter()
+        .find(|peak| peak.column == worst.quantity)?
+        .dimension;
+    let digits = |value: f64| number(rounded(value, 4));
+    let reason = format!(
+        "{}: the extreme of {} is between {} and {} {}, and so are the forces, stresses and deflections that follow from such \
+         bounces",
+        worst.reason,
+        worst.quantity,
+        digits(worst.low),
+        digits(worst.high),
+        scene.units.label(dimension)
+    );
+    Some(OmittedCheck::new(
+        "largest values of bounces, which are not determined",
+        reason,
+    ))
 }
 
 /// Limits of static deflections.
@@ -131,7 +157,6 @@ fn drifts(
                 x: Some(drift.x + 0.0),
                 time: Some(drift.time),
                 loads: Some(OF_THE_RUN.to_owned()),
-                sampled: true,
                 ..VerdictCheck::new(
                     LimitedDisplacement::FrameLateral.phrase(),
                     drift.value,
@@ -201,7 +226,6 @@ fn of_limit(
         x: Some(found.x + 0.0),
         time: Some(found.time),
         loads: Some(loads.to_owned()),
-        sampled: true,
         ..VerdictCheck::new(
             found.displacement.phrase(),
             found.value,
@@ -221,7 +245,6 @@ fn of_stress(scene: &Scene, found: &GirderStress) -> Option<VerdictCheck> {
         loads: Some(OF_THE_RUN.to_owned()),
         formula: Some("f_y".to_owned()),
         source: Some("yield strength given in the spec".to_owned()),
-        sampled: true,
         ..VerdictCheck::new(
             "direct stress",
             found.value.abs(),
@@ -241,7 +264,6 @@ fn of_fatigue(scene: &Scene, found: &FatigueResult) -> Option<VerdictCheck> {
         loads: Some(format!("{OF_THE_RUN}, repeated over the service life")),
         factors: factors.map(|(name, value)| (name.to_owned(), value)).into(),
         formula: Some(format!("detail {}", found.detail.word())),
-        sampled: true,
         ..VerdictCheck::new(
             format!("fatigue damage at {}", found.column),
             found.life?,

@@ -270,6 +270,19 @@ impl MemberForces {
             .map(|bent| *bent.planes());
     }
 
+    /// Whether an axial force bends a member, so that its moments are not linear between loads.
+    #[must_use]
+    pub fn is_bent(&self, member: usize) -> bool {
+        self.carriers[member].bent.is_some()
+    }
+
+    /// Distance from the first end of a member at which a load stands on it; `None` where it stands elsewhere.
+    #[must_use]
+    pub fn stands(&self, member: usize, load: &RailLoad) -> Option<f64> {
+        let (x, element) = self.inside(member, load);
+        element.map(|element| element.start + (x - element.x[0]) * element.rate)
+    }
+
     /// The coordinate at which a load counts, and the rail element of the member on which it stands.
     fn inside(&self, member: usize, load: &RailLoad) -> (f64, Option<&LoadedElement>) {
         for element in self.elements[member]
@@ -324,13 +337,23 @@ impl PassedLoads {
     /// the section, and whether the section is just behind it.
     #[must_use]
     pub fn quantities(&self, place: f64, own: Option<(usize, bool)>) -> [f64; QUANTITIES] {
+        self.quantities_behind(place, &|load, at| match own {
+            Some((index, is_behind)) if index == load => is_behind,
+            _ => at < place,
+        })
+    }
+
+    /// The same, behind those loads for whose index and place on the member `is_passed` is true. Where a load moves across the
+    /// section, this extends the quantities on one side of it to the other.
+    #[must_use]
+    pub fn quantities_behind(
+        &self,
+        place: f64,
+        is_passed: &dyn Fn(usize, f64) -> bool,
+    ) -> [f64; QUANTITIES] {
         let mut out = self.moved(&self.base, place);
         for load in &self.passed {
-            let is_passed = match own {
-                Some((index, is_behind)) if index == load.index => is_behind,
-                _ => load.place < place,
-            };
-            if is_passed {
+            if is_passed(load.index, load.place) {
                 let behind = self.moved(&load.jump, place - load.place);
                 out.iter_mut()
                     .zip(behind)

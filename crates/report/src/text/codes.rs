@@ -198,8 +198,7 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
         }
     }
     ReportTable {
-        caption: "Deflections under static wheel loads, sampled at the positions of some of the output times, and limits of \
-                  codes."
+        caption: "Largest deflections under static wheel loads at all positions of the run, and limits of codes."
             .to_owned(),
         columns,
         rows,

@@ -334,8 +334,7 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     }
     ReportTable {
         caption: format!(
-            "Largest lateral displacement of each rail at a column in the run \"{label}\", sampled at some of \
-             the output times."
+            "Largest lateral displacement of each rail at a column in the run \"{label}\"."
         ),
         columns: columns
             .map(|name| TableColumn::new(name, unit_of(name)))
@@ -351,7 +350,7 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let mut table = ReportTable {
         caption: format!(
             "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
-             span-to-deflection ratios, sampled at some of the output times. L/600 and L/400 are limits of the deflection under static wheel loads; the \
+             span-to-deflection ratios. L/600 and L/400 are limits of the deflection under static wheel loads; the \
              deflections here are those of the run."
         ),
         columns: vec![

@@ -161,7 +161,7 @@ fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Optio
         x: TableCell::from(digits(found.x, DIGITS)),
         others: same.map(|found| found.value).collect(),
         ..GoverningRow::new(
-            "largest direct stress, sampled",
+            "largest direct stress",
             (&unit, factor),
             found.value,
             &scene.rails[found.rail].name,

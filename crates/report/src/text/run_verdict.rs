@@ -128,12 +128,26 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     out
 }
 
-/// Uplift and fatigue in the first run.
+/// What the first run does not determine, uplift and fatigue in it.
 fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut out = Vec::new();
+    if let Some(worst) = outcome.undetermined.first() {
+        out.push(format!(
+            "Largest values are not determined: {}. That of {} is between {} and {}{}; the forces and deflections that follow \
+             from such bounces are as uncertain.",
+            worst.reason,
+            worst.quantity,
+            digits(worst.low, 4),
+            digits(worst.high, 4),
+            match outcome.undetermined.len() - 1 {
+                0 => String::new(),
+                more => format!(", and {more} others vary as well"),
+            },
+        ));
+    }
     if let Some(first) = outcome.response.first_uplift() {
         out.push(format!(
-            "At the output times wheels are without contact {} times, first {} at {} s.",
+            "Wheels are without contact {} times, first {} at {} s.",
             outcome.response.uplifts.len(),
             first.wheel,
             digits(first.time, DIGITS)

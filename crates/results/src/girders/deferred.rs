@@ -1,19 +1,18 @@
 //! Extremes of girders that are computed when they are first asked for, from what the run has left.
 
-use std::cell::{Cell, RefCell};
-use std::mem::take;
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::{BuiltFoundation, SolvedModel, solution_of};
-use sim::{Foundation, History, Run, SolutionNodes};
+use sim::{Channel, Solution, SolutionNodes};
 
 use super::GirderExtremes;
-use super::rows::{Prepared, Recorded, of_run};
 use super::solved::SolvedMembers;
-use crate::response::ColumnEnvelope;
+use super::structure::PreparedGirders;
+use crate::loads::WheelLoadReader;
 
 /// Extremes of the girders of a run: computed, or what they are computed from.
 pub(crate) struct DeferredGirders {
@@ -31,15 +30,9 @@ impl DeferredGirders {
         }
     }
 
-    /// The extremes, which the first who asks computes. `input` and `history` are those of the run, `columns` the
-    /// extremes of its columns.
-    pub fn get(
-        &self,
-        input: &SimulationInput,
-        history: &History,
-        columns: &[ColumnEnvelope],
-    ) -> &GirderExtremes {
-        let found = self.get_while(input, history, columns, &mut |_| ControlFlow::Continue(()));
+    /// The extremes, which the first who asks computes. `input` and `solution` are those of the run.
+    pub fn get(&self, input: &SimulationInput, solution: &Solution) -> &GirderExtremes {
+        let found = self.get_while(input, solution, &mut || ControlFlow::Continue(()));
         // nobody stops it
         found.unwrap_or_else(|| self.found.get_or_init(GirderExtremes::default))
     }
@@ -49,31 +42,22 @@ impl DeferredGirders {
     pub fn get_while(
         &self,
         input: &SimulationInput,
-        history: &History,
-        columns: &[ColumnEnvelope],
-        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+        solution: &Solution,
+        watch: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Option<&GirderExtremes> {
         let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(own) = inputs.take() {
-            match own.extremes(input, history, columns, watch) {
-                Ok(found) => return Some(self.found.get_or_init(|| found)),
-                Err(own) => *inputs = Some(own),
+            match own.extremes(input, (solution, &solution.intervals()), watch) {
+                Some(found) => return Some(self.found.get_or_init(|| found)),
+                None => *inputs = Some(own),
             }
         }
         self.found.get()
     }
 
-    /// Takes what is needed of a history before its owner drops it.
-    pub fn keep_rows(&mut self, history: &mut History) {
-        let inputs = self
-            .inputs
-            .get_mut()
-            .unwrap_or_else(PoisonError::into_inner);
-        if let Some(inputs) = inputs
-            && inputs.steps.is_empty()
-        {
-            inputs.rows = Some(take(history));
-        }
+    /// Whether they are computed.
+    pub fn is_found(&self) -> bool {
+        self.found.get().is_some()
     }
 }
 
@@ -86,152 +70,54 @@ impl From<GirderExtremes> for DeferredGirders {
     }
 }
 
-/// What the extremes of the girders of a run are computed from, beside its history.
+/// What the extremes of the girders of a run are computed from, beside its solution.
 pub(crate) struct GirderInputs {
     /// The scene with the foundations that were chosen.
-    scene: Scene,
-    built: Vec<BuiltFoundation>,
-    members: Arc<SolvedMembers>,
-    /// Ends of the steps, where the run has recorded them, and whether times inside of the steps are among them.
-    steps: History,
-    has_inner_times: bool,
-    /// Whether the history has an interval.
-    has_rows: bool,
-    /// The history, where its owner has dropped it.
-    rows: Option<History>,
-    /// Number of times that the run may be repeated with more rows.
-    repetitions: usize,
+    pub scene: Scene,
+    pub built: Vec<BuiltFoundation>,
+    pub members: Arc<SolvedMembers>,
 }
 
 impl GirderInputs {
-    /// Keeps what is needed of a run of `scene` on the foundations `built`, and of the nodes of its solution.
-    pub fn new(
-        scene: Scene,
-        built: Vec<BuiltFoundation>,
-        members: Arc<SolvedMembers>,
-        (run, nodes): (&Run, SolutionNodes),
-    ) -> GirderInputs {
-        // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
-        let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
-        // static equilibria are solved at rows
-        let steps = match run.method {
-            Some(_) => nodes.increasing(),
-            None => History::default(),
-        };
-        let has_rows = run.history.len() >= 2;
-        let has_inner_times = false;
-        GirderInputs {
-            scene,
-            built,
-            members,
-            steps,
-            has_inner_times,
-            has_rows,
-            rows: None,
-            repetitions,
-        }
-    }
-
-    /// Computes the extremes. `watch` is called with the time in repetitions of the run, and many times between them.
-    ///
-    /// # Errors
-    /// The same inputs where `watch` breaks off.
+    /// Computes the extremes; `None` where `watch`, which is called many times, breaks off.
     pub fn extremes(
-        self: Box<Self>,
+        &self,
         input: &SimulationInput,
-        history: &History,
-        columns: &[ColumnEnvelope],
-        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<GirderExtremes, Box<GirderInputs>> {
+        (solution, nodes): (&Solution, &SolutionNodes),
+        watch: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Option<GirderExtremes> {
         let GirderInputs {
             scene,
             built,
             members,
-            steps,
-            has_inner_times,
-            has_rows,
-            rows,
-            repetitions,
-        } = *self;
-        let solved: Vec<Option<&SolvedModel>> = scene
-            .structures
-            .iter()
-            .map(|structure| solution_of(members.known(), &structure.origin))
-            .collect();
-        let (watch, stop) = (RefCell::new(watch), Cell::new(false));
-        let ask = |t: f64| {
-            let now = (*watch.borrow_mut())(t);
-            if now.is_break() {
-                stop.set(true);
+        } = self;
+        let is_stopped = Cell::new(false);
+        let watch = std::cell::RefCell::new(watch);
+        let ask = || {
+            if !is_stopped.get() && (*watch.borrow_mut())().is_break() {
+                is_stopped.set(true);
             }
-            now
+            is_stopped.get()
         };
-        let is_stopped = || stop.get() || ask(0.0).is_break();
-        let (foundations, bases): (Vec<Foundation>, Vec<_>);
-        let mut found = {
-            let prepared = Prepared::new(&scene, &built, &solved, &members, &is_stopped);
-            (foundations, bases) = built
-                .into_iter()
-                .map(|built| (built.foundation, built.basis))
-                .unzip();
-            let recorded = match (steps.is_empty(), has_inner_times) {
-                (true, _) => Recorded::Rows(rows.as_ref().unwrap_or(history)),
-                (false, false) => Recorded::Steps(&steps),
-                (false, true) => Recorded::Inside(&steps),
-            };
-            let mut left = repetitions;
-            let mut repeat = |rows: usize| {
-                left = left.checked_sub(1)?;
-                repeated(&scene, input, &foundations, rows, &mut |t| ask(t))
-            };
-            match has_rows {
-                true => of_run(
-                    &prepared,
-                    (&scene, input),
-                    recorded,
-                    &foundations,
-                    &mut repeat,
-                ),
-                false => prepared.without_rows(),
+        let loads = WheelLoadReader::new(scene, input, &nodes.rows);
+        let mut out = GirderExtremes::default();
+        for (s, built) in built.iter().enumerate() {
+            let solved: Option<&SolvedModel> =
+                solution_of(members.known(), &scene.structures[s].origin);
+            let Some(solved) = solved else { continue };
+            // a structure that moves is evaluated where its motion was recorded
+            let is_recorded = solution.position(Channel::Coordinate(s, 0)).is_some();
+            let is_known = built.foundation.dofs() == 0 || is_recorded;
+            match PreparedGirders::new(scene, s, built, solved, members) {
+                Ok(Some(girders)) if is_known && !ask() => {
+                    girders.add((solution, nodes), &loads, &built.foundation, &ask, &mut out);
+                }
+                Ok(_) => {}
+                Err(error) => out
+                    .notes
+                    .push(format!("extremes of girders were not computed: {error}")),
             }
-        };
-        if stop.get() {
-            let built = foundations.into_iter().zip(bases);
-            let built = built
-                .map(|(foundation, basis)| BuiltFoundation { foundation, basis })
-                .collect();
-            let again = GirderInputs {
-                scene,
-                built,
-                members,
-                steps,
-                has_inner_times,
-                has_rows,
-                rows,
-                repetitions,
-            };
-            return Err(Box::new(again));
         }
-        found
-            .reactions
-            .iter_mut()
-            .for_each(|reaction| reaction.extend_to(columns));
-        Ok(found)
+        (!is_stopped.get()).then_some(out)
     }
-}
-
-/// The history of a run with a number of rows in each output interval; `None` if it does not end as a complete run.
-fn repeated(
-    scene: &Scene,
-    input: &SimulationInput,
-    foundations: &[Foundation],
-    rows: usize,
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Option<History> {
-    let finer = sim::Scene {
-        output_parts: rows,
-        ..input.scene.clone()
-    };
-    let again = sim::run_by(scene.stepping, &finer, foundations, watch).ok()?;
-    again.status.is_complete().then_some(again.history)
 }

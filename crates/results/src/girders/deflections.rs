@@ -1,188 +1,441 @@
-//! Extremes of the deflections of spans: at listed places, under wheels, and between them.
+//! The largest deflections of places of the rails over a run, and those under the loads.
 //!
-//! A deflection that depends on the torsion or the shear of its member has a corner under each wheel, and its largest
-//! value is often there. As the corner moves with the wheel, refinement along the rail and over time in turn does not
-//! reach it: the deflection under the wheel is refined over time, with its place. Extremes elsewhere are refined over
-//! time and along the rail in turn, from every listed place whose deflection exceeds those of the places beside it and
-//! is nearly as large as the largest.
-//!
-//! Only places that a member carries count. Between two members the rail moves with the nearer of their ends, which may
-//! be that of the girder of the next span.
+//! They are found like forces ([`super::forces`]): by the polynomials through the values at the nodes of pieces, for a number of
+//! places of a rail at a time, and without the stays whose bounds are below the values of all these places.
 
-use trains::SectionSide;
+use piecewise::Lobatto;
+use smallvec::SmallVec;
+use splines::Probe;
+use trains::{RailLoad, SectionSide};
 
-use super::distributed::FORCES;
-use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{Corners, GirderValue, NEAR, ROUNDS, Refinement, offer};
+use super::forces::by_rank;
+use super::girder::{DIRECTIONS, LoadedGirders, probe};
+use super::value::{GirderValue, offer};
+use crate::pieces::{
+    Bounds, Cell, LINE_DEGREE, LoadPieces, LoadState, Peak, Stay, known, offer_piece,
+};
+use crate::response::PlaceMotions;
 
-/// An extreme of a deflection of a span: its plane (0: vertical, 1: lateral) and kind (0: largest, 1: smallest).
-#[derive(Clone, Copy)]
-pub(super) struct Wanted {
-    /// Index in the list of rails.
-    pub rail: usize,
-    pub span: usize,
-    pub plane: usize,
-    pub kind: usize,
+/// Factor by which a slope may exceed those that are seen of it: of polynomials of the fourth degree that are near to the function,
+/// and between places.
+const STEEPER: f64 = 1.5;
+
+/// Number of points whose deflections are evaluated at once.
+const AT_ONCE: usize = 100;
+
+/// The largest deflections, by plane (vertical, lateral) and kind (largest, smallest).
+pub(super) struct DeflectionPeaks {
+    /// By point.
+    pub points: Vec<[[Peak; 2]; 2]>,
+    /// By span of all rails: those under loads.
+    pub under: Vec<[[Option<GirderValue>; 2]; 2]>,
 }
 
-impl Refinement<'_> {
-    /// The largest of sign times the deflection over a span.
-    pub fn span_deflection(&self, wanted: Wanted) -> Option<GirderValue> {
-        let Wanted {
-            rail,
-            span,
-            plane,
-            kind,
-        } = wanted;
-        let spans = self.scan.first_span[self.scan.first_span.len() - 1];
-        let tracks = (0..self.scan.under.len() / spans.max(1)).map(|load| {
-            (
-                load,
-                &self.scan.under[self.scan.under(load, rail, span)][plane][kind],
-            )
-        });
-        let points = self.carried_points(wanted);
-        let heights: Vec<f64> = points
-            .iter()
-            .map(|at| self.scan.points[*at][plane][kind].highest.height)
-            .collect();
-        let under = tracks.clone().map(|(_, peak)| peak.highest.height);
-        let best = heights
-            .iter()
-            .copied()
-            .chain(under)
-            .fold(f64::NEG_INFINITY, f64::max);
-        let least = best - NEAR * self.size(FORCES + plane);
-        let mut found: Option<GirderValue> = None;
-        for (k, &at) in points.iter().enumerate() {
-            // of equal heights the first one counts
-            let is_crest = (k == 0 || heights[k] > heights[k - 1])
-                && heights.get(k + 1).is_none_or(|after| heights[k] >= *after);
-            if is_crest && heights[k] >= least {
-                let own = self
-                    .point(at, plane, kind)
-                    .map(|from| self.along_and_in_time(wanted, from));
-                offer(&mut found, own);
+/// Points of consecutive spans of a rail, in the planes in which they are known.
+struct PlaceSearch<'a> {
+    girders: &'a LoadedGirders<'a>,
+    /// Index in the list of rails.
+    rail: usize,
+    /// Index of the first span of the rail among those of all rails.
+    first_span: usize,
+    planes: Vec<usize>,
+    points: Vec<usize>,
+    /// Coordinates of the first point, and of the one behind the last.
+    range: [f64; 2],
+    /// All points in the first plane, then those in the next.
+    motions: PlaceMotions<'a>,
+    has_loads: bool,
+}
+
+impl DeflectionPeaks {
+    /// Searches the points of all spans; the deflections under loads only if `has_loads`. `first_span` has the index of the first
+    /// span of each rail. Rails whose deflections are not known, or that are unrestrained in a plane, have none.
+    pub fn new(
+        girders: &LoadedGirders<'_>,
+        first_span: &[usize],
+        has_loads: bool,
+    ) -> DeflectionPeaks {
+        let sections = girders.sections;
+        let mut out = DeflectionPeaks {
+            points: vec![[[Peak::NONE; 2]; 2]; sections.points.len()],
+            under: vec![Default::default(); first_span[first_span.len() - 1]],
+        };
+        if !girders.has_deflections() {
+            return out;
+        }
+        for (rail, outline) in sections.rails.iter().enumerate() {
+            let own = (0..sections.points.len()).filter(|at| sections.points[*at].rail == rail);
+            let own: Vec<usize> = own.collect();
+            let x = |k: usize| {
+                own.get(k)
+                    .map_or(f64::INFINITY, |at| sections.points[*at].x)
+            };
+            let probes = |points: &[usize], plane: usize| -> Vec<Probe> {
+                let of = |at: &usize| probe(outline.rail, sections.points[*at].x, plane);
+                points.iter().map(of).collect()
+            };
+            let is_known = |plane: &usize| {
+                PlaceMotions::new(girders.foundation, &probes(&own, *plane)).is_ok()
+            };
+            let planes: Vec<usize> = [0, 1].into_iter().filter(is_known).collect();
+            for (chunk, points) in own.chunks(AT_ONCE).enumerate() {
+                let all: Vec<Probe> = planes
+                    .iter()
+                    .flat_map(|plane| probes(points, *plane))
+                    .collect();
+                let Ok(motions) = PlaceMotions::new(girders.foundation, &all) else {
+                    continue;
+                };
+                let search = PlaceSearch {
+                    girders,
+                    rail,
+                    first_span: first_span[rail],
+                    planes: planes.clone(),
+                    points: points.to_vec(),
+                    range: [x(chunk * AT_ONCE), x((chunk + 1) * AT_ONCE)],
+                    motions,
+                    has_loads,
+                };
+                search.run(&mut out);
             }
         }
-        for (load, peak) in tracks.filter(|(_, peak)| peak.highest.height >= least) {
-            offer(&mut found, self.under(wanted, load, peak));
-        }
-        found
+        out
     }
 
-    /// The listed places of a span that a member carries, in order.
-    fn carried_points(&self, wanted: Wanted) -> Vec<usize> {
-        let sections = self.girders.sections;
-        let [from, to] = sections.rails[wanted.rail].bounds(wanted.span);
-        let is_own = |at: &usize| {
-            let point = sections.points[*at];
-            point.rail == wanted.rail
-                && point.x >= from
-                && point.x <= to
-                && self.girders.is_carried(wanted.rail, point.x, wanted.span)
-        };
-        (0..sections.points.len()).filter(is_own).collect()
-    }
-
-    /// The largest deflection under a wheel while it is in the span.
-    fn under(&self, wanted: Wanted, load: usize, peak: &Peak) -> Option<GirderValue> {
-        if peak.highest.height == f64::NEG_INFINITY {
-            return None;
-        }
-        let girders = self.girders;
-        let Wanted {
-            rail,
-            span,
-            plane,
-            kind,
-        } = wanted;
-        let [from, to] = girders.sections.rails[rail].bounds(span);
-        let mut value = |position: f64| {
-            let state = girders.states.at(position);
-            let x = state.loads[load].x;
-            if x < from || x > to || !girders.is_carried(rail, x, span) {
-                return f64::NEG_INFINITY;
-            }
-            girders
-                .deflections(rail, &[x], plane, &state)
-                .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
-        };
-        let (signed, position) = self.over_time(
-            (peak, girders.deflection_stride),
-            (FORCES + plane, Corners::NONE),
-            &mut value,
-        );
-        let x = girders.states.at(position).loads[load].x;
-        let side = SectionSide::At;
-        Some(GirderValue {
-            signed,
-            position,
-            x,
+    /// The largest of sign times the deflection of a point.
+    pub fn point(
+        &self,
+        girders: &LoadedGirders<'_>,
+        at: usize,
+        plane: usize,
+        kind: usize,
+    ) -> Option<GirderValue> {
+        let peak = &self.points[at][plane][kind];
+        (peak.signed > f64::NEG_INFINITY).then(|| GirderValue {
+            signed: peak.signed,
+            at: peak.at,
+            x: girders.sections.points[at].x,
             section: None,
             own: None,
-            is_after: None,
-            side,
+            side: SectionSide::At,
         })
     }
+}
 
-    /// Refines a deflection along the rail and over time in turn.
-    fn along_and_in_time(&self, wanted: Wanted, from: GirderValue) -> GirderValue {
-        let girders = self.girders;
-        let Wanted {
-            rail, plane, kind, ..
-        } = wanted;
-        let near = self.carried_beside(wanted, from.x);
-        let (mut found, size) = (from, self.size(FORCES + plane));
-        for _ in 0..ROUNDS {
-            let state = girders.states.at(found.position);
-            let (signed, x) = largest(
-                near,
-                (found.signed, found.x),
-                self.search_end(size),
-                &mut |x| {
-                    girders
-                        .deflections(rail, &[x], plane, &state)
-                        .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
-                },
-            );
-            if signed <= found.signed {
-                break;
-            }
-            let gain = signed - found.signed;
-            found = GirderValue { signed, x, ..found };
-            let (signed, position) =
-                self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
-                    SIGNS[kind] * girders.deflection(rail, x, plane, position)
-                });
-            if signed > found.signed {
-                found = GirderValue {
-                    signed,
-                    position,
-                    ..found
-                };
-            }
-            if gain <= 1e-3 * self.accuracy * size {
-                break;
+/// Deflections of places under unit loads in a cell.
+struct CellDeflections {
+    /// Whether deflections under loads in the cell are looked for, so that stays with loads there are looked at in any case.
+    is_near: bool,
+    /// By direction of the load: bounds for all places, downwards or along +z, and largest slopes by the coordinate of the load.
+    bounds: [Vec<Bounds>; 3],
+    slopes: [Vec<f64>; 3],
+}
+
+/// Deflections of places under unit loads and displacements.
+struct UnitDeflections {
+    visited: Vec<Cell>,
+    cells: Vec<CellDeflections>,
+    /// By degree of freedom: those of all places, and the largest slope between two of them.
+    dofs: Vec<(Vec<f64>, f64)>,
+}
+
+/// How much deflections change in a piece from its middle node.
+struct DeflectionChanges {
+    /// By place.
+    places: Vec<f64>,
+    /// Largest slope along the rail.
+    slope: f64,
+}
+
+impl UnitDeflections {
+    fn cell(&self, cell: &Cell) -> Option<&CellDeflections> {
+        self.visited
+            .binary_search(cell)
+            .ok()
+            .map(|at| &self.cells[at])
+    }
+
+    /// Bounds during a stay; `None` where it is looked at in any case.
+    fn bounds(&self, stay: &Stay, count: usize) -> Option<Vec<Bounds>> {
+        let mut out = vec![Bounds::ZERO; count];
+        for (q, (own, _)) in stay.dofs.iter().zip(&self.dofs) {
+            let each = out.iter_mut().zip(own);
+            each.for_each(|(sum, per)| sum.add_product(*q, Bounds::at(*per)));
+        }
+        for (cell, force) in &stay.loads {
+            let own = self.cell(cell).filter(|own| !own.is_near)?;
+            for (force, own) in force.iter().zip(&own.bounds).filter(|(f, _)| !f.is_zero()) {
+                let each = out.iter_mut().zip(own);
+                each.for_each(|(sum, per)| sum.add_product(*force, *per));
             }
         }
-        found
+        Some(out)
     }
 
-    /// The places beside a coordinate, as far as members carry the rail without a gap. Ends of members are places.
-    fn carried_beside(&self, wanted: Wanted, x: f64) -> [f64; 2] {
-        let outline = &self.girders.sections.rails[wanted.rail];
-        let [from, to] = outline.bounds(wanted.span);
-        let [before, after] = outline.neighbours(x);
-        [before.max(from), after.min(to)].map(|end| {
-            if self
-                .girders
-                .is_carried(wanted.rail, 0.5 * (end + x), wanted.span)
-            {
-                end
-            } else {
-                x
+    fn changes(&self, pieces: &LoadPieces<'_>, index: usize, count: usize) -> DeflectionChanges {
+        let stay = &pieces.stays[pieces.pieces[index].stay];
+        let mut out = DeflectionChanges {
+            places: vec![0.0; count],
+            slope: 0.0,
+        };
+        for (change, (cell, _)) in pieces.changes(index).iter().zip(&stay.loads) {
+            let Some(own) = self.cell(cell) else { continue };
+            for k in (0..3).filter(|k| change.size[*k] > 0.0) {
+                let (force, moved) = (change.force[k], change.size[k] * change.place);
+                let each = out
+                    .places
+                    .iter_mut()
+                    .zip(own.bounds[k].iter().zip(&own.slopes[k]));
+                each.for_each(|(sum, (bounds, slope))| {
+                    *sum += force * bounds.size() + moved * slope;
+                });
+                // by reciprocity
+                out.slope += change.size[k] * own.slopes[k].iter().copied().fold(0.0, f64::max);
             }
+        }
+        let [dofs, _] = pieces.changes_of_motion(index);
+        for ((q, bounds), (own, slope)) in dofs.iter().zip(&stay.dofs).zip(&self.dofs) {
+            let each = out.places.iter_mut().zip(own);
+            each.for_each(|(sum, own)| *sum += q.size() * own.abs());
+            out.slope += bounds.size() * slope;
+        }
+        out
+    }
+}
+
+impl PlaceSearch<'_> {
+    fn count(&self) -> usize {
+        self.planes.len() * self.points.len()
+    }
+
+    fn run(&self, peaks: &mut DeflectionPeaks) {
+        let units = self.units();
+        let stays = &self.girders.pieces.stays;
+        let all: Vec<f64> = stays
+            .iter()
+            .map(|stay| match units.bounds(stay, self.count()) {
+                Some(own) => own.iter().map(Bounds::size).fold(0.0, f64::max),
+                None => f64::INFINITY,
+            })
+            .collect();
+        for stay in by_rank(&all) {
+            let is_low = |own: Vec<Bounds>| self.is_within(&own, true, peaks);
+            if units.bounds(&stays[stay], self.count()).is_some_and(is_low) {
+                continue;
+            }
+            if (self.girders.is_stopped)() {
+                return;
+            }
+            for piece in stays[stay].pieces() {
+                self.search(&units, piece, peaks);
+            }
+        }
+    }
+
+    /// Whether bounds of all places are within the values that are known; but for rounding, if `is_rounded`.
+    fn is_within(&self, all: &[Bounds], is_rounded: bool, peaks: &DeflectionPeaks) -> bool {
+        let mut planes = self.planes.iter().zip(all.chunks(self.points.len()));
+        planes.all(|(plane, own)| {
+            let all = || {
+                self.points
+                    .iter()
+                    .map(|at| known(&peaks.points[*at][*plane]))
+            };
+            let most = if is_rounded {
+                all().flatten().fold(0.0, f64::max)
+            } else {
+                0.0
+            };
+            own.iter()
+                .zip(all())
+                .all(|(bounds, known)| bounds.is_within(known, most))
         })
+    }
+
+    /// Sign of the deflection of a place in its displacement.
+    fn sign(&self, place: usize) -> f64 {
+        DIRECTIONS[self.planes[place / self.points.len()]]
+    }
+
+    fn units(&self) -> UnitDeflections {
+        let pieces = self.girders.pieces;
+        let visited = pieces.visited();
+        let cells = visited.iter().map(|cell| self.cell(*cell)).collect();
+        let dofs = pieces.stays.first().map_or(0, |stay| stay.dofs.len());
+        let mut unit = vec![0.0; dofs];
+        let x = |k: usize| self.girders.sections.points[self.points[k]].x;
+        let of_dof = |dof: usize| {
+            unit[dof] = 1.0;
+            let found = self.motions.under(&[], &unit, &[]);
+            unit[dof] = 0.0;
+            let mut own = found.unwrap_or_else(|_| vec![0.0; self.count()]);
+            own.iter_mut()
+                .enumerate()
+                .for_each(|(place, own)| *own *= self.sign(place));
+            let slopes = own.chunks(self.points.len()).flat_map(|own| {
+                let pairs = own.windows(2).enumerate();
+                pairs.map(|(k, pair)| (pair[1] - pair[0]).abs() / (x(k + 1) - x(k)))
+            });
+            let slope = STEEPER * slopes.fold(0.0, f64::max);
+            (own, slope)
+        };
+        UnitDeflections {
+            cells,
+            visited,
+            dofs: (0..dofs).map(of_dof).collect(),
+        }
+    }
+
+    /// The deflections under unit loads in a cell. Loads that the structure does not resist have none.
+    fn cell(&self, cell: Cell) -> CellDeflections {
+        let [low, high] = self.girders.pieces.cells().inside(cell);
+        let rail = self.girders.sections.rails[self.rail].rail;
+        let [from, to] = self.range;
+        let nodes = Lobatto::of(LINE_DEGREE);
+        let mut out = CellDeflections {
+            is_near: self.has_loads && cell.0 == rail && low <= to && high >= from,
+            bounds: std::array::from_fn(|_| vec![Bounds::ZERO; self.count()]),
+            slopes: std::array::from_fn(|_| vec![0.0; self.count()]),
+        };
+        for direction in 0..3 {
+            let mut force = [0.0; 3];
+            force[direction] = 1.0;
+            let under = |share: &f64| {
+                let load = RailLoad {
+                    rail: cell.0,
+                    x: low + share * (high - low),
+                    force,
+                };
+                self.motions.under(&[load], &[], &[]).ok()
+            };
+            let all: Option<Vec<Vec<f64>>> = nodes.nodes().iter().map(under).collect();
+            let Some(all) = all else { continue };
+            for place in 0..self.count() {
+                let values: SmallVec<[f64; 5]> = all.iter().map(|own| own[place]).collect();
+                let polynomial = nodes.polynomial(&values).times(self.sign(place));
+                let slope = Bounds::of(&polynomial.derivative()).size() / (high - low);
+                out.bounds[direction][place] = Bounds::of(&polynomial);
+                out.slopes[direction][place] = STEEPER * slope;
+            }
+        }
+        out
+    }
+
+    /// The loads in the range of the points during a piece, with their spans.
+    fn under(&self, state: &LoadState<'_>) -> SmallVec<[(usize, usize); 8]> {
+        let outline = &self.girders.sections.rails[self.rail];
+        let [from, to] = self.range;
+        let span_of = |load: usize| {
+            let RailLoad { rail, x, .. } = state.loads[load];
+            let is_near = rail == outline.rail && from <= x && x < to && self.has_loads;
+            let span = is_near.then(|| outline.span(x, SectionSide::At))?;
+            self.girders
+                .is_carried(self.rail, x, span)
+                .then_some((load, span))
+        };
+        (0..state.loads.len()).filter_map(span_of).collect()
+    }
+
+    /// The deflections of all places in a state, then those under loads, plane by plane; `None` where the structure is unrestrained.
+    fn values(&self, state: &LoadState<'_>, under: &[(usize, usize)]) -> Option<Vec<f64>> {
+        let rail = self.girders.sections.rails[self.rail].rail;
+        let of_plane = |plane: &usize| {
+            let plane = *plane;
+            under
+                .iter()
+                .map(move |(load, _)| probe(rail, state.loads[*load].x, plane))
+        };
+        let also: SmallVec<[Probe; 16]> = self.planes.iter().flat_map(of_plane).collect();
+        let mut out = self.motions.under(&state.loads, state.dofs(), &also).ok()?;
+        let (places, loads) = out.split_at_mut(self.count());
+        places
+            .iter_mut()
+            .enumerate()
+            .for_each(|(place, own)| *own *= self.sign(place));
+        for (plane, own) in self.planes.iter().zip(loads.chunks_mut(under.len().max(1))) {
+            own.iter_mut().for_each(|own| *own *= DIRECTIONS[*plane]);
+        }
+        Some(out)
+    }
+
+    /// Whether a piece may have larger or smaller values than those that are known, by the values in its middle.
+    fn may_exceed(
+        &self,
+        units: &UnitDeflections,
+        index: usize,
+        (values, under): (&[f64], &[(usize, usize)]),
+        peaks: &DeflectionPeaks,
+    ) -> bool {
+        let pieces = self.girders.pieces;
+        let DeflectionChanges {
+            places: changes,
+            slope,
+        } = units.changes(pieces, index, self.count());
+        let (places, loads) = values.split_at(self.count());
+        let of_place = |(value, change): (&f64, &f64)| Bounds::at(*value).widened(*change);
+        let bounds: Vec<Bounds> = places.iter().zip(&changes).map(of_place).collect();
+        if !self.is_within(&bounds, false, peaks) {
+            return true;
+        }
+        let change = changes.iter().copied().fold(0.0, f64::max);
+        let mut planes = self.planes.iter().zip(loads.chunks(under.len().max(1)));
+        planes.any(|(plane, own)| {
+            own.iter().zip(under).any(|(value, (load, span))| {
+                let place = pieces.changes(index)[*load].place;
+                let bounds = Bounds::at(*value).widened(change + slope * place);
+                let known = peaks.under[self.first_span + span][*plane];
+                let known = known.map(|known| known.map_or(f64::NEG_INFINITY, |own| own.signed));
+                !bounds.is_within(known, 0.0)
+            })
+        })
+    }
+
+    fn search(&self, units: &UnitDeflections, index: usize, peaks: &mut DeflectionPeaks) {
+        let pieces = self.girders.pieces;
+        let piece = &pieces.pieces[index];
+        let middle = pieces.at_middle(index);
+        let under = self.under(&middle);
+        let Some(values) = self.values(&middle, &under) else {
+            return;
+        };
+        if !self.may_exceed(units, index, (&values, &under), peaks) {
+            return;
+        }
+        let of_node = |k: usize| self.values(&pieces.at_node(piece, k), &under);
+        let values: Option<Vec<Vec<f64>>> = (0..=piece.degree).map(of_node).collect();
+        let Some(values) = values.map(|values| values.concat()) else {
+            return;
+        };
+        let all = self.count() + self.planes.len() * under.len();
+        let at = (index, piece.nodes());
+        let of = |place: usize| -> SmallVec<[f64; 17]> {
+            values.iter().skip(place).step_by(all).copied().collect()
+        };
+        let bounds = Bounds::of_columns(&values, all);
+        for (n, &plane) in self.planes.iter().enumerate() {
+            for (k, point) in self.points.iter().enumerate() {
+                let place = n * self.points.len() + k;
+                let peaks = &mut peaks.points[*point][plane];
+                if !bounds[place].is_within(known(peaks), 0.0) {
+                    offer_piece(peaks, at, &of(place));
+                }
+            }
+            for (k, (load, span)) in under.iter().enumerate() {
+                let known = &mut peaks.under[self.first_span + span][plane];
+                let mut best = known.map(|known| GirderValue::floor(known.as_ref()));
+                offer_piece(&mut best, at, &of(self.count() + n * under.len() + k));
+                for (known, best) in known.iter_mut().zip(best).filter(|(_, best)| best.is_new) {
+                    let found = GirderValue {
+                        signed: best.signed,
+                        at: best.at,
+                        x: pieces.at(best.at).loads[*load].x,
+                        section: None,
+                        own: None,
+                        side: SectionSide::At,
+                    };
+                    offer(known, found);
+                }
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ use nalgebra::DVectorView;
 use trains::{GirderResponse, MemberForces};
 
 use super::sections::Sections;
+use crate::pieces::Bounds;
 use crate::response::{dead_load, inertia};
 use foundations::{BuiltFoundation, SolvedModel};
 
@@ -16,7 +17,7 @@ pub(super) const FORCES: usize = 6;
 const MANY: usize = 2000;
 
 /// Moments, and the shear forces that are their slopes.
-const SLOPES: [(GirderResponse, GirderResponse); 2] = [
+pub(super) const SLOPES: [(GirderResponse, GirderResponse); 2] = [
     (
         GirderResponse::VerticalMoment,
         GirderResponse::VerticalShear,
@@ -116,11 +117,6 @@ impl DistributedForces {
         Ok(DistributedForces { members: nodes })
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.members.iter().all(|member| member.places.is_empty())
-    }
-
     /// Whether each quantity is not zero throughout.
     pub fn acting(&self) -> [bool; FORCES] {
         let mut out = [false; FORCES];
@@ -138,24 +134,73 @@ impl DistributedForces {
         out
     }
 
-    /// The quantities of a section of a member under the accelerations of the degrees of freedom, dead load included.
-    pub fn at(&self, member: usize, place: f64, accelerations: &[f64]) -> Quantities {
+    /// The quantities of a section of a member under the accelerations of the degrees of freedom, without dead load.
+    pub fn inertia(&self, member: usize, place: f64, accelerations: &[f64]) -> Quantities {
         let nodes = &self.members[member];
+        // no accelerations are known where none were recorded
+        if nodes.moved.is_empty() || accelerations.is_empty() {
+            return [0.0; FORCES];
+        }
+        let known = DVectorView::from_slice(accelerations, accelerations.len());
         nodes.between(place, |node| {
-            let mut out = nodes.dead[node];
-            // no accelerations are known where none were recorded
-            let known = DVectorView::from_slice(accelerations, accelerations.len());
-            if !accelerations.is_empty() {
-                for (k, per) in nodes
-                    .moved
-                    .iter()
-                    .zip(nodes.inertia[node].chunks_exact(known.len()))
-                {
-                    out[*k] += DVectorView::from_slice(per, per.len()).dot(&known);
-                }
+            let mut out = [0.0; FORCES];
+            let each = nodes.inertia[node].chunks_exact(known.len());
+            for (k, per) in nodes.moved.iter().zip(each) {
+                out[*k] = DVectorView::from_slice(per, per.len()).dot(&known);
             }
             out
         })
+    }
+
+    /// Bounds of the quantities of a member under accelerations within bounds.
+    pub fn inertia_bounds(&self, member: usize, accelerations: &[Bounds]) -> [Bounds; FORCES] {
+        let nodes = &self.members[member];
+        let mut out = [Bounds::ZERO; FORCES];
+        let all = nodes.inertia.iter().filter(|_| !accelerations.is_empty());
+        for (number, node) in all.enumerate() {
+            for (k, per) in nodes
+                .moved
+                .iter()
+                .zip(node.chunks_exact(accelerations.len()))
+            {
+                let mut sum = Bounds::ZERO;
+                for (per, a) in per.iter().zip(accelerations) {
+                    sum.add_product(
+                        Bounds {
+                            low: *per,
+                            high: *per,
+                        },
+                        *a,
+                    );
+                }
+                out[*k] = if number == 0 { sum } else { out[*k].with(sum) };
+            }
+        }
+        // between two nodes a moment exceeds both by no more than its shear over half of their distance
+        let step = nodes
+            .places
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .fold(0.0, f64::max);
+        for (moment, shear) in SLOPES {
+            let more = 0.5 * step * out[shear as usize].size();
+            out[moment as usize].low -= more;
+            out[moment as usize].high += more;
+        }
+        out
+    }
+
+    /// Whether inertia changes forces of a member.
+    pub fn is_moved(&self, member: usize) -> bool {
+        !self.members[member].moved.is_empty()
+    }
+
+    /// Whether inertia or dead load acts along members.
+    pub fn is_along(&self) -> bool {
+        let acts = |member: &MemberNodes| {
+            !member.moved.is_empty() || member.dead.iter().flatten().any(|value| *value != 0.0)
+        };
+        self.members.iter().any(acts)
     }
 
     /// The quantities of a section under dead load.

@@ -1,4 +1,4 @@
-//! Fibres of the members under the rails of a structure, and their largest stresses at the rows of a history.
+//! Fibres of the members under the rails of a structure.
 
 use design::{Fibres, GirderSections};
 use fea::Effect;
@@ -81,77 +81,5 @@ impl StressedSections {
     pub fn of(&self, member: usize) -> Option<(usize, &Fibres)> {
         let index = (*self.of_member.get(member)?)?;
         Some((index, &self.all[index].fibres))
-    }
-}
-
-/// The largest stress of either sign over the rows at one place, and its row.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RowStress {
-    pub size: f64,
-    pub row: usize,
-}
-
-/// The largest stresses over the rows of a history, by section, and beside each load.
-#[derive(Clone, Debug, Default)]
-pub(super) struct StressRows {
-    /// By section of the members; empty where stresses are not wanted.
-    pub sections: Vec<RowStress>,
-    /// By load, side (before, behind) and index in [`StressedSections::all`].
-    pub wheels: Vec<RowStress>,
-    count: usize,
-}
-
-impl StressRows {
-    /// Without rows, for a number of sections of members and of loads.
-    pub fn new(stressed: &StressedSections, sections: usize, loads: usize) -> StressRows {
-        let count = stressed.all.len();
-        let sections = if count == 0 { 0 } else { sections };
-        let none = RowStress::default();
-        StressRows {
-            sections: vec![none; sections],
-            wheels: vec![none; 2 * loads * count],
-            count,
-        }
-    }
-
-    /// Index in [`StressRows::wheels`].
-    pub fn wheel(&self, (load, is_behind): (usize, bool), stressed: usize) -> usize {
-        (2 * load + usize::from(is_behind)) * self.count + stressed
-    }
-
-    /// Adds the forces of a section at a row.
-    pub fn add_section(
-        &mut self,
-        section: usize,
-        own: Option<(usize, &Fibres)>,
-        row: usize,
-        values: &[f64],
-    ) {
-        if let Some((_, fibres)) = own {
-            add(&mut self.sections[section], fibres, row, values);
-        }
-    }
-
-    /// Adds the forces beside a load at a row.
-    pub fn add_wheel(
-        &mut self,
-        load: (usize, bool),
-        own: Option<(usize, &Fibres)>,
-        row: usize,
-        values: &[f64],
-    ) {
-        if let Some((index, fibres)) = own {
-            let at = self.wheel(load, index);
-            add(&mut self.wheels[at], fibres, row, values);
-        }
-    }
-}
-
-fn add(known: &mut RowStress, fibres: &Fibres, row: usize, values: &[f64]) {
-    let size = fibres
-        .worst(DIRECT.map(|k| values[k]))
-        .map_or(0.0, |worst| worst.value().abs());
-    if size > known.size {
-        *known = RowStress { size, row };
     }
 }

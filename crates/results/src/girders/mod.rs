@@ -1,49 +1,39 @@
 //! Extremes and envelopes of the girders in a run: moments, shear forces, normal forces and torsion of the members that
 //! carry rails, and deflections of the rails, with the signs of [`trains::GirderResponse`].
 //!
-//! At each row of the history the forces of a member follow from the influence lines of its end, by equilibrium with the
-//! wheels on it, so that sections anywhere, and those just before and just behind each wheel, cost little
-//! ([`trains::MemberForces`]). Inertia and dead load are added (`distributed`). Between the rows positions, forces and
-//! motions are interpolated (`instants`).
+//! At each time the forces of a member follow from the influence lines of its end, by equilibrium with the loads on it
+//! ([`trains::MemberForces`]); inertia and dead load are added (`distributed`). A run is divided into pieces of time in which what
+//! the loads cause is a polynomial ([`crate::pieces`]).
 //!
-//! 1. All sections, and both sides of each wheel, are evaluated at rows near enough to each other (`scanned_rows`); so are the
-//!    instants at which wheels pass sections, on both sides, and deflections at all listed places and under each wheel (`scan`).
-//! 2. Each peak is followed to the row with the largest value, refined over time and, at sections without a wheel, along the member
-//!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
+//! 1. The polynomials of all sections and of both sides of each load, of all listed places and of the places under loads have their
+//!    largest and smallest values (`forces`, `deflections`). Times at which loads are too far or too small are left out by
+//!    a bound.
+//! 2. The largest values of spans are sought between sections and places as well (`spans`, `climb`). Without loads that are
+//!    distributed along members, forces are largest at sections or beside loads.
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
-//! 4. The same is done at the ends of steps and inside of long ones, which the run records beside its output times, as many of
-//!    them as loads and motions need (`kept_rows`), and the extremes are compared with those from fewer of them (`rows`). Runs
-//!    without steps, such as quasi-static ones, are repeated with more rows.
 //!
-//! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
-//! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
+//! The largest and smallest reactions of supports are polynomials of time in the same pieces (`reactions`). Where the scene asks
+//! for stresses, those of the fibres are sought with the forces (`fibres`, `stresses`).
 //!
-//! The largest and smallest reactions of supports are found at the same rows and refined in the same way (`reactions`).
-//! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
-//!
-//! Files, lowest first: solved, peaks, kept_rows, instants, scanned_rows, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
-//! stresses, reactions, structure, rows, this one, and `deferred`, which computes all of it when it is asked for.
+//! Files, lowest first: solved, fibres, sections, distributed, value, girder, climb, member_lines, forces, deflections, spans, stresses,
+//! reactions, structure, deferred, which computes all of it when it is asked for, and this one.
 
+mod climb;
 mod deferred;
 mod deflections;
 mod distributed;
 mod fibres;
+mod forces;
 mod girder;
-mod instants;
-mod kept_rows;
-mod peaks;
-mod points;
+mod member_lines;
 mod reactions;
-mod refine;
-mod rows;
-mod scan;
-mod scanned_rows;
 mod sections;
 mod solved;
 mod spans;
 mod stresses;
 mod structure;
+mod value;
 
 pub(crate) use deferred::{DeferredGirders, GirderInputs};
 pub use reactions::GirderReaction;

@@ -49,25 +49,6 @@ impl RailSpans {
         ]
     }
 
-    /// Lengths of the spans and overhangs that are longer than rounding.
-    pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
-        let length = |span: usize| {
-            let [from, to] = self.bounds(span);
-            to - from
-        };
-        (0..=self.ends.len())
-            .map(length)
-            .filter(|length| *length > self.slack())
-    }
-
-    /// The spans in which a coordinate lies; two at the end that they have in common.
-    pub fn spans_at(&self, x: f64) -> impl Iterator<Item = usize> + '_ {
-        (0..=self.ends.len()).filter(move |span| {
-            let [from, to] = self.bounds(*span);
-            from < to && from <= x && x <= to
-        })
-    }
-
     /// The sections beside a coordinate, or the coordinate itself at an end of the rail.
     pub fn neighbours(&self, x: f64) -> [f64; 2] {
         let before = self.places.iter().rev().find(|place| **place < x);
@@ -197,41 +178,6 @@ impl Sections {
             places: distances,
             stressed: StressedSections::default(),
         }
-    }
-
-    /// The sections of a rail of the structure between two coordinates, both included.
-    pub fn between(&self, rail: usize, [low, high]: [f64; 2]) -> impl Iterator<Item = usize> + '_ {
-        let of_rail = (0..self.rails.len()).filter(move |index| self.rails[*index].rail == rail);
-        of_rail.flat_map(move |index| {
-            // in the order of the points: rail by rail with increasing coordinates
-            let place = |section: &MemberSection| {
-                let point = self.points[section.point];
-                (point.rail, point.x)
-            };
-            let first = self
-                .sections
-                .partition_point(|section| place(section) < (index, low));
-            let own = move |at: &usize| {
-                let (rail, x) = place(&self.sections[*at]);
-                rail == index && x <= high
-            };
-            (first..self.sections.len()).take_while(own)
-        })
-    }
-
-    /// The stretch of a rail of the structure about a coordinate, its ends left out, in which there are no sections.
-    pub fn clear_about(&self, rail: usize, x: f64) -> [f64; 2] {
-        let places = self
-            .rails
-            .iter()
-            .filter(|own| own.rail == rail)
-            .flat_map(|own| &own.places);
-        places.fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], &place| {
-            [
-                if place <= x { low.max(place) } else { low },
-                if place >= x { high.min(place) } else { high },
-            ]
-        })
     }
 
     /// Sections of the same rails at those of `places` (index in the list of rails, coordinate) that have none.

@@ -1,16 +1,21 @@
-//! Extremes of spans: the largest values of their sections, those beside wheels, and those between sections.
+//! Extremes of spans: the largest values of their sections or places, those beside or under loads, and those between sections.
 
 use trains::SectionSide;
 
-use super::deflections::Wanted;
+use super::deflections::DeflectionPeaks;
 use super::distributed::FORCES;
-use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{Corners, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
-use super::scan::Scan;
+use super::forces::ForcePeaks;
+use super::girder::LoadedGirders;
+use super::value::{GirderValue, offer};
+use crate::pieces::LoadState;
+use crate::pieces::SIGNS;
 
-/// Peaks of sections that are lower than a refined value by more than this fraction of the largest value of their kind are left
-/// out: rows are near enough to each other that the parabolas through them err by less.
-const BELOW: f64 = 0.01;
+/// Part of the largest value by which that of a section may be lower, and the largest value near to it still be the largest of all.
+/// Sections are twentieths of a span, between which the moment of distributed forces rises by little.
+const NEAR: f64 = 0.01;
+
+/// The same for deflections of places, which may have corners under loads as well.
+const NEAR_DEFLECTION: f64 = 0.05;
 
 /// The largest or smallest value of one quantity over a span.
 #[derive(Clone, Copy, Debug)]
@@ -25,14 +30,96 @@ pub(super) struct SpanValue {
     pub found: GirderValue,
 }
 
-impl Refinement<'_> {
+/// The peaks of a structure.
+pub(super) struct GirderPeaks<'a> {
+    pub girders: &'a LoadedGirders<'a>,
+    pub forces: ForcePeaks,
+    pub deflections: DeflectionPeaks,
+    /// Largest magnitude of each quantity, and of both deflections.
+    pub sizes: [f64; FORCES + 2],
+}
+
+impl<'a> GirderPeaks<'a> {
+    /// The peaks of all sections and places; those beside and under loads only if `has_loads`.
+    pub fn new(girders: &'a LoadedGirders<'a>, has_loads: bool) -> GirderPeaks<'a> {
+        let forces = ForcePeaks::new(girders, has_loads);
+        let deflections = DeflectionPeaks::new(girders, &forces.first_span, has_loads);
+        let mut out = GirderPeaks {
+            girders,
+            forces,
+            deflections,
+            sizes: [0.0; FORCES + 2],
+        };
+        let spans = out.forces.beside.len();
+        out.sizes = std::array::from_fn(|quantity| {
+            let of_kind = |kind: usize| {
+                let sections = (0..out.count(quantity)).map(move |at| (at, kind));
+                let sections = sections.filter_map(|(at, kind)| out.value(at, quantity, kind));
+                let loads = (0..spans).map(move |span| (span, kind));
+                sections.chain(loads.filter_map(|(span, kind)| out.at_loads(span, quantity, kind)))
+            };
+            let all = (0..2).flat_map(of_kind);
+            all.map(|found| found.signed.abs()).fold(0.0, f64::max)
+        });
+        out
+    }
+
+    /// Number of the sections, or of the points for deflections.
+    fn count(&self, quantity: usize) -> usize {
+        match quantity < FORCES {
+            true => self.girders.sections.sections.len(),
+            false => self.girders.sections.points.len(),
+        }
+    }
+
+    /// The largest of sign times a quantity at a section, or at a point for deflections.
+    pub fn value(&self, at: usize, quantity: usize, kind: usize) -> Option<GirderValue> {
+        match quantity.checked_sub(FORCES) {
+            None => self.forces.section(self.girders, at, quantity, kind),
+            Some(plane) => self.deflections.point(self.girders, at, plane, kind),
+        }
+    }
+
+    /// The same beside or under the loads in a span, by its index among all spans.
+    fn at_loads(&self, span: usize, quantity: usize, kind: usize) -> Option<GirderValue> {
+        match quantity.checked_sub(FORCES) {
+            None => self.forces.beside[span][quantity][kind],
+            Some(plane) => self.deflections.under[span][plane][kind],
+        }
+    }
+
+    /// Whether a quantity is zero throughout but for rounding: 1e-9 of the largest force, or of the largest moment, or of
+    /// the largest deflection.
+    pub fn is_zero(&self, quantity: usize) -> bool {
+        self.sizes[quantity] <= 1e-9 * self.kind_size(quantity)
+    }
+
+    /// A value of a quantity, and 0 where it is below 1e-12 of the largest value of its kind.
+    pub fn without_rounding(&self, quantity: usize, value: f64) -> f64 {
+        if value.abs() <= 1e-12 * self.kind_size(quantity) {
+            0.0
+        } else {
+            value
+        }
+    }
+
+    /// Largest magnitude of the quantities of one dimension.
+    fn kind_size(&self, quantity: usize) -> f64 {
+        let kinds: &[usize] = match quantity {
+            0 | 2 | 3 => &[0, 2, 3],
+            1 | 4 | 5 => &[1, 4, 5],
+            _ => &[6, 7],
+        };
+        kinds.iter().fold(0.0, |most, k| most.max(self.sizes[*k]))
+    }
+
     /// The extremes of every span that has sections.
     pub fn spans(&self) -> Vec<SpanValue> {
         let mut out = Vec::new();
         for (rail, outline) in self.girders.sections.rails.iter().enumerate() {
             for span in 0..=outline.ends.len() {
                 let [from, to] = outline.bounds(span);
-                if to - from <= 1e-9 * (outline.range[1] - outline.range[0]) {
+                if to - from <= outline.slack() {
                     continue;
                 }
                 for quantity in (0..FORCES + 2).filter(|quantity| !self.is_zero(*quantity)) {
@@ -40,22 +127,15 @@ impl Refinement<'_> {
                         return out;
                     }
                     for kind in 0..2 {
-                        let found = match quantity.checked_sub(FORCES) {
-                            None => self.span_force(rail, span, quantity, kind),
-                            Some(plane) => self.span_deflection(Wanted {
-                                rail,
-                                span,
-                                plane,
-                                kind,
-                            }),
-                        };
-                        out.extend(found.map(|found| SpanValue {
+                        let found = self.span((rail, span), quantity, kind);
+                        let value = |found| SpanValue {
                             rail,
                             span,
                             quantity,
                             kind,
                             found,
-                        }));
+                        };
+                        out.extend(found.map(value));
                     }
                 }
             }
@@ -63,187 +143,121 @@ impl Refinement<'_> {
         out
     }
 
-    /// The largest of sign times a force over a span: at its sections, where wheels pass them, and beside wheels.
-    fn span_force(
+    /// The largest of sign times a quantity over a span: at its sections or places and near to them, then at the loads.
+    fn span(
         &self,
-        rail: usize,
-        span: usize,
+        (rail, span): (usize, usize),
         quantity: usize,
         kind: usize,
     ) -> Option<GirderValue> {
-        let Scan {
-            sections: peaks,
-            wheels,
-            ..
-        } = self.scan;
-        let all = &self.girders.sections;
-        let own: Vec<usize> = (0..all.sections.len())
-            .filter(|at| {
-                all.sections[*at].span == span && all.points[all.sections[*at].point].rail == rail
-            })
-            .collect();
-        let loads =
-            wheels.len() / (2 * self.scan.first_span[self.scan.first_span.len() - 1]).max(1);
-        let tracks: Vec<(usize, bool, &Peak)> = (0..loads)
-            .flat_map(|load| [(load, false), (load, true)])
-            .map(|(load, behind)| {
-                (
-                    load,
-                    behind,
-                    &wheels[self.scan.wheel(load, behind, rail, span)][quantity][kind],
-                )
-            })
-            .collect();
-        let values = own
-            .iter()
-            .map(|at| peaks[*at][quantity][kind].largest.value);
-        let values = values.chain(tracks.iter().map(|track| track.2.largest.value));
-        let best = values.fold(f64::NEG_INFINITY, f64::max);
-        let least = best - NEAR * self.size(quantity);
-        // sections with higher peaks first: what is far below a peak that is known is not followed
-        let height = |at: usize| peaks[at][quantity][kind].highest.height;
-        let mut ranked: Vec<usize> = (0..own.len()).collect();
-        ranked.sort_by(|a, b| height(own[*b]).total_cmp(&height(own[*a])));
-        let (mut of_sections, mut known) = (vec![None; own.len()], f64::NEG_INFINITY);
-        for rank in ranked {
-            let near = least.max(known - BELOW * self.size(quantity));
-            let value = self.section(own[rank], quantity, kind, height(own[rank]) >= near);
-            known = value.map_or(known, |value| known.max(value.signed));
-            of_sections[rank] = value;
-        }
-        // of equal values that of the first section counts
+        let values = self.sections_of((rail, span), quantity, kind);
         let mut found: Option<GirderValue> = None;
-        of_sections
+        values.iter().for_each(|value| offer(&mut found, *value));
+        let at_loads = self.at_loads(self.forces.first_span[rail] + span, quantity, kind);
+        let near = match quantity.checked_sub(FORCES) {
+            Some(_) => Some(NEAR_DEFLECTION),
+            None => self.girders.distributed.is_along().then_some(NEAR),
+        };
+        let best = found.iter().chain(&at_loads).map(|found| found.signed);
+        let best = best.fold(f64::NEG_INFINITY, f64::max);
+        for (k, value) in values.iter().enumerate() {
+            let is_crest = (k == 0 || value.signed >= values[k - 1].signed)
+                && values
+                    .get(k + 1)
+                    .is_none_or(|next| value.signed >= next.signed);
+            if near.is_some_and(|near| is_crest && value.signed >= best - near * best.abs()) {
+                offer(&mut found, self.near((rail, span), quantity, kind, *value));
+            }
+        }
+        at_loads
             .into_iter()
             .for_each(|value| offer(&mut found, value));
-        if let Some(own) =
-            found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty())
-        {
-            offer(&mut found, self.along(rail, span, quantity, kind, own));
-        }
-        for (load, behind, peak) in tracks
-            .into_iter()
-            .filter(|track| track.2.highest.height >= least)
-        {
-            offer(
-                &mut found,
-                self.beside(rail, span, (load, behind), quantity, kind, peak),
-            );
-        }
         found
     }
 
-    /// The largest value just before or just behind a wheel in a span.
-    fn beside(
+    /// The values of the sections of a span in their order, or of its points that a member carries.
+    fn sections_of(
         &self,
-        rail: usize,
-        span: usize,
-        own: (usize, bool),
+        (rail, span): (usize, usize),
         quantity: usize,
         kind: usize,
-        peak: &Peak,
-    ) -> Option<GirderValue> {
-        if peak.highest.height == f64::NEG_INFINITY {
-            return None;
-        }
-        let girders = self.girders;
-        // a load on another rail of the same member stands opposite to a section of this one
-        let place = |position: f64| {
-            let state = girders.states.at(position);
-            let mut passed = trains::PassedLoads::default();
-            let on = |(index, member): (usize, trains::RailMember)| {
-                if member.rail != girders.sections.rails[rail].rail {
-                    return None;
-                }
-                girders.members.load(index, &state.loads, &mut passed);
-                let (_, place) = passed.places().find(|(load, _)| *load == own.0)?;
-                let x = girders.members.coordinate(index, place);
-                girders
-                    .member_at(rail, x, span)
-                    .is_some()
-                    .then_some((index, place, x))
-            };
-            let found = girders.members.members().enumerate().find_map(on)?;
-            Some((state, found))
+    ) -> Vec<GirderValue> {
+        let all = self.girders.sections;
+        let [from, to] = all.rails[rail].bounds(span);
+        let is_own = |at: &usize| match quantity < FORCES {
+            true => {
+                let section = &all.sections[*at];
+                section.span == span && all.points[section.point].rail == rail
+            }
+            false => {
+                let point = all.points[*at];
+                point.rail == rail
+                    && (from..=to).contains(&point.x)
+                    && self.girders.is_carried(rail, point.x, span)
+            }
         };
-        let value = |position: f64, is_behind: bool| {
-            place(position).map_or(f64::NEG_INFINITY, |(state, (member, place, _))| {
-                SIGNS[kind]
-                    * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
-            })
-        };
-        let (signed, position) =
-            self.over_time((peak, 1), (quantity, Corners::NONE), &mut |position| {
-                value(position, own.1)
-            });
-        let (_, (member, place, x)) = place(position)?;
-        let side = match own.1 {
-            _ if is_moment(quantity) => SectionSide::At,
-            true => SectionSide::Behind,
-            false => SectionSide::Before,
-        };
-        let section = Some((member, place));
-        Some(GirderValue {
-            signed,
-            position,
-            x,
-            section,
-            own: Some(own),
-            is_after: None,
-            side,
-        })
+        let own = (0..self.count(quantity)).filter(is_own);
+        own.filter_map(|at| self.value(at, quantity, kind))
+            .collect()
     }
 
-    /// Refines a value at a section along its member and over time in turn.
-    fn along(
+    /// The largest value near to that of a section or place.
+    fn near(
         &self,
-        rail: usize,
-        span: usize,
+        (rail, span): (usize, usize),
         quantity: usize,
         kind: usize,
         from: GirderValue,
-    ) -> Option<GirderValue> {
+    ) -> GirderValue {
         let girders = self.girders;
-        let (member, _) = from.section?;
         let outline = &girders.sections.rails[rail];
-        let ends = girders.members.members().nth(member)?.x;
         let bounds = outline.bounds(span);
-        let neighbours = outline.neighbours(from.x);
-        let near = [
-            neighbours[0].max(ends[0]).max(bounds[0]),
-            neighbours[1].min(ends[1]).min(bounds[1]),
-        ];
-        let value = |x: f64, position: f64| {
-            let place = girders.members.place(member, x);
-            SIGNS[kind]
-                * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
-        };
-        let (mut found, size) = (from, self.size(quantity));
-        for _ in 0..ROUNDS {
-            let known = (found.signed, found.x);
-            let (signed, x) = largest(near, known, self.search_end(size), &mut |x| {
-                value(x, found.position)
+        let beside = outline.neighbours(from.x);
+        let beside = [beside[0].max(bounds[0]), beside[1].min(bounds[1])];
+        let Some((member, _)) = from.section else {
+            let plane = quantity - FORCES;
+            // as far as members carry the rail without a gap; ends of members are places
+            let near = beside.map(|end| {
+                let is_carried = girders.is_carried(rail, 0.5 * (end + from.x), span);
+                if is_carried { end } else { from.x }
             });
-            if signed <= found.signed + 1e-3 * self.accuracy * size {
-                break;
-            }
-            found = GirderValue {
-                signed,
-                x,
-                section: Some((member, girders.members.place(member, x))),
-                side: SectionSide::At,
-                ..found
-            };
-            let (signed, position) =
-                self.near_in_time(found.position, 1, &mut |position| value(x, position));
-            if signed > found.signed {
-                found = GirderValue {
-                    signed,
-                    position,
-                    ..found
-                };
-            }
+            return girders.climb(near, from, &|x, state: &LoadState<'_>| {
+                let found = girders.deflections(rail, &[x], plane, state)?;
+                Some(SIGNS[kind] * found[0])
+            });
+        };
+        let found = girders.climb_member(member, beside, from, &|place, state| {
+            SIGNS[kind] * girders.forces(member, place, state, None)[quantity]
+        });
+        GirderValue {
+            section: Some((member, girders.members.place(member, found.x))),
+            ..found
         }
-        Some(found)
+    }
+}
+
+impl LoadedGirders<'_> {
+    /// The largest value near to one of a member, between two coordinates.
+    pub fn climb_member(
+        &self,
+        member: usize,
+        [from, to]: [f64; 2],
+        value: GirderValue,
+        of: &dyn Fn(f64, &LoadState<'_>) -> f64,
+    ) -> GirderValue {
+        let Some(ends) = self.members.members().nth(member).map(|own| own.x) else {
+            return value;
+        };
+        let near = [from.max(ends[0]), to.min(ends[1])];
+        let found = self.climb(near, value, &|x, state| {
+            Some(of(self.members.place(member, x), state))
+        });
+        // the place itself keeps its side
+        let side = if found.x == value.x {
+            value.side
+        } else {
+            SectionSide::At
+        };
+        GirderValue { side, ..found }
     }
 }

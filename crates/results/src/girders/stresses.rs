@@ -1,21 +1,18 @@
 //! The largest direct stress of each section under a rail in a run, from normal force and moments that act at once.
 //!
-//! Stresses are evaluated at all sections of the scan and on both sides of each wheel at all rows, where wheels pass sections,
-//! and where the normal force and the moments of spans are extreme. The largest of them are refined over time between the
-//! neighbouring rows and, where forces are distributed along members, between the neighbouring sections. Like the extremes of
-//! spans, what is found is a sample: a larger stress between rows and sections is not excluded.
+//! The stress of each fibre is found like a force: at all sections and beside all loads, at all times, and between sections where
+//! forces are distributed along members.
 
-use design::{FibreStress, by_reason, side_word};
+use design::{FibreStress, Fibres, by_reason, side_word};
 use formats::LateralSection;
 use formats::scene::{Origin, Scene};
 use serde_json::{Map, Value, json};
-use trains::{PassedLoads, SectionSide};
+use trains::SectionSide;
 
-use super::distributed::Quantities;
 use super::fibres::DIRECT;
-use super::peaks::largest;
-use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, offer};
-use super::spans::SpanValue;
+use super::forces::stress;
+use super::spans::GirderPeaks;
+use super::value::GirderValue;
 
 /// Stresses on both sides of a wheel that count as equal, relative to their size.
 const ROUNDING: f64 = 1e-12;
@@ -114,7 +111,6 @@ impl GirderStresses {
                 "parts": named(["normal", "vertical", "lateral"], found.parts),
                 "forces": named(["normal", "moment", "lateral moment"], found.forces),
                 "lateral_section": scene.lateral_section.map(LateralSection::word),
-                "sampled": true,
                 "x": found.x + 0.0,
                 "side": side_word(found.side),
                 "time": found.time,
@@ -163,12 +159,12 @@ impl GirderStresses {
     }
 }
 
-impl Refinement<'_> {
-    /// The largest stresses of the sections of a structure; `spans` are its extremes.
-    pub fn stresses(&self, spans: &[SpanValue]) -> GirderStresses {
+impl GirderPeaks<'_> {
+    /// The largest stresses of the sections of a structure.
+    pub fn stresses(&self) -> GirderStresses {
         let stressed = &self.girders.sections.stressed;
         let found: Vec<GirderStress> = (0..stressed.all.len())
-            .filter_map(|section| self.of_section(section, spans))
+            .filter_map(|section| self.stress_of(section))
             .collect();
         let most = found
             .iter()
@@ -183,234 +179,29 @@ impl Refinement<'_> {
         }
     }
 
-    fn of_section(&self, section: usize, spans: &[SpanValue]) -> Option<GirderStress> {
-        let (girders, scan) = (self.girders, self.scan);
-        let all = girders.sections;
-        let is_own = |member: usize| all.stressed.of_member[member] == Some(section);
-        let mut found: Option<GirderValue> = None;
-        for value in spans
-            .iter()
-            .filter(|value| DIRECT.contains(&value.quantity))
-        {
-            if value
-                .found
-                .section
-                .is_some_and(|(member, _)| is_own(member))
-            {
-                let signed = self
-                    .stress_at(&value.found)
-                    .map_or(0.0, |(worst, _)| worst.value().abs());
-                offer(
-                    &mut found,
-                    Some(GirderValue {
-                        signed,
-                        ..value.found
-                    }),
-                );
-            }
-        }
-        for (own, passages) in all
-            .sections
-            .iter()
-            .zip(&scan.passages)
-            .filter(|(own, _)| is_own(own.member))
-        {
-            for passage in passages {
-                offer(
-                    &mut found,
-                    Some(GirderValue {
-                        signed: self.stress_size(own.member, &passage.values),
-                        position: passage.position,
-                        x: all.points[own.point].x,
-                        section: Some((own.member, own.place)),
-                        own: Some((passage.load, passage.is_behind)),
-                        is_after: Some(passage.is_after),
-                        side: own.side,
-                    }),
-                );
-            }
-        }
-        let loads = scan.stresses.wheels.len() / (2 * all.stressed.all.len());
-        let tracks: Vec<(usize, bool)> = (0..loads)
-            .flat_map(|load| [(load, false), (load, true)])
-            .collect();
-        let own: Vec<usize> = (0..all.sections.len())
-            .filter(|at| is_own(all.sections[*at].member))
-            .collect();
-        let of_track =
-            |track: &(usize, bool)| scan.stresses.wheels[scan.stresses.wheel(*track, section)];
-        let rows = own
-            .iter()
-            .map(|at| scan.stresses.sections[*at])
-            .chain(tracks.iter().map(of_track));
-        let known = found.map_or(0.0, |found| found.signed);
-        let least = (1.0 - NEAR) * rows.map(|row| row.size).fold(known, f64::max);
-        for at in own {
-            let row = scan.stresses.sections[at];
-            if row.size >= least && row.size > 0.0 {
-                offer(&mut found, Some(self.section_in_time(at, row.row)));
-            }
-        }
-        for track in tracks {
-            let row = of_track(&track);
-            if row.size >= least && row.size > 0.0 {
-                offer(&mut found, self.wheel_in_time(section, track, row.row));
-            }
-        }
-        let mut found = found.filter(|found| found.signed > 0.0)?;
-        if found.own.is_none() && !girders.distributed.is_empty() {
-            found = self.stress_along(section, found);
-        }
-        self.result(section, &found)
-    }
-
-    /// The stress of the forces of a section of a member, without what is only rounding, and these forces.
-    fn stress(&self, member: usize, values: &Quantities) -> Option<(FibreStress, [f64; 3])> {
-        let (_, fibres) = self.girders.sections.stressed.of(member)?;
-        let forces = DIRECT.map(|k| self.without_rounding(k, values[k]));
-        Some((fibres.worst(forces)?, forces))
-    }
-
-    fn stress_size(&self, member: usize, values: &Quantities) -> f64 {
-        self.stress(member, values)
-            .map_or(0.0, |(worst, _)| worst.value().abs())
-    }
-
-    fn stress_at(&self, found: &GirderValue) -> Option<(FibreStress, [f64; 3])> {
-        let (member, place) = found.section?;
-        self.stress(
-            member,
-            &self
-                .girders
-                .forces_in(member, place, &self.state_of(found), found.own),
-        )
-    }
-
-    /// The largest stress of a section of a member in the intervals beside a row.
-    fn section_in_time(&self, at: usize, row: usize) -> GirderValue {
-        let all = self.girders.sections;
-        let section = &all.sections[at];
-        let (signed, position) = self.near_in_time(row as f64, 1, &mut |position| {
-            self.stress_size(section.member, &self.girders.forces(section, position))
-        });
-        GirderValue {
-            signed,
-            position,
-            x: all.points[section.point].x,
-            section: Some((section.member, section.place)),
-            own: None,
-            is_after: None,
-            side: section.side,
-        }
-    }
-
-    /// The largest stress beside a load, on members of one section, in the intervals beside a row.
-    fn wheel_in_time(&self, section: usize, own: (usize, bool), row: usize) -> Option<GirderValue> {
-        let girders = self.girders;
-        let stressed = &girders.sections.stressed;
-        let at = |position: f64| {
-            let state = girders.states.at(position);
-            let mut passed = PassedLoads::default();
-            let on = |member: usize| {
-                girders.members.load(member, &state.loads, &mut passed);
-                let (_, place) = passed.places().find(|(load, _)| *load == own.0)?;
-                Some((
-                    self.stress_size(
-                        member,
-                        &girders.sum(member, place, &state, &passed, Some(own)),
-                    ),
-                    member,
-                    place,
-                ))
-            };
-            let members =
-                (0..stressed.of_member.len()).filter(|m| stressed.of_member[*m] == Some(section));
-            members
-                .filter_map(on)
-                .reduce(|a, b| if b.0 > a.0 { b } else { a })
-        };
-        let (signed, position) = self.near_in_time(row as f64, 1, &mut |position| {
-            at(position).map_or(0.0, |found| found.0)
-        });
-        let (_, member, place) = at(position)?;
-        let x = girders.members.coordinate(member, place);
-        let side = SectionSide::At;
-        Some(GirderValue {
-            signed,
-            position,
-            x,
-            section: Some((member, place)),
-            own: Some(own),
-            is_after: None,
-            side,
-        })
-    }
-
-    /// Refines a stress at a section without a wheel along its member and over time in turn.
-    fn stress_along(&self, section: usize, from: GirderValue) -> GirderValue {
-        let girders = self.girders;
-        let outline = &girders.sections.rails[girders.sections.stressed.all[section].rail];
-        let Some((member, ends)) = from
-            .section
-            .and_then(|(member, _)| Some((member, girders.members.members().nth(member)?.x)))
-        else {
-            return from;
-        };
-        let [before, after] = outline.neighbours(from.x);
-        let near = [before.max(ends[0]), after.min(ends[1])];
-        let size = |x: f64, position: f64| {
-            let place = girders.members.place(member, x);
-            self.stress_size(
-                member,
-                &girders.forces_in(member, place, &girders.states.at(position), None),
-            )
-        };
-        let mut found = GirderValue {
-            is_after: None,
-            ..from
-        };
-        for _ in 0..ROUNDS {
-            let known = (size(found.x, found.position), found.x);
-            let (signed, x) = largest(near, known, self.search_end(from.signed), &mut |x| {
-                size(x, found.position)
-            });
-            if signed <= (1.0 + 1e-3 * self.accuracy) * found.signed {
-                break;
-            }
-            let (later, position) =
-                self.near_in_time(found.position, 1, &mut |position| size(x, position));
-            let section = Some((member, girders.members.place(member, x)));
-            found = GirderValue {
-                signed,
-                x,
-                section,
-                side: SectionSide::At,
-                ..found
-            };
-            if later > signed {
-                found = GirderValue {
-                    signed: later,
-                    position,
-                    ..found
-                };
-            }
-        }
-        found
-    }
-
-    fn result(&self, section: usize, found: &GirderValue) -> Option<GirderStress> {
+    fn stress_of(&self, section: usize) -> Option<GirderStress> {
         let girders = self.girders;
         let own = &girders.sections.stressed.all[section];
         let rail = &girders.sections.rails[own.rail];
-        let (worst, forces) = self.stress_at(found)?;
+        let mut found = self.forces.stresses[section].filter(|found| found.signed > 0.0)?;
+        let (member, _) = found.section?;
+        if girders.distributed.is_along() && found.own.is_none() {
+            let beside = rail.neighbours(found.x);
+            found = girders.climb_member(member, beside, found, &|place, state| {
+                let forces = girders.forces(member, place, state, None);
+                stress(&own.fibres, DIRECT.map(|k| forces[k]))
+            });
+            found.section = Some((member, girders.members.place(member, found.x)));
+        }
+        let (worst, forces) = self.stress_at(&own.fibres, &found)?;
         let side = match found.own {
             Some((load, is_behind)) if found.side == SectionSide::At => {
                 let across = GirderValue {
                     own: Some((load, !is_behind)),
-                    ..*found
+                    ..found
                 };
                 let other = self
-                    .stress_at(&across)
+                    .stress_at(&own.fibres, &across)
                     .map_or(0.0, |(worst, _)| worst.value().abs());
                 match is_behind {
                     _ if other >= (1.0 - ROUNDING) * worst.value().abs() => SectionSide::At,
@@ -431,7 +222,16 @@ impl Refinement<'_> {
             yield_strength: own.fibres.yield_strength,
             x: found.x + 0.0,
             side,
-            time: girders.states.at(found.position).time,
+            time: girders.pieces.time(found.at),
         })
+    }
+
+    /// The largest stress where one was found, and the forces that cause it, without what is only rounding.
+    fn stress_at(&self, fibres: &Fibres, found: &GirderValue) -> Option<(FibreStress, [f64; 3])> {
+        let (member, place) = found.section?;
+        let state = self.girders.pieces.at(found.at);
+        let values = self.girders.forces(member, place, &state, found.own);
+        let forces = DIRECT.map(|k| self.without_rounding(k, values[k]));
+        Some((fibres.worst(forces)?, forces))
     }
 }

@@ -4,20 +4,12 @@
 use serde_json::{Map, Value, json};
 use sim::{BodyDof, Channel, Side, Solution};
 
-use super::loaded::WheelLoadReader;
 use crate::columns::NamedColumns;
+use crate::loads::WheelLoadReader;
 use crate::steps::{ColumnInstant, SteppedColumns};
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 use formats::scene::motion::SimulationInput;
-
-/// Number of intervals in which an extreme of a column is looked for.
-const INTERVALS: usize = 4;
-/// Parts into which an interval is divided, and the number of times the two beside the largest value are divided again.
-const PARTS: usize = 8;
-const NARROWINGS: usize = 6;
-/// Differences, relative to a value, that are rounding.
-const ROUNDING: f64 = 1e-13;
 
 /// Largest and smallest value of one column.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,64 +36,23 @@ pub struct ColumnExtreme {
 }
 
 impl ColumnEnvelope {
-    /// The envelopes of the columns of the influence lines of a structure, whose values at the nodes of a run's solution `steps`
-    /// has. A section has a cusp of its moment at the time at which a wheel passes it, between the nodes: `exact` gives the values
-    /// of all columns for a row of the solution, and the largest of them is looked for in the intervals with the largest values.
-    pub fn all(
-        columns: &[Column],
-        scene: &Scene,
-        input: &SimulationInput,
+    /// The envelope of a column by its largest and smallest value.
+    pub(super) fn new(
+        column: &Column,
+        [max, min]: [ColumnInstant; 2],
+        (scene, input): (&Scene, &SimulationInput),
         solution: &Solution,
         loads: &WheelLoadReader,
-        steps: &SteppedColumns,
-        exact: &dyn Fn(&[f64]) -> Vec<f64>,
-    ) -> Vec<ColumnEnvelope> {
-        let mut row = Vec::new();
-        let mut value = |index: usize, t: f64| {
-            row.clear();
-            solution.row(t, Side::Before, &mut row);
-            exact(&row)[index]
+    ) -> ColumnEnvelope {
+        let extreme = |found: ColumnInstant| ColumnExtreme {
+            value: found.value,
+            ..scene_at(found.time, scene, input, solution, loads)
         };
-        let mut out = Vec::new();
-        for (index, column) in columns.iter().enumerate() {
-            let values = steps.record.values(&column.name);
-            let Some(extremes) = steps.extremes(values) else {
-                continue;
-            };
-            let mut found = extremes.into_iter().zip([1.0, -1.0]).map(|(known, sign)| {
-                let mut best = known;
-                for [from, to] in steps.largest_intervals(values, sign, INTERVALS) {
-                    let mut bracket = [from, to];
-                    for _ in 0..NARROWINGS {
-                        let step = (bracket[1] - bracket[0]) / PARTS as f64;
-                        let time = |k: usize| bracket[0] + k as f64 * step;
-                        let at = (1..PARTS).map(|k| (value(index, time(k)), time(k)));
-                        let most = at.reduce(|a, b| if sign * b.0 > sign * a.0 { b } else { a });
-                        let Some((most, t)) = most else { break };
-                        let rounding = ROUNDING * most.abs();
-                        if sign * most > sign * best.value + rounding {
-                            best = ColumnInstant {
-                                value: most,
-                                time: t,
-                            };
-                        }
-                        bracket = [t - step, t + step];
-                    }
-                }
-                ColumnExtreme {
-                    value: best.value,
-                    ..scene_at(best.time, scene, input, solution, loads)
-                }
-            });
-            if let (Some(max), Some(min)) = (found.next(), found.next()) {
-                out.push(ColumnEnvelope {
-                    column: column.name.clone(),
-                    max,
-                    min,
-                });
-            }
+        ColumnEnvelope {
+            column: column.name.clone(),
+            max: extreme(max),
+            min: extreme(min),
         }
-        out
     }
 
     /// The envelope as a member of `envelopes`.

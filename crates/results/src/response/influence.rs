@@ -24,8 +24,9 @@ use fea::{CrossSection, Dof, Effect, FactoredFrame, Model};
 use nalgebra::{DMatrix, Vector3};
 use splines::{Axis, InfluenceLines, Probe};
 
-use super::loaded::WheelLoad;
 use super::part_inertia::part_inertia;
+use crate::loads::WheelLoad;
+use crate::pieces::Functional;
 use formats::grid::effects::COMPONENTS;
 use formats::scene::columns;
 use formats::scene::columns::{Column, Direction, Kind};
@@ -166,6 +167,32 @@ impl ColumnInfluence {
     #[must_use]
     pub fn per_acceleration(&self, column: usize) -> Vec<f64> {
         self.inertia.row(column).iter().copied().collect()
+    }
+
+    /// The columns without dead load as sums of influence lines and of inertia.
+    pub(crate) fn functionals(&self) -> Vec<Functional> {
+        let of = |column: usize| {
+            let terms = self
+                .terms
+                .iter()
+                .enumerate()
+                .filter(|(_, term)| term.column == column);
+            Functional {
+                terms: terms.map(|(effect, term)| (effect, term.weight)).collect(),
+                inertia: self
+                    .inertia
+                    .row(column)
+                    .iter()
+                    .map(|per| 0.0 - per)
+                    .collect(),
+            }
+        };
+        (0..self.columns.len()).map(of).collect()
+    }
+
+    /// The influence lines of the effects of which columns are sums.
+    pub(crate) fn effects(&self) -> &InfluenceLines {
+        &self.effects
     }
 
     /// For each column, whether any load, weight or inertia force makes it nonzero beyond rounding errors.

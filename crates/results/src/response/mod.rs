@@ -15,12 +15,12 @@ mod over_time;
 mod part_inertia;
 mod serviceability;
 
+pub use crate::loads::{WheelLoad, WheelLoadReader};
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
 pub(crate) use influence::{dead_load, inertia, relative_direction};
-pub(crate) use loaded::{LoadSource, PlaceMotions, displacements, spread};
-pub use loaded::{WheelLoad, WheelLoadReader};
+pub(crate) use loaded::{PlaceMotions, displacements};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift};
 
@@ -32,7 +32,8 @@ use sim::{Channel, History, Run, SolutionNodes};
 
 use crate::Error;
 use crate::columns::NamedColumns;
-use crate::steps::SteppedColumns;
+use crate::pieces::{Functionals, LoadPieces, Peak, RailCells, SIGNS};
+use crate::steps::{ColumnInstant, SteppedColumns};
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
@@ -48,6 +49,8 @@ pub struct Response {
     pub dead_load: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
+    /// Names of the columns of stresses with a detail category, and the values at which they turn, in their order.
+    pub turns: Vec<(String, Vec<ColumnInstant>)>,
     /// Largest deflection of each span.
     pub deflections: Vec<Deflection>,
     /// Largest lateral displacement of each rail on a frame.
@@ -129,9 +132,8 @@ pub struct SolvedStructures<'s> {
 }
 
 impl Response {
-    /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built` and `lines` have
-    /// one entry per structure of `scene`; `nodes` are those of the solution of the run, and the columns are added to `steps`, their
-    /// columns, as well.
+    /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built` and
+    /// `lines` have one entry per structure of `scene`; `nodes` are those of the solution of the run, and `steps` its columns there.
     pub fn new(
         scene: &Scene,
         input: &SimulationInput,
@@ -139,34 +141,23 @@ impl Response {
         built: &[BuiltFoundation],
         solved: SolvedStructures<'_>,
         lines: &[Option<ColumnInfluence>],
-        (record, steps): (&mut NamedColumns, &mut SteppedColumns),
+        (record, steps): (&mut NamedColumns, &SteppedColumns),
     ) -> Response {
         let history = &run.history;
         let loads = WheelLoadReader::new(scene, input, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             if let Some(lines) = lines {
-                add_columns(scene, s, &nodes.rows, &loads, lines, &mut steps.record);
                 let is_incomplete = add_columns(scene, s, history, &loads, lines, record);
                 response.note_columns(scene, s, lines, is_incomplete);
-                response.envelopes.extend(ColumnEnvelope::all(
-                    lines.columns(),
-                    scene,
-                    input,
-                    &run.solution,
-                    &loads,
-                    steps,
-                    &|row| {
-                        values_in(
-                            scene,
-                            (s, nodes.rows.position(Channel::Acceleration(s, 0))),
-                            &loads,
-                            lines,
-                            row,
-                        )
-                        .0
-                    },
-                ));
+                let dofs = built[s].foundation.dofs();
+                let found = ColumnsInTime::new((scene, s), (run, nodes), &loads, lines, dofs);
+                for (column, extremes) in lines.columns().iter().zip(found.extremes) {
+                    let at = (scene, input);
+                    let own = ColumnEnvelope::new(column, extremes, at, &run.solution, &loads);
+                    response.envelopes.push(own);
+                }
+                response.turns.extend(found.turns);
             }
         }
         for (s, built) in built.iter().enumerate() {
@@ -266,6 +257,79 @@ impl Response {
         }
         out
     }
+}
+
+/// What the columns of a structure are over a run.
+pub(crate) struct ColumnsInTime {
+    /// By column: its largest and its smallest value.
+    pub extremes: Vec<[ColumnInstant; 2]>,
+    turns: Vec<(String, Vec<ColumnInstant>)>,
+}
+
+impl ColumnsInTime {
+    /// The columns of `lines` of structure `s`, which has `dofs` recorded degrees of freedom.
+    pub fn new(
+        (scene, s): (&Scene, usize),
+        (run, nodes): (&Run, &SolutionNodes),
+        loads: &WheelLoadReader,
+        lines: &ColumnInfluence,
+        dofs: usize,
+    ) -> ColumnsInTime {
+        let functionals = lines.functionals();
+        let effects = lines.effects();
+        let rails = effects
+            .rails()
+            .elements()
+            .iter()
+            .map(|element| element.rail + 1);
+        let cells = RailCells::new(rails.max().unwrap_or_default(), &effects.breaks(), &[]);
+        let pieces = LoadPieces::new((&run.solution, nodes), loads, (s, dofs), cells);
+        let found = Functionals::new(effects, &functionals, &pieces);
+        let dead = |column: usize| match scene.output.dead_load {
+            true => lines.dead_load()[column],
+            false => 0.0,
+        };
+        let extreme = |(column, peaks): (usize, [Peak; 2])| {
+            [0, 1].map(|kind| ColumnInstant {
+                value: SIGNS[kind] * peaks[kind].signed + dead(column),
+                time: pieces.time(peaks[kind].at),
+            })
+        };
+        let peaks = found.peaks(&|| false).into_iter();
+        // without an interval there are none
+        let extremes = peaks
+            .enumerate()
+            .filter(|_| !pieces.pieces.is_empty())
+            .map(extreme);
+        let turns = |(column, own): (usize, &Column)| {
+            has_detail(scene, s, &own.name).then(|| {
+                let mut all = found.turns(column);
+                all.iter_mut().for_each(|turn| turn.value += dead(column));
+                (own.name.clone(), all)
+            })
+        };
+        ColumnsInTime {
+            extremes: extremes.collect(),
+            turns: lines
+                .columns()
+                .iter()
+                .enumerate()
+                .filter_map(turns)
+                .collect(),
+        }
+    }
+}
+
+/// Whether a column is the stress at a point with a detail category.
+fn has_detail(scene: &Scene, s: usize, column: &str) -> bool {
+    let structure = &scene.structures[s];
+    let Origin::Spec { spec, .. } = &structure.origin else {
+        return false;
+    };
+    spec.effects.iter().any(|cut| {
+        let mut points = cut.points.iter().filter(|point| point.detail.is_some());
+        points.any(|point| column == format!("{}.{}.{}", structure.name, cut.name, point.name))
+    })
 }
 
 /// Adds the columns of `lines`, one entry for each structure of `scene`, to `record`, which has the rows of `history`; returns them.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
-use sim::{Action, BodyDof, Channel, Foundation, NaturalMode, Run, natural_modes};
+use sim::{Action, BodyDof, Channel, Foundation, NaturalMode, Run, Side, natural_modes};
 
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Analysis, Scene};
@@ -30,6 +30,10 @@ pub struct SceneMode {
     pub name: String,
     /// Fraction of the kinetic energy of each degree of freedom, the largest first.
     pub fractions: Vec<(String, f64)>,
+    /// Time of the run at which the bodies have the positions to which the mode belongs.
+    pub time: f64,
+    /// These positions along the track, by body.
+    pub positions: Vec<(String, f64)>,
 }
 
 impl SceneMode {
@@ -59,34 +63,27 @@ impl SceneMode {
         {
             return Vec::new();
         }
-        let times = run.history.column(Channel::Time);
-        let Some(last) = times.last() else {
+        let Some([_, last]) = run.solution.function().range() else {
             return Vec::new();
         };
-        let at = times
-            .iter()
-            .position(|t| *t >= INSTANT * last)
-            .unwrap_or(times.len() - 1);
-        let places: Vec<f64> = (0..scene.bodies.len())
-            .map(|b| {
-                run.history
-                    .column(Channel::Displacement(b, BodyDof::X))
-                    .get(at)
-                    .copied()
-            })
-            .map(Option::unwrap_or_default)
-            .collect();
-        let found = natural_modes(&input.scene, foundations, times[at], &places);
+        let time = INSTANT * last;
+        let place = |b: usize| {
+            let channel = Channel::Displacement(b, BodyDof::X);
+            run.solution.value(channel, time, Side::Before)
+        };
+        let places: Vec<f64> = (0..scene.bodies.len()).map(place).collect();
+        let found = natural_modes(&input.scene, foundations, time, &places);
         let modes = found
             .ok()
             .flatten()
             .into_iter()
             .flatten()
-            .map(|mode| SceneMode::new(scene, &mode));
+            .map(|mode| SceneMode::new(scene, &mode, (time, &places)));
         modes.filter(|mode| mode.hz * last >= 1.0).collect()
     }
 
-    fn new(scene: &Scene, mode: &NaturalMode) -> SceneMode {
+    fn new(scene: &Scene, mode: &NaturalMode, (time, places): (f64, &[f64])) -> SceneMode {
+        let bodies = scene.bodies.iter().zip(places);
         let mut fractions: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
         for (body, own) in scene.bodies.iter().zip(&mode.fraction) {
             let words = if body.in_space {
@@ -114,6 +111,8 @@ impl SceneMode {
             hz: mode.omega / TAU,
             name: names.join(" + "),
             fractions,
+            time,
+            positions: bodies.map(|(body, x)| (body.name.clone(), *x)).collect(),
         }
     }
 
@@ -130,11 +129,17 @@ impl SceneMode {
     /// As a member of a run's summary.
     #[must_use]
     pub fn json(&self) -> Value {
-        let fractions: serde_json::Map<String, Value> = self
-            .fractions
-            .iter()
-            .map(|(name, fraction)| (name.clone(), json!(fraction)))
-            .collect();
-        json!({"hz": self.hz, "mode": self.name, "fractions": fractions})
+        let by_name = |all: &[(String, f64)]| -> Value {
+            all.iter()
+                .map(|(name, value)| (name.clone(), json!(value)))
+                .collect()
+        };
+        json!({
+            "hz": self.hz,
+            "mode": self.name,
+            "fractions": by_name(&self.fractions),
+            "time": self.time,
+            "positions": by_name(&self.positions),
+        })
     }
 }

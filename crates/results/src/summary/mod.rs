@@ -8,6 +8,7 @@ use crate::columns::NamedColumns;
 use crate::fatigue;
 use crate::run_error;
 use crate::steps::{ColumnInstant, ColumnPeak};
+use crate::undetermined::Undetermined;
 use crate::verdict::verdict;
 use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
@@ -104,6 +105,13 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
                 .as_ref()
                 .map(|codes| ("practice".to_owned(), codes.json())),
         );
+    }
+    if !outcome.undetermined.is_empty() {
+        result["undetermined"] = outcome
+            .undetermined
+            .iter()
+            .map(Undetermined::json)
+            .collect();
     }
     if run.status.is_complete() {
         result["verdict"] = json!(verdict(scene, outcome));

@@ -60,6 +60,15 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let find = || {
         let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
         all.extend(bounces::cycles_of_bounces(scene, outcome));
+        all.extend(outcome.undetermined.first().map(|worst| {
+            format!(
+                "largest values are not determined: {}; that of {} is between {} and {}",
+                worst.reason,
+                worst.quantity,
+                number(rounded(worst.low, 4)),
+                number(rounded(worst.high, 4))
+            )
+        }));
         all.extend(of_second_order(scene, outcome, true));
         all.extend(outcome.choices.iter().filter_map(|choice| {
             let structure = &scene.structures[choice.structure];

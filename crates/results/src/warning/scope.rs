@@ -1,8 +1,8 @@
 //! Notes on the scope of `accuracy`: it is the error of values at equal times up to 100 bounces of the wheels, and up to the
 //! first strike of a flange or a stop. Extremes of girders have notes of their own.
 
-use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
+use formats::scene::{Foundation, Scene, Stop};
 use formats::text::number::{number, rounded};
 use sim::{Run, StruckBy};
 
@@ -14,10 +14,42 @@ pub fn accuracy_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let CaseResult { run, input, .. } = outcome;
     let own = many_bounces(scene, run)
         .into_iter()
-        .chain(after_strike(scene, input, run));
+        .chain(after_strike(scene, input, run))
+        .chain(end_stops(scene, outcome));
     own.chain(outcome.girders().notes.iter().cloned())
         .chain(outcome.girders().stresses.notes(scene))
         .collect()
+}
+
+/// End stops on flexible rails that are hit: the rails do not give way under them in the motion.
+fn end_stops(scene: &Scene, outcome: &CaseResult) -> Option<String> {
+    let is_hit = |stop: &Stop| {
+        let rail = stop.rail.map(|rail| &scene.rails[rail]);
+        let is_flexible = rail.is_some_and(|rail| {
+            !matches!(
+                scene.structures[rail.structure].foundation,
+                Foundation::Rigid
+            )
+        });
+        let peaks = outcome
+            .peaks
+            .iter()
+            .filter(|peak| peak.column.starts_with(&stop.name));
+        is_flexible && peaks.map(|peak| peak.max.value).fold(0.0, f64::max) > 0.0
+    };
+    let hit: Vec<&str> = scene
+        .stops
+        .iter()
+        .filter(|stop| is_hit(stop))
+        .map(|stop| stop.name.as_str())
+        .collect();
+    (!hit.is_empty()).then(|| {
+        format!(
+            "the forces of end stops ({}) act in reactions, internal forces and deflections of spans, but not in gauges, \
+             `rail_deflection` and the motion",
+            hit.join(", ")
+        )
+    })
 }
 
 /// A run of more bounces than those up to which errors keep the accuracy. Their sum grows with the number of bounces.

@@ -196,6 +196,34 @@ impl InfluenceLines {
         &self.rails
     }
 
+    /// Rails and coordinates between which every effect is one function of the place of a load: ends of elements, and the sections
+    /// of internal forces.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<(usize, f64)> {
+        let mut out = Vec::new();
+        for element in self.rails.elements() {
+            out.extend(element.x.map(|x| (element.rail, x)));
+            let Some(carrier) = element.member else {
+                continue;
+            };
+            let own = self
+                .sections
+                .iter()
+                .flatten()
+                .filter(|own| own.member == carrier.id);
+            for section in own {
+                let along = if carrier.reversed {
+                    1.0 - section.place
+                } else {
+                    section.place
+                };
+                let x = element.x[0] + along * (element.x[1] - element.x[0]);
+                out.push((element.rail, x));
+            }
+        }
+        out
+    }
+
     /// Writes every effect per unit force at a probe, along its axis, into `out`.
     ///
     /// Where the load stands at the section itself, the result is the mean of both sides; at an end of the

@@ -1,0 +1,171 @@
+//! Extremes that a run does not determine: where contacts open and close often, small differences grow, and the largest values
+//! change with the last digits of the input.
+//!
+//! Where wheels lose contact or strike again and again, the run is repeated with another accuracy. If largest values differ by much
+//! more than both accuracies, it is repeated a few times more, and the smallest and the largest of these values are told.
+
+use formats::units::Dimension;
+use serde_json::{Value, json};
+
+use crate::steps::{ColumnPeak, SteppedColumns};
+
+/// Number of times that contacts are lost from which a run is repeated.
+const OFTEN: usize = 8;
+
+/// Factors of the accuracy of the first repetition and of the others.
+const FIRST: f64 = 0.5;
+const MORE: [f64; 3] = [0.8, 0.35, 0.2];
+
+/// Relative differences from which largest values are not determined: this, or so many times the accuracy.
+const APART: f64 = 0.01;
+const TIMES: f64 = 20.0;
+
+/// Columns whose largest magnitudes are below this part of the largest of their dimension are left out.
+const SMALL: f64 = 0.01;
+
+/// A largest value that a run does not determine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Undetermined {
+    /// Name of the column.
+    pub quantity: String,
+    /// The smallest of its extremes in several runs.
+    pub low: f64,
+    /// The largest of them.
+    pub high: f64,
+    /// Why.
+    pub reason: String,
+}
+
+impl Undetermined {
+    /// The value as a member of `undetermined`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        json!({"quantity": self.quantity, "low": self.low, "high": self.high, "reason": self.reason})
+    }
+}
+
+/// How often wheels lose contact with their rails in a run.
+pub(crate) fn losses(steps: &SteppedColumns, wheels: impl Iterator<Item = String>) -> usize {
+    wheels
+        .map(|name| steps.zeros(steps.record.part(&name, "vertical")).len())
+        .sum()
+}
+
+/// The extremes of columns that `again`, which repeats the run with a factor of its accuracy, does not confirm; the least certain
+/// first. `losses` is how often contacts are lost in the run. Without a repetition that ends there are none.
+pub(crate) fn undetermined(
+    accuracy: f64,
+    losses: usize,
+    own: &[ColumnPeak],
+    again: &mut dyn FnMut(f64) -> Option<Vec<ColumnPeak>>,
+) -> Vec<Undetermined> {
+    if losses < OFTEN {
+        return Vec::new();
+    }
+    let mut all = vec![own.to_vec()];
+    all.extend(again(FIRST));
+    if apart(accuracy, &all).is_empty() {
+        return Vec::new();
+    }
+    all.extend(MORE.iter().filter_map(|factor| again(*factor)));
+    let found = apart(accuracy, &all);
+    let reason = format!(
+        "wheels lose contact {losses} times; {} runs of other accuracies differ",
+        all.len()
+    );
+    let one = |(quantity, [low, high]): (String, [f64; 2])| Undetermined {
+        quantity,
+        low,
+        high,
+        reason: reason.clone(),
+    };
+    found.into_iter().map(one).collect()
+}
+
+/// Columns whose extremes differ between runs, with the range of those of larger magnitude: forces first, and of one dimension those
+/// that differ most, relative to the larger one.
+fn apart(accuracy: f64, all: &[Vec<ColumnPeak>]) -> Vec<(String, [f64; 2])> {
+    let allowed = APART.max(TIMES * accuracy);
+    let mut out = Vec::new();
+    for own in &all[0] {
+        let is_max = own.largest() == own.max;
+        let extreme = |peak: &ColumnPeak| {
+            if is_max {
+                peak.max.value
+            } else {
+                peak.min.value
+            }
+        };
+        let same = all
+            .iter()
+            .filter_map(|run| run.iter().find(|peak| peak.column == own.column));
+        let range = same
+            .map(extreme)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            });
+        let kind = all[0].iter().filter(|peak| peak.dimension == own.dimension);
+        let most = kind
+            .map(|peak| peak.largest().value.abs())
+            .fold(0.0, f64::max);
+        let largest = range[0].abs().max(range[1].abs());
+        let apart = (range[1] - range[0]) / largest;
+        if largest > SMALL * most && apart > allowed {
+            out.push((
+                own.dimension != Dimension::FORCE,
+                apart,
+                own.column.clone(),
+                range,
+            ));
+        }
+    }
+    out.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    out.into_iter()
+        .map(|(_, _, column, range)| (column, range))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steps::ColumnInstant;
+
+    fn peaks(value: f64) -> Vec<ColumnPeak> {
+        let at = |value: f64| ColumnInstant { value, time: 1.0 };
+        let column = |column: &str, value: f64| ColumnPeak {
+            column: column.to_owned(),
+            dimension: Dimension::FORCE,
+            max: at(value),
+            min: at(0.0),
+        };
+        vec![column("w.vertical", value), column("still.vertical", 50.0)]
+    }
+
+    /// The range is that of all runs; columns that agree, and runs whose contacts last, have none.
+    #[test]
+    fn ranges_of_runs_that_differ_are_told() {
+        let mut values = [110.0, 97.0, 104.0, 120.0].into_iter();
+        let mut again = |_: f64| values.next().map(peaks);
+        assert!(undetermined(1e-4, OFTEN - 1, &peaks(100.0), &mut again).is_empty());
+        let found = undetermined(1e-4, OFTEN, &peaks(100.0), &mut again);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let Undetermined {
+            quantity,
+            low,
+            high,
+            ..
+        } = &found[0];
+        assert_eq!(
+            (quantity.as_str(), *low, *high),
+            ("w.vertical", 97.0, 120.0)
+        );
+        // a run that agrees is not repeated again
+        let mut count = 0;
+        let mut same = |_: f64| {
+            count += 1;
+            Some(peaks(100.5))
+        };
+        assert!(undetermined(1e-4, OFTEN, &peaks(100.0), &mut same).is_empty());
+        assert_eq!(count, 1);
+    }
+}

@@ -1,0 +1,277 @@
+#!/usr/bin/env python3
+"""Compare what the first page of random runs says with their histories at a fiftieth of the interval.
+
+Each scene is drawn by rule: runways of 1 to 80 spans, round and odd dimensions, 1 to 16 wheels, one crossing or many trips,
+braking, lateral forces between flanges, steps and dips of the rail, quasi-static runs, foundations without mass and by natural
+modes. It is run once. Sections and gauges are then placed where the summary says that its extremes are, and the scene is run
+again with rows at a fiftieth of the interval. Of every peak, extreme, reaction and deflection of a chord two differences are
+taken, relative to the largest value of its kind: by how much the history exceeds the page, which must not be more than the
+accuracy of the scene, and by how much the page exceeds the history, which is what its rows miss.
+
+Values that a run says are not determined (`undetermined`) are left out.
+
+    python3 tests/extremes/page_one.py target/release/girderway --scenes 300 --seed 1 --jobs 2
+"""
+
+import argparse
+import csv
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+# A history misses a peak beside a corner by its slope over half of a row.
+MISSED = 0.02
+
+
+def spec(draw):
+    """A girder on supports with random spans and the properties of a rolled section."""
+    count = draw.choice([1, 1, 2, 2, 3, 3, 4, 5, 8, 20, 80])
+    odd = draw.random() < 0.5
+    length = lambda: draw.uniform(4, 12) if odd else float(draw.randint(4, 12))
+    spans = [length()] * count if draw.random() < 0.4 else [length() for _ in range(count)]
+    spans = [round(span, 3) for span in spans]
+    scale = (max(spans) / 8) ** 3
+    girder = {
+        "spans": spans,
+        "E": 2.1e8,
+        "G": 8.1e7,
+        "A": 0.02,
+        "I_vertical": 6e-4 * scale * draw.uniform(0.7, 3),
+        "I_lateral": 1e-4 * scale * draw.uniform(0.7, 3),
+        "J": 4e-6,
+        "rail_height": draw.choice([0.0, 0.35]),
+        "mass_per_length": 0.16,
+    }
+    if draw.random() < 0.5:
+        girder |= {"kA_vertical": 0.0051, "kA_lateral": 0.012}
+    if draw.random() < 0.3:
+        girder["overhangs"] = [0.8, 1.1]
+    units = {"length": "m", "force": "kN", "time": "s"}
+    return {"format": "girderway-beam/1", "name": "g", "units": units, "girder": girder}
+
+
+def speeds(draw, first, last, speed):
+    """The speed over time of one crossing, or of several trips, and the end of the run."""
+    reach = last - first
+    ramp = draw.uniform(0.5, 2)
+    cruise = max(reach / speed - ramp, 0.1)
+    trips = draw.choice([1, 1, 1, 2, 5, 20])
+    points, t, sign = [[0, 0]], 0.0, 1
+    for _ in range(trips):
+        points += [[t + ramp, sign * speed], [t + ramp + cruise, sign * speed]]
+        t += 2 * ramp + cruise
+        points += [[t, 0], [t + 0.5, 0]]
+        t += 0.5
+        sign = -sign
+    return points, t
+
+
+def scene(draw):
+    """A scene on this girder with its interval between rows."""
+    beam = spec(draw)
+    length = sum(beam["girder"]["spans"])
+    wheels = draw.choice([1, 2, 2, 2, 4, 4, 8, 16])
+    base = min(draw.uniform(1, 4), 0.4 * length)
+    half = base / 2 if wheels > 1 else 0.0
+    places = [base * (k / (wheels - 1) - 0.5) for k in range(wheels)] if wheels > 1 else [0.0]
+    places = [round(place, 3) for place in places]
+    kind = draw.choice(["plain", "plain", "lateral", "yaw", "step", "dip", "quasi-static"])
+    is_lateral = kind in ("lateral", "yaw")
+    weight = draw.uniform(50, 400)
+    wheel = {"radius": 0.3, "vertical": {"k": draw.choice([1e5, 3e5, 1e6])}}
+    wheel["vertical"]["c"] = draw.choice([0.5, 2, 5]) * wheel["vertical"]["k"] / 1000
+    dof = ["y"] + (["pitch"] if wheels > 1 else [])
+    if is_lateral:
+        wheel["lateral"] = {"k": draw.choice([1e4, 1e5, 1e6]), "clearance": draw.choice([0.0, 0.004])}
+        dof += ["z"] + (["yaw"] if kind == "yaw" and wheels > 1 else [])
+    first, last = half + 0.05, length - half - 0.05
+    speed = draw.choice([0.5, 1.5, 2.5, 6.0])
+    points, end = speeds(draw, first, last, speed)
+    structure = {"spec": "g.json", "foundation": "influence"}
+    if kind != "quasi-static" and len(beam["girder"]["spans"]) <= 5 and draw.random() < 0.3:
+        structure = {"spec": "g.json", "foundation": "modal", "modes": draw.randint(3, 8), "damping": 0.01}
+    truck = {"name": "T", "body": "b", "rail": "g.rail", "wheel": "w", "tree": places}
+    if wheels == 1:
+        truck["tree"] = [0]
+    out = {
+        "format": "girderway-scene/1",
+        "name": "drawn",
+        "units": beam["units"],
+        "gravity": 9.81,
+        "structures": {"g": structure},
+        "bodies": {
+            "b": {"weight": weight, "inertia": [weight / 5] * 3, "cg": [0, 0.4, 0], "dof": dof, "x0": first}
+        },
+        "wheels": {"w": wheel},
+        "trucks": [truck],
+        "motions": [{"body": "b", "dof": "x", "kind": "prescribed", "speed": points}],
+        "end": {"time": min(end, 400.0)},
+        "accuracy": draw.choice([1e-3, 1e-3, 1e-4, 1e-5]),
+        "output": {"dt": draw.choice([0.02, 0.05, 0.11]), "reactions": True},
+    }
+    if is_lateral:
+        t = [end * k / 6 for k in range(7)]
+        load = [[time, draw.uniform(-0.1, 0.1) * weight] for time in t]
+        out["loads"] = [{"body": "b", "dof": "z", "value": load}]
+    at = draw.uniform(0.3, 0.7) * length
+    if kind == "step":
+        height = draw.choice([-0.002, 0.001, 0.002])
+        structure["irregularities"] = [{"kind": "step", "x": at, "height": height}]
+    if kind == "dip":
+        structure["irregularities"] = [{"kind": "dip", "x": at, "length": 0.4, "depth": 0.003}]
+    if kind == "quasi-static":
+        out["analysis"] = "quasi-static"
+    return beam, out, kind
+
+
+def run(program, folder, beam, drawn, out):
+    (folder / "g.json").write_text(json.dumps(beam))
+    (folder / "scene.json").write_text(json.dumps(drawn))
+    done = subprocess.run(
+        [program, "run", "scene.json", "-o", out], cwd=folder, capture_output=True, text=True, timeout=3000
+    )
+    summary = folder / out / "summary.json"
+    if not summary.exists():
+        raise RuntimeError(done.stderr.strip()[-400:])
+    return json.loads(summary.read_text())
+
+
+def history(path):
+    with open(path) as lines:
+        rows = csv.reader(lines)
+        names = next(rows)
+        values = [[float(value) for value in row] for row in rows]
+    return {name: [row[k] for row in values] for k, name in enumerate(names)}
+
+
+COLUMN = {
+    ("moment", "vertical"): ("Mz", 1),
+    ("shear", "vertical"): ("Vy", 1),
+    ("moment", "lateral"): ("My", 1),
+    ("shear", "lateral"): ("Vz", 1),
+}
+
+
+def compare(program, seed):
+    """The differences of one scene: quantity, excess of the history, excess of the page, both relative to their kind."""
+    draw = random.Random(seed)
+    beam, drawn, kind = scene(draw)
+    found = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        first = run(program, folder, beam, drawn, "first")
+        if first["status"] != "done" or first.get("undetermined"):
+            return kind, drawn["accuracy"], first["status"], found
+        extremes = first.get("extremes", [])
+        forces = [e for e in extremes if (e["quantity"], e.get("plane")) in COLUMN]
+        draw.shuffle(forces)
+        forces = sorted(forces, key=lambda e: -abs(e["value"]))[:6] + forces[:6]
+        moved = [e for e in extremes if e["quantity"] == "deflection"]
+        draw.shuffle(moved)
+        moved = moved[:6]
+        beam = dict(beam, effects=[{"name": f"e{k}", "x": e["x"]} for k, e in enumerate(forces)])
+        gauges = {f"d{k}": {"x": e["x"], "direction": e["plane"]} for k, e in enumerate(moved)}
+        chords = first.get("deflection_ratios", [])[:4]
+        for k, chord in enumerate(chords):
+            for place in ("x", "from", "to"):
+                gauges[f"c{k}{place}"] = {"x": chord[place], "direction": chord["direction"]}
+        structure = dict(drawn["structures"]["g"], gauges=gauges)
+        fine = dict(drawn, structures={"g": structure})
+        rows = min(drawn["end"]["time"] / drawn["output"]["dt"] * 50, 400_000)
+        fine["output"] = {"dt": drawn["end"]["time"] / rows, "reactions": True, "sections": True}
+        run(program, folder, beam, fine, "fine")
+        table = history(folder / "fine" / "history.csv")
+
+    def add(what, size, page, values, is_max):
+        if size <= 0:
+            return
+        sign = 1 if is_max else -1
+        best = max(sign * value for value in values)
+        found.append((what, (best - sign * page) / size, (sign * page - best) / size))
+
+    of_kind = {}
+    for e in extremes:
+        key = (e["quantity"], e.get("plane"))
+        of_kind[key] = max(of_kind.get(key, 0.0), abs(e["value"]))
+    for k, e in enumerate(forces):
+        word, sign = COLUMN[(e["quantity"], e["plane"])]
+        column = table.get(f"g.e{k}.{word}")
+        if column:
+            values = column
+            # the sign of a column is that of the member; that of a moment and a shear by the side they name
+            size = of_kind[(e["quantity"], e["plane"])]
+            by_sign = [[s * value for value in values] for s in (1, -1)]
+            near = min(by_sign, key=lambda own: abs(max((1 if e["kind"] == "max" else -1) * v for v in own) - abs(e["value"])))
+            add(f"{e['plane']} {e['quantity']}", size, e["value"], near, e["kind"] == "max")
+    for k, e in enumerate(moved):
+        column = table.get(f"g.d{k}")
+        if column:
+            size = of_kind[("deflection", e["plane"])]
+            add(f"{e['plane']} deflection", size, e["value"], column, e["kind"] == "max")
+    for k, chord in enumerate(chords):
+        own = [table.get(f"g.c{k}{place}") for place in ("x", "from", "to")]
+        if all(own) and chord["to"] > chord["from"]:
+            share = (chord["x"] - chord["from"]) / (chord["to"] - chord["from"])
+            values = [abs(x - (1 - share) * a - share * b) for x, a, b in zip(*own)]
+            add("chord", chord["deflection"], chord["deflection"], values, True)
+    sizes = {}
+    for column, peak in first["peaks"].items():
+        part = column.rsplit(".", 1)[1]
+        size = max(abs(peak["max"]["value"]), abs(peak["min"]["value"]))
+        sizes[part] = max(sizes.get(part, 0.0), size)
+    for column, peak in first["peaks"].items():
+        part = column.rsplit(".", 1)[1]
+        kind_of = "reaction" if ".support" in column else part
+        if column in table and part not in ("x",):
+            for word, is_max in (("max", True), ("min", False)):
+                add(kind_of, sizes[part], peak[word]["value"], table[column], is_max)
+    return kind, drawn["accuracy"], "done", found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--scenes", type=int, default=300)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    args = parser.parse_args()
+    program = str(Path(args.program).resolve())
+    seeds = [args.seed * 1_000_003 + k for k in range(args.scenes)]
+
+    def one(seed):
+        try:
+            return seed, compare(program, seed)
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
+            return seed, str(error)
+
+    worst, wrong, left = {}, [], []
+    with ThreadPoolExecutor(args.jobs) as pool:
+        for seed, result in pool.map(one, seeds):
+            if isinstance(result, str):
+                wrong.append(f"{seed}: {result}")
+                continue
+            kind, accuracy, status, found = result
+            if status != "done" or not found:
+                left.append(seed)
+            for what, above, missed in found:
+                own = worst.setdefault(what, [0, 0.0, 0.0, 0.0, None])
+                own[0] += 1
+                if above / accuracy > own[1]:
+                    own[1], own[4] = above / accuracy, seed
+                own[2], own[3] = max(own[2], above), max(own[3], missed)
+                if above > accuracy or missed > MISSED:
+                    wrong.append(f"{seed} ({kind}): {what}, history {above:.1e} above the page, {missed:.1e} below")
+    print(f"{len(seeds)} scenes, {len(left)} of them incomplete or not determined")
+    print("quantity | values | history above the page, in accuracies | relative | page above the history | seed")
+    for what, own in sorted(worst.items()):
+        print(f"{what} | {own[0]} | {own[1]:.2g} | {own[2]:.1e} | {own[3]:.1e} | {own[4]}")
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
