@@ -2,6 +2,8 @@
 //! output interval. True values were computed from histories at far shorter intervals, by runs at an accuracy of 1e-8 and by
 //! statics.
 
+mod same_page;
+
 use std::path::Path;
 use std::process::Command;
 

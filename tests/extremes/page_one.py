@@ -6,7 +6,8 @@ braking, lateral forces between flanges, steps and dips of the rail, quasi-stati
 modes. It is run once. Sections and gauges are then placed where the summary says that its extremes are, and the scene is run
 again with rows at a fiftieth of the interval. Of every peak, extreme, reaction and deflection of a chord two differences are
 taken, relative to the largest value of its kind: by how much the history exceeds the page, which must not be more than the
-accuracy of the scene, and by how much the page exceeds the history, which is what its rows miss.
+accuracy of the scene, and by how much the page exceeds the history, which is what its rows miss: beside a step of the rail a
+force of a damper lasts less than a row.
 
 Values that a run says are not determined (`undetermined`) are left out.
 
@@ -27,8 +28,6 @@ from pathlib import Path
 LONGEST = 90
 # Largest number of rows of a history.
 ROWS = 100_000
-# A history misses a peak beside a corner by its slope over half of a row.
-MISSED = 0.02
 
 
 def spec(draw):
@@ -171,7 +170,12 @@ def compare(program, seed):
         if first["status"] != "done" or first.get("undetermined"):
             return kind, drawn["accuracy"], first["status"], found
         extremes = first.get("extremes", [])
-        forces = [e for e in extremes if (e["quantity"], e.get("plane")) in COLUMN]
+        ends = [0.0]
+        for span in beam["girder"]["spans"]:
+            ends.append(ends[-1] + span)
+        # at a support a column has the force of one side
+        is_inside = lambda e: e["quantity"] == "moment" or all(abs(e["x"] - end) > 0.01 for end in ends)
+        forces = [e for e in extremes if (e["quantity"], e.get("plane")) in COLUMN and is_inside(e)]
         draw.shuffle(forces)
         forces = sorted(forces, key=lambda e: -abs(e["value"]))[:6] + forces[:6]
         moved = [e for e in extremes if e["quantity"] == "deflection"]
@@ -222,8 +226,12 @@ def compare(program, seed):
         own = [table.get(f"g.c{k}{place}") for place in ("x", "from", "to")]
         if all(own) and chord["to"] > chord["from"]:
             share = (chord["x"] - chord["from"]) / (chord["to"] - chord["from"])
+            wheels = [column for name, column in table.items() if name.startswith("T.") and name.endswith(".x")]
+            # with a wheel on the span
+            on = [any(chord["from"] <= x <= chord["to"] for x in row) for row in zip(*wheels)]
             values = [abs(x - (1 - share) * a - share * b) for x, a, b in zip(*own)]
-            add("chord", chord["deflection"], chord["deflection"], values, True)
+            values = [value for value, is_on in zip(values, on) if is_on]
+            add("chord", chord["deflection"], chord["deflection"], values or [0.0], True)
     sizes = {}
     for column, peak in first["peaks"].items():
         part = column.rsplit(".", 1)[1]
@@ -272,8 +280,8 @@ def main():
                 if above / accuracy > own[1]:
                     own[1], own[4] = above / accuracy, seed
                 own[2], own[3] = max(own[2], above), max(own[3], missed)
-                if above > accuracy or missed > MISSED:
-                    wrong.append(f"{seed} ({kind}): {what}, history {above:.1e} above the page, {missed:.1e} below")
+                if above > accuracy:
+                    wrong.append(f"{seed} ({kind}): {what}, history {above:.1e} above the page")
     print(f"{len(seeds)} scenes, {len(left)} of them incomplete, not determined or too long")
     print("quantity | values | history above the page, in accuracies | relative | page above the history | seed")
     for what, own in sorted(worst.items()):

@@ -333,7 +333,7 @@ impl MemberSearch<'_> {
                     for (moment, shear) in SLOPES {
                         changes[moment as usize] += moved * concentrated[shear as usize].abs();
                     }
-                    let span = self.span_at(girders.members.coordinate(member, place), peaks);
+                    let span = self.span_at(place, peaks);
                     let known = |k: usize| {
                         let own = &peaks.beside[span][k];
                         own.map(|own| own.map_or(f64::NEG_INFINITY, |own| own.signed))
@@ -370,10 +370,23 @@ impl MemberSearch<'_> {
         on.collect()
     }
 
-    /// Index of the span in which a coordinate lies, among those of all rails.
-    fn span_at(&self, x: f64, peaks: &ForcePeaks) -> usize {
+    /// Index of the span in which a place of the member lies, among those of all rails. Near an end of the member it is that of its
+    /// side.
+    fn span_at(&self, place: f64, peaks: &ForcePeaks) -> usize {
         let outline = &self.girders.sections.rails[self.rail];
-        peaks.first_span[self.rail] + outline.span(x, SectionSide::At)
+        let x = self.girders.members.coordinate(self.member, place);
+        let is_first = self
+            .girders
+            .members
+            .members()
+            .nth(self.member)
+            .is_some_and(|member| x - member.x[0] < member.x[1] - x);
+        let side = if is_first {
+            SectionSide::Behind
+        } else {
+            SectionSide::Before
+        };
+        peaks.first_span[self.rail] + outline.span(x, side)
     }
 
     fn states<'s>(&'s self, index: usize, memory: &'s mut Vec<PassedLoads>) -> PieceStates<'s> {
@@ -594,8 +607,7 @@ impl MemberSearch<'_> {
                 side: quantity.map_or(SectionSide::At, |k| side_of(SectionSide::At, k, own)),
             }
         };
-        let middle = girders.members.coordinate(self.member, path.value(0.5));
-        let span = self.span_at(middle, peaks);
+        let span = self.span_at(path.value(0.5), peaks);
         for k in (0..FORCES).filter(|k| self.acting[*k]) {
             let values: Values = values.iter().map(|own| own[k]).collect();
             let known = &mut peaks.beside[span][k];
