@@ -229,7 +229,10 @@ def compare(program, seed):
             wheels = [column for name, column in table.items() if name.startswith("T.") and name.endswith(".x")]
             # with a wheel on the span
             on = [any(chord["from"] <= x <= chord["to"] for x in row) for row in zip(*wheels)]
-            values = [abs(x - (1 - share) * a - share * b) for x, a, b in zip(*own)]
+            values = [x - (1 - share) * a - share * b for x, a, b in zip(*own)]
+            # vertical deflections count downwards
+            if chord["direction"] == "lateral":
+                values = [abs(value) for value in values]
             values = [value for value, is_on in zip(values, on) if is_on]
             add("chord", chord["deflection"], chord["deflection"], values or [0.0], True)
     sizes = {}
