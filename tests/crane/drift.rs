@@ -42,7 +42,7 @@ fn drift_is_the_largest_that_gauges_at_the_columns_read() {
         );
         assert!(most > 1e-2, "{most}");
         assert!(
-            (of("displacement") / most - 1.0).abs() < 1e-5,
+            (of("displacement") / most - 1.0).abs() < 1e-9,
             "{drift} {most}"
         );
         let height = of("height");

@@ -15,6 +15,8 @@ use sim::{GapCause, Run};
 
 use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
+use crate::response::Uplift;
+use crate::steps::ColumnPeak;
 use formats::scene::motion::SimulationInput;
 use formats::scene::stepper_word;
 use formats::scene::{
@@ -58,7 +60,7 @@ fn of_second_order<'a>(
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let find = || {
-        let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
+        let mut all = warnings(scene, outcome);
         all.extend(bounces::cycles_of_bounces(scene, outcome));
         all.extend(outcome.undetermined.first().map(|worst| {
             format!(
@@ -160,12 +162,13 @@ pub fn messages(outcomes: &[CaseResult], document: &Document) -> Vec<Message> {
     all
 }
 
-fn warnings(
-    scene: &Scene,
-    input: &SimulationInput,
-    record: &NamedColumns,
-    run: &Run,
-) -> Vec<String> {
+fn warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let CaseResult {
+        input,
+        columns: record,
+        run,
+        ..
+    } = outcome;
     let mut all = Vec::new();
     if let (Some((abandoned, t)), Some(method)) = (run.abandoned, run.method) {
         all.push(format!(
@@ -188,6 +191,7 @@ fn warnings(
     let of_rail = |rail| Wheels {
         input,
         record,
+        peaks: &outcome.peaks,
         rail,
     };
     let each = scene
@@ -202,7 +206,7 @@ fn warnings(
         all.extend(clamped_table(scene, rail, &wheels));
         all.extend(unsymmetric_table(scene, rail, &wheels));
     }
-    all.extend(lift_off(input, record));
+    all.extend(lift_off(&outcome.response.uplifts));
     all
 }
 
@@ -265,6 +269,7 @@ fn largest_gap(input: &SimulationInput, run: &Run) -> String {
 struct Wheels<'a> {
     input: &'a SimulationInput,
     record: &'a NamedColumns,
+    peaks: &'a [ColumnPeak],
     rail: usize,
 }
 
@@ -280,9 +285,17 @@ impl<'a> Wheels<'a> {
 
     /// Largest vertical displacement of the rail under the wheels.
     fn deepest(&self) -> f64 {
-        self.histories("rail_deflection")
-            .flatten()
-            .fold(0.0, |most, value| most.max(value.abs()))
+        let own = self
+            .input
+            .wheels
+            .iter()
+            .filter(|wheel| wheel.rail == self.rail);
+        let peak = |name: &str| {
+            let column = format!("{name}.rail_deflection");
+            let peak = self.peaks.iter().find(|peak| peak.column == column);
+            peak.map_or(0.0, |peak| peak.largest().value.abs())
+        };
+        own.map(|wheel| peak(&wheel.name)).fold(0.0, f64::max)
     }
 }
 
@@ -449,40 +462,34 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
     ))
 }
 
-/// Wheels that are off their rails at some output times; the one that is off most often is named.
-fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Option<String> {
-    let off = |name: &str| {
-        record
-            .part(name, "vertical")
-            .iter()
-            .filter(|force| **force == 0.0)
-            .count()
+/// Wheels that are off their rails; the one that is off for longest is named.
+fn lift_off(uplifts: &[Uplift]) -> Option<String> {
+    let mut wheels: Vec<(&str, f64, Vec<&Uplift>)> = Vec::new();
+    for uplift in uplifts {
+        match wheels.iter_mut().find(|(name, ..)| *name == uplift.wheel) {
+            Some((_, duration, own)) => {
+                *duration += uplift.duration;
+                own.push(uplift);
+            }
+            None => wheels.push((&uplift.wheel, uplift.duration, vec![uplift])),
+        }
+    }
+    let longest = wheels.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
+    let (name, duration, own) = longest?;
+    let first = own
+        .iter()
+        .map(|uplift| uplift.time)
+        .fold(f64::INFINITY, f64::min);
+    let [first, duration] = [first, *duration].map(|time| number(rounded(time, 4)));
+    let times = match own.len() {
+        1 => format!("for {duration} s from {first} s"),
+        count => format!("{count} times, for {duration} s together, first at {first} s"),
     };
-    let lifted: Vec<(&str, usize)> = (input
-        .wheels
-        .iter()
-        .map(|wheel| (wheel.name.as_str(), off(&wheel.name))))
-    .filter(|(_, count)| *count > 0)
-    .collect();
-    let (name, most) = lifted
-        .iter()
-        .copied()
-        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
-    let forces = record.part(name, "vertical");
-    let first = forces
-        .iter()
-        .position(|force| *force == 0.0)
-        .and_then(|first| record.values("time").get(first));
-    let first = number(rounded(first.copied().unwrap_or_default(), 6));
-    let times = format!(
-        "at {most} of {} output times, first at {first} s",
-        forces.len()
-    );
-    Some(match lifted.len() {
+    Some(match wheels.len() {
         1 => format!("{name} is not in contact with its rail {times}"),
         count => {
             format!(
-                "{count} wheels are not in contact with their rails at some output times, most often {name}, {times}"
+                "{count} wheels are not always in contact with their rails, longest {name}, {times}"
             )
         }
     })

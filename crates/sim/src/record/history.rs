@@ -36,19 +36,6 @@ impl History {
         History { channels, values }
     }
 
-    /// Keeps the samples for which `is_kept` is true, in place.
-    pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&[f64]) -> bool) {
-        let (width, mut kept) = (self.channels.len(), 0);
-        for i in 0..self.len() {
-            let own = i * width..(i + 1) * width;
-            if is_kept(&self.values[own.clone()]) {
-                self.values.copy_within(own, kept * width);
-                kept += 1;
-            }
-        }
-        self.values.truncate(kept * width);
-    }
-
     /// Every `step`-th sample from the first one, and the last one if `with_last`.
     #[must_use]
     pub(crate) fn every(self, step: usize, with_last: bool) -> History {

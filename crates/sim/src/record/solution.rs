@@ -272,21 +272,6 @@ pub struct SolutionNodes {
     pub intervals: Vec<NodeInterval>,
 }
 
-impl SolutionNodes {
-    /// The rows at increasing times: where values jump, the one before the jump.
-    #[must_use]
-    pub fn increasing(mut self) -> History {
-        let mut last = f64::NEG_INFINITY;
-        self.rows.retain(|row| {
-            // the first channel is the time
-            let is_later = row[0] > last;
-            last = row[0];
-            is_later
-        });
-        self.rows
-    }
-}
-
 /// An interval of a solution in which every quantity is nearly the polynomial through its values at the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeInterval {
