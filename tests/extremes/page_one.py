@@ -61,7 +61,8 @@ def speeds(draw, first, last, speed, most):
     """The speed over time of one crossing, or of several trips, and the end of the run."""
     reach = last - first
     ramp = draw.uniform(0.5, 2)
-    cruise = max(reach / speed - ramp, 0.1)
+    speed = min(speed, reach / (ramp + 0.2))
+    cruise = reach / speed - ramp
     trips = min(draw.choice([1, 1, 1, 2, 5, 20]), most)
     points, t, sign = [[0, 0]], 0.0, 1
     for _ in range(trips):

@@ -3,8 +3,8 @@
 //! A quantity such as the deflection of a span is the largest of many values, one for each place. A cheap value from a few places
 //! is computed at all nodes of the solution; in each interval the polynomial through these values bounds it. The intervals are then
 //! taken in the order of their bounds. In each of them the quantity itself is evaluated at the nodes of degree 8 and where the
-//! polynomial through these is largest. An interval whose bound, raised by as much as the quantity exceeded the cheap value in those
-//! before it, does not exceed the largest value is left out, and so are all after it.
+//! polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity exceeded the
+//! cheap value in those before it, does not exceed the largest value is left out, and so are all after it.
 
 use piecewise::Lobatto;
 use sim::{NodeInterval, Side, Solution, SolutionNodes};
@@ -15,6 +15,9 @@ const DEGREE: usize = 8;
 /// Part of the largest value that one end of an interval has which is looked into: in a step of the method a quantity does not rise
 /// and fall by more.
 const PROMISING: f64 = 0.7;
+
+/// Part of a bound by which the quantity may exceed it beyond what it has exceeded others: cheap values are those of a few places.
+const BEYOND: f64 = 0.015;
 
 /// Part of the accuracy of a scene by which values count as equal.
 const EQUAL: f64 = 0.1;
@@ -117,7 +120,7 @@ impl TimeSearch<'_> {
         let (mut gain, mut largest) = (0.0_f64, 0.0_f64);
         let mut row = Vec::new();
         for (bound, interval) in order {
-            if bound * (1.0 + gain) <= largest * (1.0 + EQUAL * self.accuracy) {
+            if bound * (1.0 + gain + BEYOND) <= largest * (1.0 + EQUAL * self.accuracy) {
                 break;
             }
             let ends = [interval.first, interval.first + interval.degree];
