@@ -3,7 +3,7 @@
 //!
 //! At each time the forces of a member follow from the influence lines of its end, by equilibrium with the loads on it
 //! ([`trains::MemberForces`]); inertia and dead load are added (`distributed`). A run is divided into pieces of time in which what
-//! the loads cause is a polynomial ([`crate::pieces`]).
+//! the loads cause is a polynomial (`pieces`).
 //!
 //! 1. The polynomials of all sections and of both sides of each load, of all listed places and of the places under loads have their
 //!    largest and smallest values (`forces`, `deflections`). Times at which loads are too far or too small are left out by
