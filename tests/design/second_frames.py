@@ -806,8 +806,8 @@ def compare_run(program, seed):
         # A run evaluates its limits at some of its output times.
         if not 0.95 * known <= found <= 1.005 * known:
             errors.append(f"{where}: {quantity} by {code}: {found}, here {known}")
-        if not own[0].get("sampled"):
-            errors.append(f"{where}: {quantity} by {code}: not said to be sampled")
+        if own[0].get("sampled"):
+            errors.append(f"{where}: {quantity} by {code}: said to be sampled")
     fails = max(worst.values()) > 1.0
     near = abs(max(worst.values()) - 1) < 0.03
     if not near and (summary["verdict"]["result"] == "not ok") != fails:
