@@ -187,15 +187,6 @@ impl Fibres {
         self.worst_of(&self.planes, forces)
     }
 
-    /// The stresses at all fibres, in the same order for all forces.
-    pub fn all(&self, forces: [f64; 3]) -> impl Iterator<Item = FibreStress> {
-        let mut out = Vec::new();
-        for plane in &self.planes {
-            plane.each(self.lateral, forces, |stress| out.push(stress));
-        }
-        out.into_iter()
-    }
-
     /// The same at a place of the member, as a fraction of its length in the direction of the rail.
     #[must_use]
     pub(crate) fn worst_at(&self, place: f64, forces: [f64; 3]) -> Option<FibreStress> {
@@ -203,6 +194,16 @@ impl Fibres {
             Some(plane) => self.worst_of(&[plane], forces),
             None => self.worst(forces),
         }
+    }
+
+    /// The stresses at all fibres, in the same order for all forces.
+    #[must_use]
+    pub fn all(&self, forces: [f64; 3]) -> Vec<FibreStress> {
+        let mut out = Vec::new();
+        for plane in &self.planes {
+            plane.each(self.lateral, forces, |stress| out.push(stress));
+        }
+        out
     }
 
     /// The section at a place of a part of a tapered member; `None` of other members.

@@ -280,10 +280,7 @@ impl<'a> Moved<'a> {
         ];
         let mut forces = Vec::new();
         for load in loads {
-            for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
-                .into_iter()
-                .zip(load.force)
-            {
+            for (axis, force) in Axis::ALL.into_iter().zip(load.force) {
                 if force != 0.0 && self.structure.frame().resists(load.rail, axis) {
                     forces.push((
                         Probe {

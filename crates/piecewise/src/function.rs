@@ -8,6 +8,16 @@ use crate::polynomial::{MAX_DEGREE, Polynomial};
 /// Arguments that differ by less, relative to them, are the same.
 const SAME: f64 = 1e-14;
 
+/// The argument at a share of an interval from its start; at 1 exactly its end.
+#[must_use]
+pub fn between([from, to]: [f64; 2], share: f64) -> f64 {
+    if share == 1.0 {
+        to
+    } else {
+        from + share * (to - from)
+    }
+}
+
 /// The side from which a value is taken where a function may jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -176,11 +186,7 @@ impl<'a> Piece<'a> {
     /// The argument at a place of the interval.
     #[must_use]
     pub fn time(&self, share: f64) -> f64 {
-        if share == 1.0 {
-            self.interval[1]
-        } else {
-            self.interval[0] + share * self.length()
-        }
+        between(self.interval, share)
     }
 
     /// The nodes at which its values are given.

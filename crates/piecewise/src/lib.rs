@@ -26,6 +26,6 @@ mod lobatto;
 mod polynomial;
 
 pub use fit::{Evaluate, fit};
-pub use function::{Piece, Piecewise, Side};
+pub use function::{Piece, Piecewise, Side, between};
 pub use lobatto::Lobatto;
 pub use polynomial::{Extreme, MAX_DEGREE, Polynomial};

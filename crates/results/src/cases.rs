@@ -25,7 +25,7 @@ use crate::response::{
 };
 use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
-use crate::undetermined::{self, undetermined};
+use crate::undetermined::undetermined;
 use formats::scene::columns::Column;
 use formats::scene::motion::simulation_input;
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
@@ -269,7 +269,7 @@ fn run_case(
         foundation.recorded = recorded(s, foundation);
     }
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
-    let mut peaks = recorded_peaks(&steps);
+    let mut peaks = steps.peaks();
     let envelopes = response.columns.iter().zip(&response.envelopes);
     peaks.extend(envelopes.map(|(column, own)| {
         let instant = |own: &ColumnExtreme| ColumnInstant {
@@ -278,7 +278,7 @@ fn run_case(
         };
         peak_of(column, [instant(&own.max), instant(&own.min)])
     }));
-    let losses = undetermined::losses(&steps, input.wheels.iter().map(|wheel| wheel.name.clone()));
+    let losses = response.uplifts.len();
     let mut again = |factor: f64| {
         let accuracy = factor * input.scene.accuracy;
         let other = sim::Scene {
@@ -287,7 +287,7 @@ fn run_case(
         };
         let run = sim::run_by(scene.stepping, &other, &foundations, watch).ok()?;
         let nodes = run.solution.intervals();
-        let mut found = recorded_peaks(&SteppedColumns::new(&scene, &nodes));
+        let mut found = SteppedColumns::new(&scene, &nodes).peaks();
         let loads = WheelLoadReader::new(&scene, &input, &nodes.rows);
         for (s, lines) in lines.iter().enumerate() {
             let Some(lines) = lines else { continue };
@@ -370,22 +370,6 @@ fn run_case(
         second_order: OnceLock::new(),
         warnings: OnceLock::new(),
     })
-}
-
-/// The peaks of all columns of the solution itself.
-fn recorded_peaks(steps: &SteppedColumns) -> Vec<ColumnPeak> {
-    let columns = steps.record.columns.iter().skip(1);
-    let peak = columns.filter_map(|column| {
-        let [max, min] = steps.extremes(&column.values)?;
-        let (column, dimension) = (column.name.clone(), column.dimension);
-        Some(ColumnPeak {
-            column,
-            dimension,
-            max,
-            min,
-        })
-    });
-    peak.collect()
 }
 
 /// The peak of a column of influence lines.

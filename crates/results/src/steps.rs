@@ -5,15 +5,11 @@
 //! polynomials, whatever the output interval.
 
 use formats::scene::Scene;
-use piecewise::{Extreme, Lobatto};
+use piecewise::{Extreme, Lobatto, between};
 use sim::{NodeInterval, SolutionNodes};
 
 use crate::columns::NamedColumns;
 use formats::units::Dimension;
-
-/// Bound of a polynomial beyond its values at the nodes, relative to their range: the Lebesgue constant of 9 Lobatto nodes is
-/// below 2.
-const BEYOND: f64 = 0.5;
 
 /// Differences, relative to the value, that are rounding: columns that stay the same have no other.
 const ROUNDING: f64 = 1e-13;
@@ -82,11 +78,7 @@ impl SteppedColumns {
     /// The time at a place of an interval.
     fn time(times: &[f64], interval: NodeInterval, share: f64) -> f64 {
         let [from, to] = [0, interval.degree].map(|k| times[interval.first + k]);
-        if share == 1.0 {
-            to
-        } else {
-            from + share * (to - from)
-        }
+        between([from, to], share)
     }
 
     /// The largest value of sign times a column, times the sign; `None` without rows.
@@ -104,7 +96,8 @@ impl SteppedColumns {
                 .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| {
                     [a.min(sign * v), b.max(sign * v)]
                 });
-            if high + BEYOND * (high - low) <= best.value + ROUNDING * best.value.abs() {
+            let [_, bound] = Lobatto::bounds([low, high]);
+            if bound <= best.value + ROUNDING * best.value.abs() {
                 continue;
             }
             signed.clear();
@@ -131,6 +124,22 @@ impl SteppedColumns {
             min.value = 0.0;
         }
         Some([max, min])
+    }
+
+    /// The peaks of all columns but time, in their order.
+    #[must_use]
+    pub fn peaks(&self) -> Vec<ColumnPeak> {
+        let columns = self.record.columns.iter().skip(1);
+        let peak = columns.filter_map(|column| {
+            let [max, min] = self.extremes(&column.values)?;
+            Some(ColumnPeak {
+                column: column.name.clone(),
+                dimension: column.dimension,
+                max,
+                min,
+            })
+        });
+        peak.collect()
     }
 
     /// Starts and ends of the times at which a column is zero.

@@ -4,10 +4,11 @@
 //! Where wheels lose contact or strike again and again, the run is repeated with another accuracy. If largest values differ by much
 //! more than both accuracies, it is repeated a few times more, and the smallest and the largest of these values are told.
 
+use formats::text::number::{number, rounded};
 use formats::units::Dimension;
 use serde_json::{Value, json};
 
-use crate::steps::{ColumnPeak, SteppedColumns};
+use crate::steps::ColumnPeak;
 
 /// Number of times that contacts are lost from which a run is repeated.
 const OFTEN: usize = 8;
@@ -37,18 +38,18 @@ pub struct Undetermined {
 }
 
 impl Undetermined {
+    /// Its range in words.
+    #[must_use]
+    pub fn range(&self) -> String {
+        let [low, high] = [self.low, self.high].map(|value| number(rounded(value, 4)));
+        format!("{} is between {low} and {high}", self.quantity)
+    }
+
     /// The value as a member of `undetermined`.
     #[must_use]
     pub fn json(&self) -> Value {
         json!({"quantity": self.quantity, "low": self.low, "high": self.high, "reason": self.reason})
     }
-}
-
-/// How often wheels lose contact with their rails in a run.
-pub(crate) fn losses(steps: &SteppedColumns, wheels: impl Iterator<Item = String>) -> usize {
-    wheels
-        .map(|name| steps.zeros(steps.record.part(&name, "vertical")).len())
-        .sum()
 }
 
 /// The extremes of columns that `again`, which repeats the run with a factor of its accuracy, does not confirm; the least certain

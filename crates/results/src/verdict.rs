@@ -1,7 +1,6 @@
 //! The verdict on a run: all its checks in one table, and what was not checked.
 
 use formats::scene::{Analysis, Scene};
-use formats::text::number::{number, rounded};
 use formats::units::Dimension;
 use formats::verdict::{CheckKind, OmittedCheck, Verdict, VerdictCheck, checks_beyond_program};
 use practice::clause::Evidence;
@@ -63,14 +62,11 @@ fn undetermined(scene: &Scene, outcome: &CaseResult) -> Option<OmittedCheck> {
         .iter()
         .find(|peak| peak.column == worst.quantity)?
         .dimension;
-    let digits = |value: f64| number(rounded(value, 4));
     let reason = format!(
-        "{}: the extreme of {} is between {} and {} {}, and so are the forces, stresses and deflections that follow from such \
+        "{}: the extreme of {} {}, and so are the forces, stresses and deflections that follow from such \
          bounces",
         worst.reason,
-        worst.quantity,
-        digits(worst.low),
-        digits(worst.high),
+        worst.range(),
         scene.units.label(dimension)
     );
     Some(OmittedCheck::new(

@@ -165,8 +165,7 @@ impl Responses {
 /// The components of a force on a rail that are not zero.
 fn components(given: &RailForce) -> Vec<(Probe, f64)> {
     let RailForce { rail, x, force } = *given;
-    let all = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
-        .map(|axis| (axis, force[axis.component()]));
+    let all = Axis::ALL.map(|axis| (axis, force[axis.component()]));
     all.into_iter()
         .filter(|(_, f)| *f != 0.0)
         .map(|(axis, f)| (Probe { rail, x, axis }, f))

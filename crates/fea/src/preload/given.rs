@@ -171,7 +171,7 @@ impl Preload {
     ) -> Result<(), Error> {
         let RailForce { rail, x, force } = *given;
         let mut element = None;
-        for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
+        for axis in Axis::ALL {
             let component = force[axis.component()];
             if component == 0.0 {
                 continue;

@@ -10,7 +10,7 @@ use trains::{RailLoad, SectionSide};
 
 use super::forces::by_rank;
 use super::girder::{DIRECTIONS, LoadedGirders, probe};
-use super::value::{GirderValue, offer};
+use super::value::{GirderValue, floors, offer_values};
 use crate::pieces::{
     Bounds, Cell, LINE_DEGREE, LoadPieces, LoadState, Peak, Stay, known, offer_piece,
 };
@@ -133,7 +133,7 @@ struct CellDeflections {
 
 /// Deflections of places under unit loads and displacements.
 struct UnitDeflections {
-    visited: Vec<Cell>,
+    /// By cell that is visited.
     cells: Vec<CellDeflections>,
     /// By degree of freedom: those of all places, and the largest slope between two of them.
     dofs: Vec<(Vec<f64>, f64)>,
@@ -148,13 +148,6 @@ struct DeflectionChanges {
 }
 
 impl UnitDeflections {
-    fn cell(&self, cell: &Cell) -> Option<&CellDeflections> {
-        self.visited
-            .binary_search(cell)
-            .ok()
-            .map(|at| &self.cells[at])
-    }
-
     /// Bounds during a stay; `None` where it is looked at in any case.
     fn bounds(&self, stay: &Stay, count: usize) -> Option<Vec<Bounds>> {
         let mut out = vec![Bounds::ZERO; count];
@@ -163,7 +156,7 @@ impl UnitDeflections {
             each.for_each(|(sum, per)| sum.add_product(*q, Bounds::at(*per)));
         }
         for (cell, force) in &stay.loads {
-            let own = self.cell(cell).filter(|own| !own.is_near)?;
+            let own = Some(&self.cells[*cell]).filter(|own| !own.is_near)?;
             for (force, own) in force.iter().zip(&own.bounds).filter(|(f, _)| !f.is_zero()) {
                 let each = out.iter_mut().zip(own);
                 each.for_each(|(sum, per)| sum.add_product(*force, *per));
@@ -179,9 +172,9 @@ impl UnitDeflections {
             slope: 0.0,
         };
         for (change, (cell, _)) in pieces.changes(index).iter().zip(&stay.loads) {
-            let Some(own) = self.cell(cell) else { continue };
-            for k in (0..3).filter(|k| change.size[*k] > 0.0) {
-                let (force, moved) = (change.force[k], change.size[k] * change.place);
+            let own = &self.cells[*cell];
+            for k in (0..3).filter(|k| change.size(*k) > 0.0) {
+                let (force, moved) = (change.force[k], change.size(k) * change.place);
                 let each = out
                     .places
                     .iter_mut()
@@ -190,7 +183,7 @@ impl UnitDeflections {
                     *sum += force * bounds.size() + moved * slope;
                 });
                 // by reciprocity
-                out.slope += change.size[k] * own.slopes[k].iter().copied().fold(0.0, f64::max);
+                out.slope += change.size(k) * own.slopes[k].iter().copied().fold(0.0, f64::max);
             }
         }
         let [dofs, _] = pieces.changes_of_motion(index);
@@ -211,16 +204,17 @@ impl PlaceSearch<'_> {
     fn run(&self, peaks: &mut DeflectionPeaks) {
         let units = self.units();
         let stays = &self.girders.pieces.stays;
-        let all: Vec<f64> = stays
+        let all: Vec<Option<Vec<Bounds>>> = stays
             .iter()
-            .map(|stay| match units.bounds(stay, self.count()) {
-                Some(own) => own.iter().map(Bounds::size).fold(0.0, f64::max),
-                None => f64::INFINITY,
-            })
+            .map(|stay| units.bounds(stay, self.count()))
             .collect();
-        for stay in by_rank(&all) {
-            let is_low = |own: Vec<Bounds>| self.is_within(&own, true, peaks);
-            if units.bounds(&stays[stay], self.count()).is_some_and(is_low) {
+        let rank = |own: &Option<Vec<Bounds>>| match own {
+            Some(own) => own.iter().map(Bounds::size).fold(0.0, f64::max),
+            None => f64::INFINITY,
+        };
+        for stay in by_rank(&all.iter().map(rank).collect::<Vec<f64>>()) {
+            let is_low = |own: &Vec<Bounds>| self.is_within(own, true, peaks);
+            if all[stay].as_ref().is_some_and(is_low) {
                 continue;
             }
             if (self.girders.is_stopped)() {
@@ -259,8 +253,8 @@ impl PlaceSearch<'_> {
 
     fn units(&self) -> UnitDeflections {
         let pieces = self.girders.pieces;
-        let visited = pieces.visited();
-        let cells = visited.iter().map(|cell| self.cell(*cell)).collect();
+        let visited = pieces.visited().iter();
+        let cells = visited.map(|cell| self.cell(*cell)).collect();
         let dofs = pieces.stays.first().map_or(0, |stay| stay.dofs.len());
         let mut unit = vec![0.0; dofs];
         let x = |k: usize| self.girders.sections.points[self.points[k]].x;
@@ -281,7 +275,6 @@ impl PlaceSearch<'_> {
         };
         UnitDeflections {
             cells,
-            visited,
             dofs: (0..dofs).map(of_dof).collect(),
         }
     }
@@ -383,9 +376,8 @@ impl PlaceSearch<'_> {
             own.iter().zip(under).any(|(value, (load, span))| {
                 let place = pieces.changes(index)[*load].place;
                 let bounds = Bounds::at(*value).widened(change + slope * place);
-                let known = peaks.under[self.first_span + span][*plane];
-                let known = known.map(|known| known.map_or(f64::NEG_INFINITY, |own| own.signed));
-                !bounds.is_within(known, 0.0)
+                let known_values = peaks.under[self.first_span + span][*plane];
+                !bounds.is_within(known(&floors(&known_values)), 0.0)
             })
         })
     }
@@ -422,19 +414,15 @@ impl PlaceSearch<'_> {
             }
             for (k, (load, span)) in under.iter().enumerate() {
                 let known = &mut peaks.under[self.first_span + span][plane];
-                let mut best = known.map(|known| GirderValue::floor(known.as_ref()));
-                offer_piece(&mut best, at, &of(self.count() + n * under.len() + k));
-                for (known, best) in known.iter_mut().zip(best).filter(|(_, best)| best.is_new) {
-                    let found = GirderValue {
-                        signed: best.signed,
-                        at: best.at,
-                        x: pieces.at(best.at).loads[*load].x,
-                        section: None,
-                        own: None,
-                        side: SectionSide::At,
-                    };
-                    offer(known, found);
-                }
+                let values = of(self.count() + n * under.len() + k);
+                offer_values(known, at, &values, &|best| GirderValue {
+                    signed: best.signed,
+                    at: best.at,
+                    x: pieces.at(best.at).loads[*load].x,
+                    section: None,
+                    own: None,
+                    side: SectionSide::At,
+                });
             }
         }
     }

@@ -165,13 +165,7 @@ impl DistributedForces {
             {
                 let mut sum = Bounds::ZERO;
                 for (per, a) in per.iter().zip(accelerations) {
-                    sum.add_product(
-                        Bounds {
-                            low: *per,
-                            high: *per,
-                        },
-                        *a,
-                    );
+                    sum.add_product(Bounds::at(*per), *a);
                 }
                 out[*k] = if number == 0 { sum } else { out[*k].with(sum) };
             }

@@ -8,7 +8,7 @@
 //! A bound of what the loads of a stay can cause in a member follows from bounds of its influence lines in their cells. Stays are
 //! taken in the order of their bounds; one whose bound is below the largest and smallest values of all sections is left out.
 
-use design::Fibres;
+use design::{FibreStress, Fibres};
 use piecewise::{Lobatto, Polynomial};
 use smallvec::SmallVec;
 use trains::{PassedLoads, RailLoad, SectionSide};
@@ -17,7 +17,7 @@ use super::distributed::{FORCES, Quantities, SLOPES};
 use super::fibres::DIRECT;
 use super::girder::LoadedGirders;
 use super::member_lines::{AlongMember, MemberLines, bounds_at, size_along};
-use super::value::{GirderValue, offer, side_of};
+use super::value::{GirderValue, floor, floors, offer, offer_values, side_of};
 use crate::pieces::{Bounds, LoadState, Part, Peak, SIGNS, WHOLE, known, offer_part, offer_piece};
 
 /// Factor by which the change of a distributed force inside of a range may exceed that to its ends.
@@ -138,7 +138,6 @@ impl ForcePeaks {
             ],
             first_span,
         };
-        let visited = girders.pieces.visited();
         let acting = girders.acting();
         for (member, own) in girders.members.members().enumerate() {
             let rail = sections.rails.iter().position(|rail| rail.rail == own.rail);
@@ -159,7 +158,7 @@ impl ForcePeaks {
                     .map(|place| girders.distributed.dead(member, *place))
                     .collect(),
             };
-            search.run(&MemberLines::new(girders, member, &visited), &mut out);
+            search.run(&MemberLines::new(girders, member), &mut out);
         }
         out
     }
@@ -334,10 +333,7 @@ impl MemberSearch<'_> {
                         changes[moment as usize] += moved * concentrated[shear as usize].abs();
                     }
                     let span = self.span_at(place, peaks);
-                    let known = |k: usize| {
-                        let own = &peaks.beside[span][k];
-                        own.map(|own| own.map_or(f64::NEG_INFINITY, |own| own.signed))
-                    };
+                    let known = |k: usize| known(&floors(&peaks.beside[span][k]));
                     let mut acting = (0..FORCES).filter(|k| self.acting[*k]);
                     acting.any(|k| exceeds(total[k], changes[k], known(k)))
                         || is_stressed(total, &changes)
@@ -349,7 +345,7 @@ impl MemberSearch<'_> {
     fn standing(&self, index: usize, middle: &LoadState<'_>) -> SmallVec<[(usize, Bounds); 4]> {
         let changes = self.girders.pieces.changes(index).iter();
         let all = middle.loads.iter().zip(changes).enumerate();
-        let acting = all.filter(|(_, (_, change))| change.size != [0.0; 3]);
+        let acting = all.filter(|(_, (_, change))| change.bounds.iter().any(|own| !own.is_zero()));
         let on = acting.filter_map(|(load, (own, change))| {
             let at = |x: f64| {
                 self.girders
@@ -611,11 +607,8 @@ impl MemberSearch<'_> {
         for k in (0..FORCES).filter(|k| self.acting[*k]) {
             let values: Values = values.iter().map(|own| own[k]).collect();
             let known = &mut peaks.beside[span][k];
-            let mut best = known.map(|known| GirderValue::floor(known.as_ref()));
-            offer_piece(&mut best, (at.index, at.nodes), &values);
-            for (known, best) in known.iter_mut().zip(&best).filter(|(_, best)| best.is_new) {
-                offer(known, found(best, Some(k)));
-            }
+            let piece = (at.index, at.nodes);
+            offer_values(known, piece, &values, &|best| found(best, Some(k)));
         }
         self.offer_stress(at, values, WHOLE, &|peak| found(peak, None), peaks);
     }
@@ -676,12 +669,11 @@ impl MemberSearch<'_> {
         if 2.0 * most <= known.map_or(0.0, |known| known.signed) {
             return;
         }
-        let all: Vec<Vec<f64>> = forces()
-            .map(|own| fibres.all(own).map(|stress| stress.value()).collect())
-            .collect();
+        let of_fibres = |own| fibres.all(own).iter().map(FibreStress::value).collect();
+        let all: Vec<Vec<f64>> = forces().map(of_fibres).collect();
         for fibre in 0..all[0].len() {
             let values: Values = all.iter().map(|own| own[fibre]).collect();
-            let mut best = [GirderValue::floor(known.as_ref()); 2];
+            let mut best = [floor(known); 2];
             offer_part(&mut best, (at.index, at.nodes), &values, part);
             for best in best.iter().filter(|best| best.is_new) {
                 offer(known, found(best));

@@ -39,30 +39,19 @@ struct CellForces {
 pub(super) struct MemberLines<'a> {
     girders: &'a LoadedGirders<'a>,
     member: usize,
-    visited: &'a [Cell],
+    /// By cell that is visited.
     cells: Vec<CellForces>,
 }
 
 impl<'a> MemberLines<'a> {
-    pub fn new(
-        girders: &'a LoadedGirders<'a>,
-        member: usize,
-        visited: &'a [Cell],
-    ) -> MemberLines<'a> {
+    pub fn new(girders: &'a LoadedGirders<'a>, member: usize) -> MemberLines<'a> {
+        let visited = girders.pieces.visited().iter();
         let of_cell = |cell: &Cell| CellForces::new(girders, member, *cell);
         MemberLines {
             girders,
             member,
-            visited,
-            cells: visited.iter().map(of_cell).collect(),
+            cells: visited.map(of_cell).collect(),
         }
-    }
-
-    fn cell(&self, cell: &Cell) -> Option<&CellForces> {
-        self.visited
-            .binary_search(cell)
-            .ok()
-            .map(|at| &self.cells[at])
     }
 
     /// Bounds of the forces during a stay, without dead load; `None` where a load is on the member.
@@ -70,7 +59,7 @@ impl<'a> MemberLines<'a> {
         let distributed = self.girders.distributed;
         let mut out = [distributed.inertia_bounds(self.member, &stay.accelerations); 3];
         for (cell, force) in &stay.loads {
-            let own = self.cell(cell).filter(|own| !own.is_on)?;
+            let own = Some(&self.cells[*cell]).filter(|own| !own.is_on)?;
             for (force, per) in force.iter().zip(&own.bounds).filter(|(f, _)| !f.is_zero()) {
                 let each = out.iter_mut().flatten().zip(per.iter().flatten());
                 each.for_each(|(sum, per)| sum.add_product(*force, *per));
@@ -89,9 +78,9 @@ impl<'a> MemberLines<'a> {
             .inertia_bounds(self.member, &accelerations);
         let mut out = inertia.map(|bounds| bounds.size());
         for (change, (cell, _)) in pieces.changes(index).iter().zip(&stay.loads) {
-            let Some(own) = self.cell(cell) else { continue };
-            for k in (0..3).filter(|k| change.size[*k] > 0.0) {
-                let moved = change.size[k] * change.place;
+            let own = &self.cells[*cell];
+            for k in (0..3).filter(|k| change.size(*k) > 0.0) {
+                let moved = change.size(k) * change.place;
                 let each = out.iter_mut().zip(own.sizes[k].iter().zip(&own.slopes[k]));
                 each.for_each(|(sum, (size, slope))| {
                     *sum += change.force[k] * size + moved * slope;

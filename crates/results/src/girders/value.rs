@@ -1,8 +1,9 @@
 //! Values of girders at a place and a time.
 
+use piecewise::Lobatto;
 use trains::{GirderResponse, SectionSide};
 
-use crate::pieces::{Instant, OwnLoad, Peak};
+use crate::pieces::{Instant, OwnLoad, Peak, offer_piece};
 
 /// Differences of values of different places, relative to them, up to which the first one counts.
 const TIE: f64 = 1e-12;
@@ -51,9 +52,27 @@ pub(super) fn side_of(section: SectionSide, quantity: usize, own: OwnLoad) -> Se
     }
 }
 
-impl GirderValue {
-    /// What a larger value must exceed.
-    pub fn floor(known: Option<&GirderValue>) -> Peak {
-        Peak::above(known.map_or(f64::NEG_INFINITY, |known| known.signed))
+/// What a larger value must exceed.
+pub(super) fn floor(known: &Option<GirderValue>) -> Peak {
+    Peak::above(known.map_or(f64::NEG_INFINITY, |known| known.signed))
+}
+
+/// The same of the largest and the smallest value.
+pub(super) fn floors(known: &[Option<GirderValue>; 2]) -> [Peak; 2] {
+    [floor(&known[0]), floor(&known[1])]
+}
+
+/// Offers the polynomial through values at the nodes of a piece to the largest and the smallest value; `found` makes a value of a
+/// peak.
+pub(super) fn offer_values(
+    known: &mut [Option<GirderValue>; 2],
+    piece: (usize, &Lobatto),
+    values: &[f64],
+    found: &dyn Fn(&Peak) -> GirderValue,
+) {
+    let mut best = floors(known);
+    offer_piece(&mut best, piece, values);
+    for (known, best) in known.iter_mut().zip(&best).filter(|(_, best)| best.is_new) {
+        offer(known, found(best));
     }
 }

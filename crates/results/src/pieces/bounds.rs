@@ -1,10 +1,6 @@
 //! Intervals in which a value lies, and their sums and products.
 
-use piecewise::Polynomial;
-
-/// Bound of a polynomial beyond its values at the nodes, relative to their range: the Lebesgue constant of 9 Lobatto nodes is below
-/// 2.
-const BEYOND: f64 = 0.5;
+use piecewise::{Lobatto, Polynomial};
 
 /// Values below this part of the largest one are not looked for.
 const ROUNDING: f64 = 1e-10;
@@ -21,34 +17,34 @@ impl Bounds {
         low: 0.0,
         high: 0.0,
     };
+    /// Before any value is in it.
+    const NONE: Bounds = Bounds {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+    };
+
     /// Those of the polynomial through values at nodes.
     pub fn through(values: impl Iterator<Item = f64>) -> Bounds {
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = values.fold(none, |[a, b], value| [a.min(value), b.max(value)]);
-        let beyond = BEYOND * (high - low);
-        Bounds {
-            low: low - beyond,
-            high: high + beyond,
-        }
+        let all = values.map(Bounds::at);
+        all.fold(Bounds::NONE, Bounds::with).beyond_nodes()
+    }
+
+    /// Those of a polynomial whose values at the nodes these are.
+    fn beyond_nodes(self) -> Bounds {
+        let [low, high] = Lobatto::bounds([self.low, self.high]);
+        Bounds { low, high }
     }
 
     /// Those of the polynomials through `count` values at each node, node by node.
     pub fn of_columns(values: &[f64], count: usize) -> Vec<Bounds> {
-        let none = Bounds {
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        };
-        let mut out = vec![none; count];
+        let mut out = vec![Bounds::NONE; count];
         for row in values.chunks_exact(count.max(1)) {
             for (own, value) in out.iter_mut().zip(row) {
                 own.low = if *value < own.low { *value } else { own.low };
                 own.high = if *value > own.high { *value } else { own.high };
             }
         }
-        for own in &mut out {
-            let beyond = BEYOND * (own.high - own.low);
-            (own.low, own.high) = (own.low - beyond, own.high + beyond);
-        }
+        out.iter_mut().for_each(|own| *own = own.beyond_nodes());
         out
     }
 

@@ -15,9 +15,6 @@ use super::load_pieces::{LoadPieces, LoadState, Stay};
 use super::peak::{Peak, known, offer_piece};
 use crate::steps::ColumnInstant;
 
-/// Directions of the components of a load.
-const AXES: [Axis; 3] = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral];
-
 /// Degree of the polynomials of influence lines in a cell.
 pub(crate) const LINE_DEGREE: usize = 4;
 
@@ -34,7 +31,6 @@ pub(crate) struct Functional {
 pub(crate) struct Functionals<'a> {
     all: &'a [Functional],
     pieces: &'a LoadPieces<'a>,
-    visited: Vec<Cell>,
     /// By cell that is visited.
     cells: Vec<CellLines>,
 }
@@ -62,40 +58,25 @@ impl<'a> Functionals<'a> {
         all: &'a [Functional],
         pieces: &'a LoadPieces<'a>,
     ) -> Functionals<'a> {
-        let visited = pieces.visited();
         let of_cell = |cell: &Cell| CellLines::new(lines, all, (pieces.cells(), *cell));
         Functionals {
-            cells: visited.iter().map(of_cell).collect(),
+            cells: pieces.visited().iter().map(of_cell).collect(),
             all,
             pieces,
-            visited,
         }
-    }
-
-    /// Numbers of the cells of the loads of a stay.
-    fn cells_of(&self, stay: &Stay) -> Vec<usize> {
-        let of = |(cell, _): &(Cell, _)| self.visited.binary_search(cell).unwrap_or_default();
-        stay.loads.iter().map(of).collect()
     }
 
     /// Bounds of all quantities during a stay.
     fn bounds(&self, stay: &Stay) -> Vec<Bounds> {
-        let cells = self.cells_of(stay);
         let of = |(r, own): (usize, &Functional)| {
             let mut sum = Bounds::ZERO;
-            for ((_, force), cell) in stay.loads.iter().zip(&cells) {
+            for (cell, force) in &stay.loads {
                 for (force, line) in force.iter().zip(&self.cells[*cell].bounds[r]) {
                     sum.add_product(*force, *line);
                 }
             }
             for (per, a) in own.inertia.iter().zip(&stay.accelerations) {
-                sum.add_product(
-                    Bounds {
-                        low: *per,
-                        high: *per,
-                    },
-                    *a,
-                );
+                sum.add_product(Bounds::at(*per), *a);
             }
             sum
         };
@@ -103,13 +84,13 @@ impl<'a> Functionals<'a> {
     }
 
     /// Appends some of the quantities in a state.
-    fn put(&self, state: &LoadState<'_>, cells: &[usize], chosen: &[usize], to: &mut Vec<f64>) {
+    fn put(&self, state: &LoadState<'_>, chosen: &[usize], to: &mut Vec<f64>) {
         let placed: SmallVec<[PlacedLoad; 8]> = state
             .loads
             .iter()
-            .zip(cells)
+            .zip(state.cells)
             .filter(|(load, _)| load.force != [0.0; 3])
-            .map(|(load, cell)| (self.cells[*cell].powers(load.x), load.force, *cell))
+            .map(|(load, (cell, _))| (self.cells[*cell].powers(load.x), load.force, *cell))
             .collect();
         let accelerations = state.accelerations();
         to.extend(chosen.iter().map(|r| {
@@ -123,17 +104,17 @@ impl<'a> Functionals<'a> {
     }
 
     /// Bounds of how much some of the quantities change in a piece from its middle node.
-    fn changes(&self, index: usize, cells: &[usize], chosen: &[usize]) -> Vec<f64> {
+    fn changes(&self, stay: &Stay, index: usize, chosen: &[usize]) -> Vec<f64> {
         let [_, accelerations] = self.pieces.changes_of_motion(index);
         let loads = self.pieces.changes(index);
         let of = |r: &usize| {
             let inertia = self.all[*r].inertia.iter().zip(&accelerations);
             let mut sum: f64 = inertia.map(|(per, a)| per.abs() * a.size()).sum();
-            for (change, cell) in loads.iter().zip(cells) {
+            for (change, (cell, _)) in loads.iter().zip(&stay.loads) {
                 let lines = &self.cells[*cell];
-                for k in (0..3).filter(|k| change.size[*k] > 0.0) {
+                for k in (0..3).filter(|k| change.size(*k) > 0.0) {
                     sum += change.force[k] * lines.bounds[*r][k].size()
-                        + change.size[k] * change.place * lines.slopes[*r][k];
+                        + change.size(k) * change.place * lines.slopes[*r][k];
                 }
             }
             sum
@@ -142,13 +123,12 @@ impl<'a> Functionals<'a> {
     }
 
     fn search(&self, stay: &Stay, chosen: &[usize], peaks: &mut [[Peak; 2]]) {
-        let cells = self.cells_of(stay);
         let (mut values, mut near): (Vec<f64>, Vec<usize>) = (Vec::new(), Vec::new());
         for index in stay.pieces() {
             let piece = &self.pieces.pieces[index];
             values.clear();
-            self.put(&self.pieces.at_middle(index), &cells, chosen, &mut values);
-            let changes = self.changes(index, &cells, chosen);
+            self.put(&self.pieces.at_middle(index), chosen, &mut values);
+            let changes = self.changes(stay, index, chosen);
             let exceeds = |(n, r): (usize, &usize)| {
                 let bounds = Bounds::at(values[n]).widened(changes[n]);
                 (!bounds.is_within(known(&peaks[*r]), 0.0)).then_some(*r)
@@ -161,7 +141,7 @@ impl<'a> Functionals<'a> {
             let chosen = &near[..];
             values.clear();
             for k in 0..=piece.degree {
-                self.put(&self.pieces.at_node(piece, k), &cells, chosen, &mut values);
+                self.put(&self.pieces.at_node(piece, k), chosen, &mut values);
             }
             let bounds = Bounds::of_columns(&values, chosen.len());
             for (n, r) in chosen.iter().enumerate() {
@@ -175,7 +155,7 @@ impl<'a> Functionals<'a> {
     }
 
     /// The largest and the smallest value of each quantity. First each is evaluated in the stay that has its largest bound, then in
-    /// all others whose bounds exceed what is known. Where `is_stopped` says so, they are incomplete.
+    /// all others whose bounds exceed what is known. Those of all stays would fill the memory in a large hall. Where `is_stopped` says so, they are incomplete.
     pub fn peaks(&self, is_stopped: &dyn Fn() -> bool) -> Vec<[Peak; 2]> {
         let stays = &self.pieces.stays;
         let mut largest = vec![(0, f64::NEG_INFINITY); self.all.len()];
@@ -221,17 +201,11 @@ impl<'a> Functionals<'a> {
     pub fn turns(&self, r: usize) -> Vec<ColumnInstant> {
         let mut out: Vec<ColumnInstant> = Vec::new();
         let mut values: Vec<f64> = Vec::new();
-        let cells: Vec<Vec<usize>> = self
-            .pieces
-            .stays
-            .iter()
-            .map(|stay| self.cells_of(stay))
-            .collect();
         for piece in &self.pieces.pieces {
             values.clear();
             for k in 0..=piece.degree {
                 let state = self.pieces.at_node(piece, k);
-                self.put(&state, &cells[piece.stay], &[r], &mut values);
+                self.put(&state, &[r], &mut values);
             }
             let polynomial = piece.nodes().polynomial(&values);
             let slope = polynomial.derivative();
@@ -270,7 +244,7 @@ impl CellLines {
             slopes: vec![[0.0; 3]; all.len()],
         };
         let mut ordinates = vec![0.0; lines.len()];
-        for (direction, axis) in AXES.into_iter().enumerate() {
+        for (direction, axis) in Axis::ALL.into_iter().enumerate() {
             let mut values = vec![[0.0; LINE_DEGREE + 1]; all.len()];
             for (n, share) in nodes.nodes().iter().enumerate() {
                 let x = low + share * (high - low);

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use piecewise::Lobatto;
+use piecewise::{Lobatto, between};
 use sim::{Channel, NodeInterval, Side, Solution, SolutionNodes};
 use smallvec::SmallVec;
 use trains::RailLoad;
@@ -34,6 +34,8 @@ pub(crate) struct Instant {
 pub(crate) struct LoadState<'a> {
     /// Loads on its rails, always in the same order.
     pub loads: SmallVec<[RailLoad; 8]>,
+    /// Of each load the number of its cell among those that are visited, and bounds of its components.
+    pub cells: &'a [(usize, [Bounds; 3])],
     row: Cow<'a, [f64]>,
     motion: [Range<usize>; 2],
 }
@@ -68,8 +70,15 @@ pub(crate) struct Change {
     pub force: [f64; 3],
     /// Largest difference of its place from that at the middle node.
     pub place: f64,
-    /// Largest magnitudes of its components.
-    pub size: [f64; 3],
+    /// Bounds of its components.
+    pub bounds: [Bounds; 3],
+}
+
+impl Change {
+    /// Largest magnitude of a component.
+    pub fn size(&self, direction: usize) -> f64 {
+        self.bounds[direction].size()
+    }
 }
 
 impl Piece {
@@ -79,12 +88,7 @@ impl Piece {
 
     /// The time at a share of it.
     pub fn time(&self, share: f64) -> f64 {
-        let [from, to] = self.interval;
-        if share == 1.0 {
-            to
-        } else {
-            from + share * (to - from)
-        }
+        between(self.interval, share)
     }
 }
 
@@ -93,8 +97,8 @@ impl Piece {
 pub(crate) struct Stay {
     /// Their numbers, in order.
     pieces: Vec<Range<usize>>,
-    /// By load: its cell, and bounds of its components.
-    pub loads: Vec<(Cell, [Bounds; 3])>,
+    /// By load: the number of its cell among those that are visited, and bounds of its components.
+    pub loads: Vec<(usize, [Bounds; 3])>,
     /// Bounds of displacements and accelerations of the degrees of freedom.
     pub dofs: Vec<Bounds>,
     pub accelerations: Vec<Bounds>,
@@ -118,6 +122,8 @@ pub(crate) struct LoadPieces<'a> {
     /// Channels of the displacements and of the accelerations.
     motion: [Range<usize>; 2],
     cells: RailCells,
+    /// The cells in which loads stand during the run, each once.
+    visited: Vec<Cell>,
     /// Rows of cut intervals.
     cut: Vec<f64>,
     /// The changes of all loads in all pieces.
@@ -145,6 +151,7 @@ impl<'a> LoadPieces<'a> {
             sources: loads.on(s).cloned().collect(),
             motion,
             cells,
+            visited: Vec::new(),
             cut: Vec::new(),
             changes: Vec::new(),
             pieces: Vec::new(),
@@ -166,7 +173,7 @@ impl<'a> LoadPieces<'a> {
     fn add(
         &mut self,
         NodeInterval { first, degree }: NodeInterval,
-        known: &mut HashMap<Vec<Cell>, usize>,
+        known: &mut HashMap<Vec<usize>, usize>,
     ) {
         let nodes = Lobatto::of(degree);
         let rows = &self.nodes.rows;
@@ -199,13 +206,7 @@ impl<'a> LoadPieces<'a> {
         shares.push(1.0);
         let mut begin = 0.0;
         for end in shares {
-            let time = |share: f64| {
-                if share == 1.0 {
-                    to
-                } else {
-                    from + share * (to - from)
-                }
-            };
+            let time = |share: f64| between([from, to], share);
             let interval = [begin, end].map(time);
             let row = rows.len() + self.cut.len() / rows.channels().len();
             for node in nodes.nodes() {
@@ -231,13 +232,24 @@ impl<'a> LoadPieces<'a> {
     }
 
     /// Adds a piece to the stay with its cells, or to a new one.
-    fn push(&mut self, piece: Piece, known: &mut HashMap<Vec<Cell>, usize>) {
+    fn push(&mut self, piece: Piece, known: &mut HashMap<Vec<usize>, usize>) {
         let middle = self.row(&piece, piece.degree / 2);
-        let cells = self.sources.iter().map(|source| {
-            let load = source.load_in(middle);
-            self.cells.of(load.rail, load.x)
-        });
-        let cells: Vec<Cell> = cells.collect();
+        let cells: SmallVec<[Cell; 8]> = self
+            .sources
+            .iter()
+            .map(|source| {
+                let load = source.load_in(middle);
+                self.cells.of(load.rail, load.x)
+            })
+            .collect();
+        let number = |cell: Cell| {
+            let known = self.visited.iter().position(|own| *own == cell);
+            known.unwrap_or_else(|| {
+                self.visited.push(cell);
+                self.visited.len() - 1
+            })
+        };
+        let cells: Vec<usize> = cells.into_iter().map(number).collect();
         let (number, stays) = (self.pieces.len(), &mut self.stays);
         let stay = *known.entry(cells).or_insert_with_key(|cells| {
             stays.push(Stay {
@@ -270,11 +282,12 @@ impl<'a> LoadPieces<'a> {
                 .collect();
             let middle = all[piece.degree / 2];
             let place = Bounds::through(all.iter().map(|load| load.x - middle.x));
-            let force = |k: usize| Bounds::through(all.iter().map(|load| load.force[k]));
+            let bounds: [Bounds; 3] =
+                std::array::from_fn(|k| Bounds::through(all.iter().map(|load| load.force[k])));
             Change {
-                force: std::array::from_fn(|k| force(k).distance(middle.force[k])),
+                force: std::array::from_fn(|k| bounds[k].distance(middle.force[k])),
                 place: place.size(),
-                size: std::array::from_fn(|k| force(k).size()),
+                bounds,
             }
         };
         self.sources.iter().map(of_load).collect()
@@ -306,27 +319,20 @@ impl<'a> LoadPieces<'a> {
 
     /// Computes the bounds of a stay.
     fn bound(&mut self, stay: usize) {
-        let pieces: Vec<&Piece> = self.stays[stay]
-            .pieces()
-            .map(|index| &self.pieces[index])
-            .collect();
-        let all = |of: &dyn Fn(&Piece) -> Bounds| {
-            let each = pieces.iter().map(|piece| of(piece));
+        let pieces: Vec<usize> = self.stays[stay].pieces().collect();
+        let all = |of: &dyn Fn(usize) -> Bounds| {
+            let each = pieces.iter().map(|piece| of(*piece));
             each.reduce(Bounds::with).unwrap_or(Bounds::ZERO)
         };
-        let of_load = |(source, direction): (&LoadSource, usize)| {
-            all(&|piece| {
-                let rows = (0..=piece.degree).map(|k| self.row(piece, k));
-                Bounds::through(rows.map(|row| source.load_in(row).force[direction]))
-            })
-        };
-        let forces: Vec<[Bounds; 3]> = self
-            .sources
-            .iter()
-            .map(|source| std::array::from_fn(|k| of_load((source, k))))
+        let of_load = |load: usize, k: usize| all(&|piece| self.changes(piece)[load].bounds[k]);
+        let forces: Vec<[Bounds; 3]> = (0..self.sources.len())
+            .map(|load| std::array::from_fn(|k| of_load(load, k)))
             .collect();
         let of_channel = |c: usize| {
-            all(&|piece| Bounds::through((0..=piece.degree).map(|k| self.row(piece, k)[c])))
+            all(&|piece| {
+                let piece = &self.pieces[piece];
+                Bounds::through((0..=piece.degree).map(|k| self.row(piece, k)[c]))
+            })
         };
         let [dofs, accelerations] = self
             .motion
@@ -357,7 +363,7 @@ impl<'a> LoadPieces<'a> {
         let cells = &self.stays[stay].loads;
         self.sources.iter().zip(cells).map(|(source, (cell, _))| {
             let mut load = source.load_in(row);
-            load.x = self.cells.hold(*cell, load.x);
+            load.x = self.cells.hold(self.visited[*cell], load.x);
             load
         })
     }
@@ -367,6 +373,7 @@ impl<'a> LoadPieces<'a> {
         let row = self.row(piece, k);
         LoadState {
             loads: self.held(piece.stay, row).collect(),
+            cells: &self.stays[piece.stay].loads,
             row: Cow::Borrowed(row),
             motion: self.motion.clone(),
         }
@@ -383,6 +390,7 @@ impl<'a> LoadPieces<'a> {
                 self.solution.row(piece.time(share), Side::Before, &mut row);
                 LoadState {
                     loads: self.held(piece.stay, &row).collect(),
+                    cells: &self.stays[piece.stay].loads,
                     row: Cow::Owned(row),
                     motion: self.motion.clone(),
                 }
@@ -396,15 +404,8 @@ impl<'a> LoadPieces<'a> {
     }
 
     /// The cells in which loads stand during the run, each once.
-    pub fn visited(&self) -> Vec<Cell> {
-        let mut all: Vec<Cell> = self
-            .stays
-            .iter()
-            .flat_map(|stay| stay.loads.iter().map(|(cell, _)| *cell))
-            .collect();
-        all.sort_unstable();
-        all.dedup();
-        all
+    pub fn visited(&self) -> &[Cell] {
+        &self.visited
     }
 
     /// The cells of the rails.

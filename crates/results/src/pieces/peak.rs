@@ -1,6 +1,6 @@
 //! Largest and smallest values over a run, and when they occur.
 
-use piecewise::{Extreme, Lobatto};
+use piecewise::{Extreme, Lobatto, between};
 
 use super::bounds::Bounds;
 use super::load_pieces::Instant;
@@ -98,11 +98,12 @@ pub(crate) fn offer_part(
             false => polynomial.times(-1.0).largest_above(peak.floor()),
         };
         if let Some(Extreme { share, value }) = found {
-            let (own, share) = match share {
-                0.0 => (own[0], ends[0]),
-                1.0 => (own[1], ends[1]),
-                share => (None, ends[0] + share * (ends[1] - ends[0])),
+            let own = match share {
+                0.0 => own[0],
+                1.0 => own[1],
+                _ => None,
             };
+            let share = between(ends, share);
             *peak = Peak {
                 signed: value,
                 at: Instant { piece, share },

@@ -205,7 +205,7 @@ impl ColumnInfluence {
         for element in self.rails().elements() {
             for fraction in [0.0, 0.3, 0.6, 1.0] {
                 let x = element.x[0] + fraction * (element.x[1] - element.x[0]);
-                for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
+                for axis in Axis::ALL {
                     let unit = self
                         .unit(Probe {
                             rail: element.rail,
@@ -317,10 +317,7 @@ impl ColumnInfluence {
         let mut is_complete = true;
         let mut unit = vec![0.0; self.effects.len()];
         for load in loads {
-            for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
-                .into_iter()
-                .zip(load.force)
-            {
+            for (axis, force) in Axis::ALL.into_iter().zip(load.force) {
                 if force == 0.0 {
                     continue;
                 }

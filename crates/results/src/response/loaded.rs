@@ -90,10 +90,7 @@ fn add_motions(
 fn components(loads: &[RailLoad], is_loaded_along: bool) -> Vec<(Probe, f64)> {
     let mut out = Vec::with_capacity(3 * loads.len());
     for load in loads {
-        for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral]
-            .into_iter()
-            .zip(load.force)
-        {
+        for (axis, force) in Axis::ALL.into_iter().zip(load.force) {
             if force != 0.0 && (axis != Axis::Longitudinal || is_loaded_along) {
                 out.push((
                     Probe {

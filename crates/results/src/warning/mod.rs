@@ -64,11 +64,9 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
         all.extend(bounces::cycles_of_bounces(scene, outcome));
         all.extend(outcome.undetermined.first().map(|worst| {
             format!(
-                "largest values are not determined: {}; that of {} is between {} and {}",
+                "largest values are not determined: {}; that of {}",
                 worst.reason,
-                worst.quantity,
-                number(rounded(worst.low, 4)),
-                number(rounded(worst.high, 4))
+                worst.range()
             )
         }));
         all.extend(of_second_order(scene, outcome, true));
