@@ -28,7 +28,7 @@ const NEAR: f64 = 1e-3;
 const BESIDE: f64 = 1e-2;
 
 /// Error of the compliance by interpolation along the path, relative to the largest at each wheel, per unit of step tolerance.
-const ALONG: f64 = 3e-2;
+const ALONG: f64 = 1e-3;
 
 /// Distance past the break of a rail, relative to 1 + |x|, up to which a path serves: a step may begin or end by so much before the
 /// break of its rail or behind it. The first constant is the minimum, the second the value per unit of step tolerance.

@@ -19,5 +19,6 @@ pub(crate) mod step_size;
 pub(crate) mod stepper;
 pub(crate) mod suitability;
 pub(crate) mod tableau;
+pub(crate) mod transients;
 pub(crate) mod triggers;
 pub(crate) mod wheel_forces;

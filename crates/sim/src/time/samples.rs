@@ -121,10 +121,16 @@ impl Samples {
         } else {
             passed_share(step, slack)
         };
-        let is_state = step.ends_smoothly && !step.has_damped_rails();
+        if start > 0.0 {
+            begun.restore(step.solver);
+            sample_within(step, start, sample)?;
+            step.begin_behind_break(sample);
+            after.restore(step.solver);
+        }
+        // the geometry of the solver is that of the end until another time is sampled
+        let is_state = start == 0.0 && step.ends_smoothly && !step.has_damped_rails();
         let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
             if share == 1.0 && is_state {
-                // the geometry of the solver is that of the end until another time is sampled
                 return recorder.row(system, step.solver.geometry(), &step.arrived, row);
             }
             begun.restore(step.solver);

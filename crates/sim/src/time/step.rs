@@ -353,6 +353,15 @@ impl<'a, 'b> Step<'a, 'b> {
         self.penetrations.apply_laws(self.solver, at)
     }
 
+    /// Replaces forces, accelerations and rates at the start, which are those before the break of a rail, by those of `behind` it,
+    /// so that the motion in the step just taken is interpolated between values of one side.
+    pub fn begin_behind_break(&mut self, behind: &State) {
+        self.from.a.copy_from(&behind.a);
+        self.from.p_rate.copy_from_slice(&behind.p_rate);
+        self.from.force.copy_from_slice(&behind.force);
+        self.penetrations.forget();
+    }
+
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
         let settled = if self.begins_smoothly {

@@ -16,6 +16,7 @@ use super::modal_loads::ModalLoads;
 use super::outcome::{Counts, FirstImpact, StruckBy};
 use super::step::{PathStart, Step};
 use super::step_size::StepSize;
+use super::transients::Transients;
 use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
 use crate::contact::element::{Guard, GuardKind};
@@ -142,6 +143,9 @@ struct Trial {
 pub(crate) struct Stepper<'a, 'b> {
     step: Step<'a, 'b>,
     size: StepSize,
+    transients: Transients,
+    /// Whether an element has become active or inactive at the end of the last step.
+    has_switched: bool,
     triggers: Triggers,
     books: Books,
     counts: Counts,
@@ -205,6 +209,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             wheel_forces,
             modal_loads: step.propagates_modes().then(|| ModalLoads::new(system)),
             size,
+            transients: Transients::none(),
+            has_switched: false,
             step,
             counts: Counts::default(),
             limit: f64::INFINITY,
@@ -323,7 +329,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if !self.step.is_collocation() {
             self.size.set_accuracy(self.step.solver);
         }
-        let widest = if self.chatter > SHORT {
+        let mut widest = if self.chatter > SHORT {
             WIDER * self.step.length()
         } else {
             f64::INFINITY
@@ -334,8 +340,23 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.step.last_jump = self.step.from.t;
             // A transient has decayed to the accuracy at the end of the window.
             let decay = (1.0 / self.size.tolerance).ln().max(1.0);
-            self.step.shortest_delay = self.window() / decay;
+            let window = self.window();
+            self.step.shortest_delay = window / decay;
+            let Step {
+                solver,
+                from,
+                arrived,
+                shortest_delay,
+                ..
+            } = &self.step;
+            let (forces, accuracy) = (&self.wheel_forces, ASKED * self.size.tolerance);
+            let allowed = |i: usize| accuracy * forces.size(i);
+            let times = [window, *shortest_delay];
+            let ends = [arrived, from];
+            self.transients
+                .add(solver, ends, &allowed, times, self.has_switched);
         }
+        widest = widest.min(self.transients.longest(self.step.from.t));
         self.meets = None;
         self.passed_joint = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
@@ -548,6 +569,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// switch. Finally the audit of the step is completed.
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         self.counts.steps += 1;
+        self.has_switched = false;
         self.bounces += self.step.bounces * h / self.step.system().scene.end;
         self.step.arrived.copy_from(&self.step.to);
         self.force_scale = self.largest_force();
@@ -584,7 +606,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             let is_settled = has_crossed && settle_jump(solver, to)? || settle(solver, to)?;
             if is_settled {
                 let now = self.step.solver.active().flags();
-                self.counts.events += usize::from(active != now);
+                self.has_switched = active != now;
+                self.counts.events += usize::from(self.has_switched);
                 let switched = (0..now.len()).find(|&i| active[i] != now[i]);
                 let met = (0..now.len())
                     .filter(|&i| now[i] && !active[i])

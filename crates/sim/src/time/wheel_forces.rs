@@ -78,6 +78,13 @@ impl WheelForces {
         }
     }
 
+    /// The size of the force of an element, the S of its wheels; 0 for an element that is no force of a wheel.
+    pub fn size(&self, element: usize) -> f64 {
+        let own = self.shares.iter().filter(|share| share.element == element);
+        own.map(|share| share.divisor * self.size[share.wheel])
+            .fold(0.0, f64::max)
+    }
+
     /// Largest error of a wheel force relative to S, from the errors of the forces of the elements.
     pub fn relative(&mut self, errors: &[f64]) -> f64 {
         self.add_up(errors);

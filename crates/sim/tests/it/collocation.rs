@@ -114,7 +114,7 @@ fn samples_inside_a_step_have_the_modes_where_they_are() {
     scene.output_dt = scene.end / 1000.0;
     let fine = Stepping {
         method: Method::Radau,
-        step: Some(scene.output_dt / 10.0),
+        step: Some(scene.output_dt / 2.0),
     };
     let reference = solved(fine, &scene, beam(120, false));
     scene.accuracy = 1e-3;
