@@ -3,16 +3,18 @@
 //! They are found like forces ([`super::forces`]): by the polynomials through the values at the nodes of pieces, for a number of
 //! places of a rail at a time, and without the stays whose bounds are below the values of all these places.
 
-use piecewise::Lobatto;
+use piecewise::{Lobatto, between};
 use smallvec::SmallVec;
 use splines::Probe;
 use trains::{RailLoad, SectionSide};
 
 use super::forces::by_rank;
 use super::girder::{DIRECTIONS, LoadedGirders, probe};
+use super::sections::RailPoint;
 use super::value::{GirderValue, floors, offer_values};
 use crate::pieces::{
-    Bounds, Cell, LINE_DEGREE, LoadPieces, LoadState, Peak, Stay, known, offer_piece,
+    Bounds, Cell, Instant, LINE_DEGREE, LoadPieces, LoadState, Part, Peak, Piece, Stay, WHOLE,
+    known, offer_piece, offer_polynomial,
 };
 use crate::response::PlaceMotions;
 
@@ -31,7 +33,15 @@ pub(super) struct DeflectionPeaks {
     pub under: Vec<[[Option<GirderValue>; 2]; 2]>,
 }
 
-/// Points of consecutive spans of a rail, in the planes in which they are known.
+/// A place of a rail.
+#[derive(Clone, Copy)]
+struct Place {
+    x: f64,
+    /// Index of its peaks.
+    peaks: usize,
+}
+
+/// Places of a rail in their order, in the planes in which they are known.
 struct PlaceSearch<'a> {
     girders: &'a LoadedGirders<'a>,
     /// Index in the list of rails.
@@ -39,17 +49,17 @@ struct PlaceSearch<'a> {
     /// Index of the first span of the rail among those of all rails.
     first_span: usize,
     planes: Vec<usize>,
-    points: Vec<usize>,
-    /// Coordinates of the first point, and of the one behind the last.
+    places: Vec<Place>,
+    /// Coordinates of the first place, and of the one behind the last.
     range: [f64; 2],
-    /// All points in the first plane, then those in the next.
+    /// All places in the first plane, then those in the next.
     motions: PlaceMotions<'a>,
     has_loads: bool,
 }
 
 impl DeflectionPeaks {
     /// Searches the points of all spans; the deflections under loads only if `has_loads`. `first_span` has the index of the first
-    /// span of each rail. Rails whose deflections are not known, or that are unrestrained in a plane, have none.
+    /// span of each rail.
     pub fn new(
         girders: &LoadedGirders<'_>,
         first_span: &[usize],
@@ -60,46 +70,93 @@ impl DeflectionPeaks {
             points: vec![[[Peak::NONE; 2]; 2]; sections.points.len()],
             under: vec![Default::default(); first_span[first_span.len() - 1]],
         };
-        if !girders.has_deflections() {
-            return out;
-        }
-        for (rail, outline) in sections.rails.iter().enumerate() {
-            let own = (0..sections.points.len()).filter(|at| sections.points[*at].rail == rail);
-            let own: Vec<usize> = own.collect();
-            let x = |k: usize| {
-                own.get(k)
-                    .map_or(f64::INFINITY, |at| sections.points[*at].x)
+        for rail in 0..sections.rails.len() {
+            let of_point = |(peaks, point): (usize, &RailPoint)| {
+                (point.rail == rail).then_some(Place { x: point.x, peaks })
             };
-            let probes = |points: &[usize], plane: usize| -> Vec<Probe> {
-                let of = |at: &usize| probe(outline.rail, sections.points[*at].x, plane);
-                points.iter().map(of).collect()
-            };
-            let is_known = |plane: &usize| {
-                PlaceMotions::new(girders.foundation, &probes(&own, *plane)).is_ok()
-            };
-            let planes: Vec<usize> = [0, 1].into_iter().filter(is_known).collect();
-            for (chunk, points) in own.chunks(AT_ONCE).enumerate() {
-                let all: Vec<Probe> = planes
-                    .iter()
-                    .flat_map(|plane| probes(points, *plane))
-                    .collect();
-                let Ok(motions) = PlaceMotions::new(girders.foundation, &all) else {
-                    continue;
-                };
-                let search = PlaceSearch {
-                    girders,
-                    rail,
-                    first_span: first_span[rail],
-                    planes: planes.clone(),
-                    points: points.to_vec(),
-                    range: [x(chunk * AT_ONCE), x((chunk + 1) * AT_ONCE)],
-                    motions,
-                    has_loads,
-                };
-                search.run(&mut out);
-            }
+            let points = sections.points.iter().enumerate().filter_map(of_point);
+            let places: Vec<Place> = points.collect();
+            out.search(girders, (rail, first_span[rail]), &places, has_loads);
         }
         out
+    }
+
+    /// Raises the `values` of deflections of a span, by rail and plane and with the sign of their kind (largest, smallest), to the
+    /// largest ones at their places at any time; returns whether each has been raised.
+    pub fn raise(
+        girders: &LoadedGirders<'_>,
+        values: &mut [(usize, usize, usize, &mut GirderValue)],
+    ) -> Vec<bool> {
+        let mut out = DeflectionPeaks {
+            points: vec![[[Peak::above(f64::INFINITY); 2]; 2]; values.len()],
+            under: Vec::new(),
+        };
+        for (own, (_, plane, kind, value)) in out.points.iter_mut().zip(&*values) {
+            own[*plane][*kind] = Peak::above(value.signed);
+        }
+        for rail in 0..girders.sections.rails.len() {
+            let of_value = |(peaks, value): (usize, &(usize, usize, usize, &mut GirderValue))| {
+                (value.0 == rail).then_some(Place {
+                    x: value.3.x,
+                    peaks,
+                })
+            };
+            let mut places: Vec<Place> = values.iter().enumerate().filter_map(of_value).collect();
+            places.sort_by(|a, b| a.x.total_cmp(&b.x));
+            out.search(girders, (rail, 0), &places, false);
+        }
+        let raised = values.iter_mut().zip(&out.points);
+        let raise = |((_, plane, kind, value), own): (
+            &mut (usize, usize, usize, &mut GirderValue),
+            &[[Peak; 2]; 2],
+        )| {
+            let peak = own[*plane][*kind];
+            if peak.is_new {
+                (value.signed, value.at) = (peak.signed, peak.at);
+            }
+            peak.is_new
+        };
+        raised.map(raise).collect()
+    }
+
+    /// Searches places of a rail; the deflections under loads only if `has_loads`. Rails whose deflections are not known, or that are
+    /// unrestrained in a plane, have none.
+    fn search(
+        &mut self,
+        girders: &LoadedGirders<'_>,
+        (rail, first_span): (usize, usize),
+        all: &[Place],
+        has_loads: bool,
+    ) {
+        if !girders.has_deflections() {
+            return;
+        }
+        let probes = |places: &[Place], plane: usize| -> Vec<Probe> {
+            let of = |place: &Place| probe(girders.sections.rails[rail].rail, place.x, plane);
+            places.iter().map(of).collect()
+        };
+        let is_known =
+            |plane: &usize| PlaceMotions::new(girders.foundation, &probes(all, *plane)).is_ok();
+        let planes: Vec<usize> = [0, 1].into_iter().filter(is_known).collect();
+        let x = |k: usize| all.get(k).map_or(f64::INFINITY, |place| place.x);
+        for (chunk, places) in all.chunks(AT_ONCE).enumerate() {
+            let of_plane = |plane: &usize| probes(places, *plane);
+            let probes: Vec<Probe> = planes.iter().flat_map(of_plane).collect();
+            let Ok(motions) = PlaceMotions::new(girders.foundation, &probes) else {
+                continue;
+            };
+            let search = PlaceSearch {
+                girders,
+                rail,
+                first_span,
+                planes: planes.clone(),
+                places: places.to_vec(),
+                range: [x(chunk * AT_ONCE), x((chunk + 1) * AT_ONCE)],
+                motions,
+                has_loads,
+            };
+            search.run(self);
+        }
     }
 
     /// The largest of sign times the deflection of a point.
@@ -198,7 +255,7 @@ impl UnitDeflections {
 
 impl PlaceSearch<'_> {
     fn count(&self) -> usize {
-        self.planes.len() * self.points.len()
+        self.planes.len() * self.places.len()
     }
 
     fn run(&self, peaks: &mut DeflectionPeaks) {
@@ -228,15 +285,17 @@ impl PlaceSearch<'_> {
 
     /// Whether bounds of all places are within the values that are known; but for rounding, if `is_rounded`.
     fn is_within(&self, all: &[Bounds], is_rounded: bool, peaks: &DeflectionPeaks) -> bool {
-        let mut planes = self.planes.iter().zip(all.chunks(self.points.len()));
+        let mut planes = self.planes.iter().zip(all.chunks(self.places.len()));
         planes.all(|(plane, own)| {
             let all = || {
-                self.points
+                self.places
                     .iter()
-                    .map(|at| known(&peaks.points[*at][*plane]))
+                    .map(|place| known(&peaks.points[place.peaks][*plane]))
             };
             let most = if is_rounded {
-                all().flatten().fold(0.0, f64::max)
+                // places that are not looked for have no value
+                let found = all().flatten().filter(|value| value.is_finite());
+                found.fold(0.0, f64::max)
             } else {
                 0.0
             };
@@ -248,7 +307,7 @@ impl PlaceSearch<'_> {
 
     /// Sign of the deflection of a place in its displacement.
     fn sign(&self, place: usize) -> f64 {
-        DIRECTIONS[self.planes[place / self.points.len()]]
+        DIRECTIONS[self.planes[place / self.places.len()]]
     }
 
     fn units(&self) -> UnitDeflections {
@@ -257,7 +316,7 @@ impl PlaceSearch<'_> {
         let cells = visited.map(|cell| self.cell(*cell)).collect();
         let dofs = pieces.stays.first().map_or(0, |stay| stay.dofs.len());
         let mut unit = vec![0.0; dofs];
-        let x = |k: usize| self.girders.sections.points[self.points[k]].x;
+        let x = |k: usize| self.places[k].x;
         let of_dof = |dof: usize| {
             unit[dof] = 1.0;
             let found = self.motions.under(&[], &unit, &[]);
@@ -266,7 +325,7 @@ impl PlaceSearch<'_> {
             own.iter_mut()
                 .enumerate()
                 .for_each(|(place, own)| *own *= self.sign(place));
-            let slopes = own.chunks(self.points.len()).flat_map(|own| {
+            let slopes = own.chunks(self.places.len()).flat_map(|own| {
                 let pairs = own.windows(2).enumerate();
                 pairs.map(|(k, pair)| (pair[1] - pair[0]).abs() / (x(k + 1) - x(k)))
             });
@@ -393,8 +452,11 @@ impl PlaceSearch<'_> {
         if !self.may_exceed(units, index, (&values, &under), peaks) {
             return;
         }
-        let of_node = |k: usize| self.values(&pieces.at_node(piece, k), &under);
-        let values: Option<Vec<Vec<f64>>> = (0..=piece.degree).map(of_node).collect();
+        let states: Vec<LoadState<'_>> = (0..=piece.degree)
+            .map(|k| pieces.at_node(piece, k))
+            .collect();
+        let values = states.iter().map(|state| self.values(state, &under));
+        let values: Option<Vec<Vec<f64>>> = values.collect();
         let Some(values) = values.map(|values| values.concat()) else {
             return;
         };
@@ -405,11 +467,17 @@ impl PlaceSearch<'_> {
         };
         let bounds = Bounds::of_columns(&values, all);
         for (n, &plane) in self.planes.iter().enumerate() {
-            for (k, point) in self.points.iter().enumerate() {
-                let place = n * self.points.len() + k;
-                let peaks = &mut peaks.points[*point][plane];
-                if !bounds[place].is_within(known(peaks), 0.0) {
+            for (k, own) in self.places.iter().enumerate() {
+                let place = n * self.places.len() + k;
+                let peaks = &mut peaks.points[own.peaks][plane];
+                if bounds[place].is_within(known(peaks), 0.0) {
+                    continue;
+                }
+                let passages = self.passages(piece, &states, own.x);
+                if passages.is_empty() {
                     offer_piece(peaks, at, &of(place));
+                } else {
+                    self.offer_between(peaks, index, (plane, own.x), &passages);
                 }
             }
             for (k, (load, span)) in under.iter().enumerate() {
@@ -424,6 +492,53 @@ impl PlaceSearch<'_> {
                     side: SectionSide::At,
                 });
             }
+        }
+    }
+
+    /// Shares of a piece at which loads pass a place, where the rail has a corner under each load if it shears. The `states` are
+    /// those at the nodes of the piece.
+    fn passages(&self, piece: &Piece, states: &[LoadState<'_>], x: f64) -> SmallVec<[f64; 4]> {
+        let rail = self.girders.sections.rails[self.rail].rail;
+        let loads = &states[0].loads;
+        let mut out = SmallVec::new();
+        for load in (0..loads.len()).filter(|load| loads[*load].rail == rail) {
+            let distances: SmallVec<[f64; 17]> =
+                states.iter().map(|state| state.loads[load].x - x).collect();
+            if Bounds::through(distances.iter().copied()).contains(0.0) {
+                out.extend(piece.nodes().polynomial(&distances).roots());
+            }
+        }
+        out.retain(|share| *share > 0.0 && *share < 1.0);
+        out.sort_by(f64::total_cmp);
+        out
+    }
+
+    /// Offers the deflection of a place in a piece, as a polynomial between the passages of loads.
+    fn offer_between(
+        &self,
+        peaks: &mut [Peak; 2],
+        index: usize,
+        (plane, x): (usize, f64),
+        passages: &[f64],
+    ) {
+        let pieces = self.girders.pieces;
+        let nodes = pieces.pieces[index].nodes();
+        let mut from = 0.0;
+        for to in passages.iter().copied().chain([1.0]) {
+            let ends = [from, to];
+            let value = |node: &f64| {
+                let share = between(ends, *node);
+                let state = pieces.at(Instant {
+                    piece: index,
+                    share,
+                });
+                Some(self.girders.deflections(self.rail, &[x], plane, &state)?[0])
+            };
+            let values: Option<Vec<f64>> = nodes.nodes().iter().map(value).collect();
+            let Some(values) = values else { return };
+            let part = Part { ends, ..WHOLE };
+            offer_polynomial(peaks, index, &nodes.polynomial(&values), part);
+            from = to;
         }
     }
 }

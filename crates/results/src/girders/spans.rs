@@ -140,7 +140,28 @@ impl<'a> GirderPeaks<'a> {
                 }
             }
         }
+        self.raise_deflections(&mut out);
         out
+    }
+
+    /// Raises deflections to the largest ones at their places at any time. They were sought from the largest values of places
+    /// beside them, which may occur at another time.
+    fn raise_deflections(&self, all: &mut [SpanValue]) {
+        let deflections = all
+            .iter_mut()
+            .filter(|own| own.quantity >= FORCES && own.found.signed > 0.0);
+        let mut places: Vec<&mut SpanValue> = deflections.collect();
+        let values = places
+            .iter_mut()
+            .map(|own| (own.rail, own.quantity - FORCES, own.kind, &mut own.found));
+        let raised = DeflectionPeaks::raise(self.girders, &mut values.collect::<Vec<_>>());
+        for (own, _) in places
+            .into_iter()
+            .zip(raised)
+            .filter(|(_, is_raised)| *is_raised)
+        {
+            own.found = self.near((own.rail, own.span), own.quantity, own.kind, own.found);
+        }
     }
 
     /// The largest of sign times a quantity over a span: at its sections or places and near to them, then at the loads.

@@ -65,8 +65,9 @@ impl<'a> PreparedGirders<'a> {
         }))
     }
 
-    /// The cells in which influence lines of the members, places and supports are cubics, and that no end of a span divides.
-    fn cells(&self) -> RailCells {
+    /// The cells in which influence lines of the members, places and supports are cubics, or of rigid parts of the fourth degree, and
+    /// that no end of a span divides.
+    fn cells(&self, foundation: &Foundation) -> RailCells {
         let structure = self.members.structure();
         let rails = structure.rail_count();
         let of_members = (0..rails).flat_map(|rail| {
@@ -80,8 +81,12 @@ impl<'a> PreparedGirders<'a> {
         let of_spans = |own: &RailSpans| -> Vec<(usize, f64)> {
             own.ends.iter().map(|x| (own.rail, *x)).collect()
         };
-        let spans: Vec<(usize, f64)> = self.sections.rails.iter().flat_map(of_spans).collect();
-        RailCells::new(rails, &ends, &spans)
+        let of_foundation = foundation.rails.iter().take(rails).enumerate();
+        let of_foundation =
+            of_foundation.flat_map(|(rail, own)| own.breaks.iter().map(move |x| (rail, *x)));
+        let mut more: Vec<(usize, f64)> = of_foundation.collect();
+        more.extend(self.sections.rails.iter().flat_map(of_spans));
+        RailCells::new(rails, &ends, &more)
     }
 
     /// Adds the extremes of spans and reactions over a run, and the envelopes at all places and at those of the extremes.
@@ -97,7 +102,7 @@ impl<'a> PreparedGirders<'a> {
             (solution, nodes),
             loads,
             (self.s, foundation.dofs()),
-            self.cells(),
+            self.cells(foundation),
         );
         if pieces.pieces.is_empty() {
             return;
@@ -297,7 +302,7 @@ mod tests {
             .expect("members that are solved")
             .expect("a structure with members under rails");
         let foundation = &run.built[0].foundation;
-        let cells = own.cells();
+        let cells = own.cells(foundation);
         let of_run = (&run.run.solution, &nodes);
         let pieces = LoadPieces::new(of_run, &loads, (0, foundation.dofs()), cells);
         let girders = LoadedGirders {

@@ -12,5 +12,7 @@ mod peak;
 pub(crate) use bounds::Bounds;
 pub(crate) use cells::{Cell, RailCells};
 pub(crate) use functionals::{Functional, Functionals, LINE_DEGREE};
-pub(crate) use load_pieces::{Instant, LoadPieces, LoadState, Stay};
-pub(crate) use peak::{OwnLoad, Part, Peak, SIGNS, WHOLE, known, offer_part, offer_piece};
+pub(crate) use load_pieces::{Instant, LoadPieces, LoadState, Piece, Stay};
+pub(crate) use peak::{
+    OwnLoad, Part, Peak, SIGNS, WHOLE, known, offer_part, offer_piece, offer_polynomial,
+};

@@ -1,6 +1,6 @@
 //! Largest and smallest values over a run, and when they occur.
 
-use piecewise::{Extreme, Lobatto, between};
+use piecewise::{Extreme, Lobatto, Polynomial, between};
 
 use super::bounds::Bounds;
 use super::load_pieces::Instant;
@@ -82,16 +82,26 @@ pub(crate) fn offer_part(
     peaks: &mut [Peak; 2],
     (piece, nodes): (usize, &Lobatto),
     values: &[f64],
-    Part { ends, own }: Part,
+    part: Part,
 ) {
     let bounds = Bounds::through(values.iter().copied());
     if bounds.high <= peaks[0].floor() && -bounds.low <= peaks[1].floor() {
         return;
     }
     let mut polynomial = nodes.polynomial(values);
-    if ends != WHOLE.ends {
-        polynomial = polynomial.part(ends);
+    if part.ends != WHOLE.ends {
+        polynomial = polynomial.part(part.ends);
     }
+    offer_polynomial(peaks, piece, &polynomial, part);
+}
+
+/// Offers the polynomial of a part of a piece, by the share of the part.
+pub(crate) fn offer_polynomial(
+    peaks: &mut [Peak; 2],
+    piece: usize,
+    polynomial: &Polynomial,
+    Part { ends, own }: Part,
+) {
     for (peak, sign) in peaks.iter_mut().zip(SIGNS) {
         let found = match sign > 0.0 {
             true => polynomial.largest_above(peak.floor()),
