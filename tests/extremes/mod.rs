@@ -2,6 +2,7 @@
 //! output interval. True values were computed from histories at far shorter intervals, by runs at an accuracy of 1e-8 and by
 //! statics.
 
+mod hall;
 mod same_page;
 
 use std::path::Path;

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Compare what the first page of random runs says with their histories at a fiftieth of the interval.
 
-Each scene is drawn by rule: runways of 1 to 80 spans, round and odd dimensions, 1 to 16 wheels, one crossing or many trips,
-braking, lateral forces between flanges, steps and dips of the rail, quasi-static runs, foundations without mass and by natural
-modes. It is run once. Sections and gauges are then placed where the summary says that its extremes are, and the scene is run
-again with rows at a fiftieth of the interval. Of every peak, extreme, reaction and deflection of a chord two differences are
-taken, relative to the largest value of its kind: by how much the history exceeds the page, which must not be more than the
+Each scene is drawn by rule: runways of 1 to 80 spans and halls of 4 to 16 bays, round and odd dimensions, 1 to 16 wheels, one
+crossing or many trips, braking, lateral forces between flanges, steps and dips of the rail, quasi-static runs, foundations
+without mass, of rigid parts, on ties and by natural modes. It is run once. Sections and gauges are then placed where the
+summary says that its extremes are, and along the spans of chords, and the scene is run again with rows at a fiftieth of the
+interval. Damage of details is counted again from the stresses in these rows, by a count of this script. Of every peak, extreme,
+reaction, deflection of a chord and damage two differences are taken, relative to the largest value of its kind: by how much the history exceeds the page, which must not be more than the
 accuracy of the scene, and by how much the page exceeds the history, which is what its rows miss: beside a step of the rail a
 force of a damper lasts less than a row.
 
@@ -57,6 +58,100 @@ def spec(draw):
     return {"format": "girderway-beam/1", "name": "g", "units": units, "girder": girder}
 
 
+def hall(draw):
+    """A hall: frames with columns and roof beams, girders on brackets, and ties along the eaves."""
+    bays = draw.choice([4, 4, 6, 8, 16])
+    odd = draw.random() < 0.5
+    length = lambda: round(draw.uniform(5, 9), 3) if odd else float(draw.randint(5, 9))
+    lengths = [length()] * bays if draw.random() < 0.5 else [length() for _ in range(bays)]
+    places = [0.0]
+    for own in lengths:
+        places.append(places[-1] + own)
+    points, cells, of, supports = [], [], [], []
+
+    def member(a, b, section):
+        cells.append([a, b])
+        of.append(section)
+        return len(cells) - 1
+
+    frames = []
+    for x in places:
+        sides = []
+        for sign in (-1, 1):
+            first = len(points)
+            points.extend([[x, 0, 12 * sign], [x, 10, 12 * sign], [x, 10, 11.4 * sign], [x, 13, 12 * sign]])
+            supports.append({"point": first, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"]})
+            member(first, first + 1, 0)
+            member(first + 1, first + 3, 0)
+            member(first + 1, first + 2, 1)
+            sides.append(first)
+        member(sides[0] + 3, sides[1] + 3, 2)
+        frames.append(sides)
+    rails = {"north": [], "south": []}
+    for before, behind in zip(frames, frames[1:]):
+        for side, rail in enumerate(rails):
+            rails[rail].append(member(before[side] + 2, behind[side] + 2, 3))
+            member(before[side] + 3, behind[side] + 3, 4)
+            member(before[side] + 1, behind[side] + 1, 4)
+    stiff = draw.uniform(0.7, 2)
+    section = lambda name, a, iy, iz, j: {
+        "name": name, "material": "steel", "A": a, "Iy": stiff * iy, "Iz": stiff * iz, "J": j, "Asy": 0.4 * a, "Asz": 0.5 * a}
+    sections = [section("column", 0.03, 2e-4, 1.2e-3, 6e-6), section("bracket", 0.02, 1e-4, 8e-4, 5e-6),
+                section("roof", 0.02, 1e-4, 9e-4, 3e-6), section("girder", 0.03, 2.5e-4, 2.4e-3, 8e-6),
+                section("tie", 0.006, 2e-5, 6e-5, 1e-6)]
+    sections[3]["points"] = [{"name": "bottom", "y": -0.4, "detail": 36}, {"name": "top", "y": 0.4, "z": 0.15, "detail": 36}]
+    # local y is up, and across the hall in columns
+    ends = [[points[at] for at in cell] for cell in cells]
+    orientation = [[0, 0, 1] if a[0] == b[0] and a[2] == b[2] else [0, 1, 0] for a, b in ends]
+    stations = [places[-1] * k / 8 for k in range(1, 8)]
+    beam = {
+        "format": "girderway-beam/1", "name": "hall", "units": {"length": "m", "force": "kN", "time": "s"}, "up": [0, 1, 0],
+        "theory": "timoshenko", "points": points, "cells": [{"type": "line", "data": cells}],
+        "cell_data": {"kind": [["beam"] * len(cells)], "section": [of], "orientation": [orientation]},
+        "materials": [{"name": "steel", "E": 2.1e8, "G": 8.1e7, "density": 7.85}], "sections": sections, "supports": supports,
+        "rails": {rail: {"origin": [0, 10, 0], "axis": [1, 0, 0], "stations": stations, "segments": [{"cell": [0, k], "offset": [0, 0.6, 0]} for k in own]}
+                  for rail, own in rails.items()},
+    }
+    # two sections with details in the middle of girders
+    beam["effects"] = [{"name": f"w{side}", "cell": [0, own[draw.randrange(bays)]], "at": draw.choice([0.5, 0.37])}
+                       for side, own in enumerate(rails.values())]
+    return beam, places, rails
+
+
+def hall_scene(draw):
+    """A bridge crane in a hall."""
+    beam, places, rails = hall(draw)
+    kind = draw.choice(["plain", "lateral", "quasi-static"])
+    base = draw.uniform(2, 4)
+    wheel = {"radius": 0.4, "vertical": {"k": 1e6, "c": draw.choice([500, 1000, 3000])}}
+    dof = ["x", "y", "roll", "pitch"]
+    if kind != "quasi-static":
+        wheel["lateral"] = {"k": 5e5, "clearance": 0.005}
+        dof = ["x", "y", "z", "roll", "yaw", "pitch"]
+    first, last = base / 2 + 0.1, places[-1] - base / 2 - 0.1
+    points, end = speeds(draw, first, last, draw.choice([1.0, 2.0]), 3)
+    tree = draw.choice([[-base / 2, base / 2], [-base / 2, 0.6 - base / 2, base / 2 - 0.6, base / 2]])
+    tree = [round(place, 3) for place in tree]
+    trucks = [{"name": name, "body": "crane", "rail": f"g.{rail}", "at": [0, 0, side * 11.4], "tree": tree, "wheel": "w"}
+              for name, rail, side in (("N", "north", -1), ("S", "south", 1))]
+    out = {
+        "format": "girderway-scene/1", "name": "hall", "units": beam["units"], "gravity": 9.81,
+        "structures": {"g": {"spec": "g.json", "foundation": "influence"}},
+        "bodies": {"crane": {"weight": draw.uniform(200, 600), "inertia": [4000, 4500, 250], "cg": [0, 0.5, 0], "x0": first,
+                             "dof": dof, "track": ["g.north", "g.south"]}},
+        "wheels": {"w": wheel}, "trucks": trucks,
+        "motions": [{"body": "crane", "dof": "x", "kind": "prescribed", "speed": points}],
+        "end": {"time": end}, "accuracy": draw.choice([1e-3, 1e-4]),
+        "output": {"dt": draw.choice([0.02, 0.05]), "reactions": True, "stresses": True},
+    }
+    if kind == "lateral":
+        t = [end * k / 6 for k in range(7)]
+        out["loads"] = [{"body": "crane", "dof": "z", "value": [[time, draw.uniform(-20, 20)] for time in t]}]
+    if kind == "quasi-static":
+        out["analysis"] = "quasi-static"
+    return beam, out, f"hall, {kind}"
+
+
 def speeds(draw, first, last, speed, most):
     """The speed over time of one crossing, or of several trips, and the end of the run."""
     reach = last - first
@@ -75,7 +170,9 @@ def speeds(draw, first, last, speed, most):
 
 
 def scene(draw):
-    """A scene on this girder with its interval between rows."""
+    """A scene on a girder, or in a hall."""
+    if draw.random() < 0.2:
+        return hall_scene(draw)
     beam = spec(draw)
     length = sum(beam["girder"]["spans"])
     wheels = draw.choice([1, 2, 2, 2, 4, 4, 8, 16])
@@ -129,6 +226,13 @@ def scene(draw):
         structure["irregularities"] = [{"kind": "dip", "x": at, "length": 0.4, "depth": 0.003}]
     if kind == "quasi-static":
         out["analysis"] = "quasi-static"
+    if kind == "plain" and structure["foundation"] == "influence" and draw.random() < 0.4:
+        kind = draw.choice(["parts", "ties"] if length < 300 else ["parts"])
+        if kind == "parts":
+            structure |= {"foundation": "parts", "count": len(beam["girder"]["spans"]) + 1}
+        else:
+            rail = {"E": 2.1e8, "I_vertical": 3.0e-5, "mass_per_length": 0.06}
+            structure |= {"foundation": "ties", "damping": 0.02, "ties": {"spacing": 0.6, "k": 4e4, "mass": 0.1, "rail": rail}}
     return beam, out, kind
 
 
@@ -152,12 +256,59 @@ def history(path):
     return {name: [row[k] for row in values] for k, name in enumerate(names)}
 
 
+def effect(beam, ends, name, extreme):
+    """The section of an extreme."""
+    x = extreme["x"]
+    if "girder" in beam:
+        return {"name": name, "x": x}
+    bay = max(k for k in range(len(ends) - 1) if ends[k] <= x)
+    segment = beam["rails"][extreme["rail"].split(".")[1]]["segments"][bay]
+    return {"name": name, "cell": segment["cell"], "at": (x - ends[bay]) / (ends[bay + 1] - ends[bay])}
+
+
 COLUMN = {
     ("moment", "vertical"): ("Mz", 1),
     ("shear", "vertical"): ("Vy", 1),
     ("moment", "lateral"): ("My", 1),
     ("shear", "lateral"): ("Vz", 1),
 }
+
+
+def ranges(values):
+    """The ranges of stress of a history and their numbers of cycles, by rainflow; what is left counts as half cycles."""
+    turns = []
+    for value in values:
+        if len(turns) > 1 and (value - turns[-1]) * (turns[-1] - turns[-2]) >= 0:
+            turns[-1] = value
+        elif not turns or value != turns[-1]:
+            turns.append(value)
+    stack, out = [], []
+    for value in turns:
+        stack.append(value)
+        while len(stack) >= 3:
+            last, before = abs(stack[-1] - stack[-2]), abs(stack[-2] - stack[-3])
+            if last < before:
+                break
+            if len(stack) == 3:
+                out.append((before, 0.5))
+                del stack[0]
+            else:
+                out.append((before, 1.0))
+                del stack[-3:-1]
+    out += [(abs(b - a), 0.5) for a, b in zip(stack, stack[1:])]
+    return out
+
+
+def damage(values, detail):
+    """Miner's sum of EN 1993-1-9 for a history in N/mm2: slopes of 3 and 5, no damage below the cut-off at 100 million."""
+    knee = detail * (2 / 5) ** (1 / 3)
+    cut = knee * (5 / 100) ** (1 / 5)
+    total = 0.0
+    for size, count in ranges(values):
+        if size > cut:
+            power = 3 if size >= knee else 5
+            total += count / (5e6 * (knee / size) ** power)
+    return total
 
 
 def compare(program, seed):
@@ -171,34 +322,45 @@ def compare(program, seed):
         if first["status"] != "done" or first.get("undetermined"):
             return kind, drawn["accuracy"], first["status"], found
         extremes = first.get("extremes", [])
-        ends = [0.0]
-        for span in beam["girder"]["spans"]:
+        is_hall = "girder" not in beam
+        ends = sorted({point[0] for point in beam["points"]}) if is_hall else [0.0]
+        for span in [] if is_hall else beam["girder"]["spans"]:
             ends.append(ends[-1] + span)
         # at a support a column has the force of one side
-        is_inside = lambda e: e["quantity"] == "moment" or all(abs(e["x"] - end) > 0.01 for end in ends)
+        is_inside = lambda e: (e["quantity"] == "moment" and not is_hall) or all(abs(e["x"] - end) > 0.01 for end in ends)
         forces = [e for e in extremes if (e["quantity"], e.get("plane")) in COLUMN and is_inside(e)]
+        if kind == "ties":
+            # the page has the forces of the rail on the ties, and sections are those of the girder below
+            forces = []
         draw.shuffle(forces)
         forces = sorted(forces, key=lambda e: -abs(e["value"]))[:6] + forces[:6]
         moved = [e for e in extremes if e["quantity"] == "deflection"]
         draw.shuffle(moved)
         moved = moved[:6]
-        beam = dict(beam, effects=[{"name": f"e{k}", "x": e["x"]} for k, e in enumerate(forces)])
-        gauges = {f"d{k}": {"x": e["x"], "direction": e["plane"]} for k, e in enumerate(moved)}
-        chords = first.get("deflection_ratios", [])[:4]
+        watched = beam.get("effects", [])
+        beam = dict(beam, effects=watched + [effect(beam, ends, f"e{k}", e) for k, e in enumerate(forces)])
+        on_rail = lambda e: {"rail": e["rail"].split(".")[1]} if is_hall else {}
+        gauges = {f"d{k}": {"x": e["x"], "direction": e["plane"], **on_rail(e)} for k, e in enumerate(moved)}
+        chords = first.get("deflection_ratios", [])
+        draw.shuffle(chords)
+        chords = chords[:4]
         for k, chord in enumerate(chords):
-            for place in ("x", "from", "to"):
-                gauges[f"c{k}{place}"] = {"x": chord[place], "direction": chord["direction"]}
+            # where it is largest, and elsewhere on the span
+            chord["places"] = [chord["x"]] + [chord["from"] + n / 16 * (chord["to"] - chord["from"]) for n in range(17)]
+            for n, x in enumerate(chord["places"]):
+                gauges[f"c{k}_{n}"] = {"x": x, "direction": chord["direction"], **on_rail(chord)}
         structure = dict(drawn["structures"]["g"], gauges=gauges)
         fine = dict(drawn, structures={"g": structure})
         rows = min(drawn["end"]["time"] / drawn["output"]["dt"] * 50, ROWS)
         supports = [column for column in first["peaks"] if ".support" in column]
         draw.shuffle(supports)
-        fine["output"] = {"dt": drawn["end"]["time"] / rows, "reactions": supports[:6], "sections": True}
+        fine["output"] = {"dt": drawn["end"]["time"] / rows, "reactions": supports[:6], "sections": True, "stresses": True}
         run(program, folder, beam, fine, "fine")
         table = history(folder / "fine" / "history.csv")
 
     def add(what, size, page, values, is_max):
-        if size <= 0:
+        # what is smaller is rounding
+        if size <= 1e-12:
             return
         sign = 1 if is_max else -1
         best = max(sign * value for value in values)
@@ -224,18 +386,27 @@ def compare(program, seed):
             size = of_kind[("deflection", e["plane"])]
             add(f"{e['plane']} deflection", size, e["value"], column, e["kind"] == "max")
     for k, chord in enumerate(chords):
-        own = [table.get(f"g.c{k}{place}") for place in ("x", "from", "to")]
+        own = [table.get(f"g.c{k}_{n}") for n in range(len(chord["places"]))]
         if all(own) and chord["to"] > chord["from"]:
-            share = (chord["x"] - chord["from"]) / (chord["to"] - chord["from"])
-            wheels = [column for name, column in table.items() if name.startswith("T.") and name.endswith(".x")]
+            trucks = [truck["name"] for truck in drawn["trucks"] if truck["rail"] == chord["rail"]]
+            wheels = [column for name, column in table.items() if name.split(".")[0] in trucks and name.endswith(".x")]
             # with a wheel on the span
-            on = [any(chord["from"] <= x <= chord["to"] for x in row) for row in zip(*wheels)]
-            values = [x - (1 - share) * a - share * b for x, a, b in zip(*own)]
-            # vertical deflections count downwards
-            if chord["direction"] == "lateral":
-                values = [abs(value) for value in values]
-            values = [value for value, is_on in zip(values, on) if is_on]
-            add("chord", chord["deflection"], chord["deflection"], values or [0.0], True)
+            on = [any(chord["from"] < x < chord["to"] for x in row) for row in zip(*wheels)]
+            best = [0.0]
+            for x, moved_there in zip(chord["places"], own):
+                share = (x - chord["from"]) / (chord["to"] - chord["from"])
+                values = [u - (1 - share) * a - share * b for u, a, b in zip(moved_there, own[1], own[-1])]
+                # vertical deflections count downwards
+                if chord["direction"] == "lateral":
+                    values = [abs(value) for value in values]
+                best.append(max((value for value, is_on in zip(values, on) if is_on), default=0.0))
+            add("chord", chord["deflection"], chord["deflection"], best, True)
+    for column, own in first.get("fatigue", {}).items():
+        if column in table:
+            # kN/m2 to N/mm2
+            again = damage([value / 1000 for value in table[column]], own["detail"])
+            add("damage", own["damage"], own["damage"], [again], True)
+            add("largest range", own["largest_range"], own["largest_range"], [max(r for r, _ in ranges(table[column]))], True)
     sizes = {}
     for column, peak in first["peaks"].items():
         part = column.rsplit(".", 1)[1]
