@@ -165,6 +165,26 @@ fn page_one_does_not_depend_on_the_output_interval() {
     }
 }
 
+/// Identity: the peaks of runs beside each other are the same at every output interval.
+#[test]
+fn peaks_of_comparisons_are_those_of_all_times() {
+    let [coarse, fine] = [0.03, 0.013].map(|dt| {
+        let compare = json!([{"label": "coarse", "accuracy": 1e-2}]);
+        let output = json!({"dt": dt, "reactions": true});
+        let all = summary("modal", &json!({"output": output, "compare": compare}));
+        let comparison = all["comparison"].as_object().expect("a comparison").clone();
+        let peaks = comparison.into_iter().flat_map(|(column, own)| {
+            let own = own.as_object().expect("runs").clone();
+            own.into_iter().map(move |(label, own)| {
+                format!("{column} {label} {} {}", own["peak"], own["least"])
+            })
+        });
+        peaks.collect::<Vec<String>>()
+    });
+    assert!(!coarse.is_empty());
+    assert_eq!(coarse, fine);
+}
+
 /// External, the same run at an accuracy of 1e-8 and a far finer history: the reaction of a support while a wheel passes it was
 /// 5.853 kN at 1e-3.
 #[test]

@@ -7,9 +7,8 @@ use serde_json::Value;
 use crate::Error;
 use crate::case_result::CaseResult;
 use crate::cases::{RunOptions, SimulationProgress, simulate_while};
-use crate::columns::NamedColumns;
 use crate::preflight;
-use crate::response::{Response, RunComparison};
+use crate::response::{ComparedRun, RunComparison};
 use crate::run_error::reason_incomplete;
 use crate::summary;
 use crate::threads::parallel_map;
@@ -150,10 +149,13 @@ impl SceneRun {
     }
 
     /// The cases as [`RunComparison`] takes them.
-    fn compared(&self) -> Vec<(&str, &NamedColumns, &Response)> {
-        let cases = self.cases.iter();
-        cases
-            .map(|case| (case.label.as_str(), &case.columns, &case.response))
-            .collect()
+    fn compared(&self) -> Vec<ComparedRun<'_>> {
+        let cases = self.cases.iter().map(|case| ComparedRun {
+            label: &case.label,
+            record: &case.columns,
+            response: &case.response,
+            peaks: &case.peaks,
+        });
+        cases.collect()
     }
 }

@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Response, SceneMode};
 use crate::columns::NamedColumns;
+use crate::steps::{ColumnInstant, ColumnPeak};
 use crate::threads::parallel_map;
 
 /// Fraction of the run, at its end, over which the settled mean is computed.
@@ -22,6 +23,19 @@ const MIN_RATIO: f64 = 1.15;
 
 /// Smallest number of samples from which a dominant frequency is computed.
 const MIN_SAMPLES: usize = 64;
+
+/// A run that is compared with others.
+#[derive(Clone, Copy, Debug)]
+pub struct ComparedRun<'a> {
+    /// Its label.
+    pub label: &'a str,
+    /// Its rows.
+    pub record: &'a NamedColumns,
+    /// The response of its structures.
+    pub response: &'a Response,
+    /// The largest and smallest values of its columns over all times.
+    pub peaks: &'a [ColumnPeak],
+}
 
 /// Statistics of a history.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,15 +70,18 @@ struct Row {
 }
 
 impl RunComparison {
-    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads;
-    /// empty for a single run.
+    /// The statistics of `runs` for the columns of the first, on at most `threads` threads; empty for a single run.
     #[must_use]
-    pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
-        let [(_, record, first), _, ..] = runs else {
+    pub fn new(runs: &[ComparedRun<'_>], threads: Option<u16>) -> RunComparison {
+        let [first, _, ..] = runs else {
             return RunComparison::default();
         };
-        let structural = first.columns.iter().map(|column| column.name.clone());
-        let names: Vec<String> = rail_sums(record)
+        let structural = first
+            .response
+            .columns
+            .iter()
+            .map(|column| column.name.clone());
+        let names: Vec<String> = rail_sums(first.record)
             .into_iter()
             .flatten()
             .chain(structural)
@@ -76,9 +93,9 @@ impl RunComparison {
                 column: name.clone(),
                 statistics: runs
                     .iter()
-                    .map(|(_, record, _)| ColumnStatistics::new(record, name))
+                    .map(|run| ColumnStatistics::new(run, name))
                     .collect(),
-                is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
+                is_zero: runs.iter().all(|run| is_zero(run.record)),
             }
         });
         RunComparison { rows }
@@ -107,11 +124,11 @@ impl RunComparison {
 
     /// The statistics by column and by label of the run; `runs` are the runs from which they were computed.
     #[must_use]
-    pub fn json(&self, runs: &[(&str, &NamedColumns, &Response)]) -> Map<String, Value> {
+    pub fn json(&self, runs: &[ComparedRun<'_>]) -> Map<String, Value> {
         let of_runs = |statistics: Vec<&ColumnStatistics>| -> Map<String, Value> {
             let pairs = runs.iter().zip(statistics);
             pairs
-                .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
+                .map(|(run, one)| (run.label.to_owned(), one.json(&run.response.modes)))
                 .collect()
         };
         self.columns()
@@ -137,9 +154,11 @@ pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
 }
 
 impl ColumnStatistics {
-    /// The statistics of one column; `None` where the record does not have it, or has fewer than 64 rows.
+    /// The statistics of one column; `None` where the record does not have it, or has fewer than 64 rows. Peaks are those of all
+    /// times, the others those of the rows.
     #[must_use]
-    pub fn new(record: &NamedColumns, column: &str) -> Option<ColumnStatistics> {
+    pub fn new(run: &ComparedRun<'_>, column: &str) -> Option<ColumnStatistics> {
+        let record = run.record;
         let (times, values) = (record.values("time"), record.values(column));
         let (first, last) = (*times.first()?, *times.last()?);
         if values.len() != times.len() || times.len() < MIN_SAMPLES || last <= first {
@@ -158,10 +177,15 @@ impl ColumnStatistics {
         // fewer than two periods in the last quarter come from the travel of the crane, not from vibration
         let band = [2.0 / (SETTLED * length), 0.5 / step];
         let late = resample(times, values, settings.settled, step).ok()?;
+        let own = run.peaks.iter().find(|peak| peak.column == column);
+        let instant = |at: ColumnInstant| TimedValue {
+            time: at.time,
+            value: at.value,
+        };
         Some(ColumnStatistics {
             settled: found.mean,
-            peak: found.peak,
-            least: found.trough,
+            peak: own.map_or(found.peak, |own| instant(own.max)),
+            least: own.map_or(found.trough, |own| instant(own.min)),
             excursions: found.excursions.total(),
             waves: oscillations(&HistorySpectrum::new(&late, step).ok()?, band),
         })
@@ -258,11 +282,23 @@ mod tests {
         )
     }
 
+    fn compared<'a>(
+        label: &'a str,
+        (record, response): &'a (NamedColumns, Response),
+    ) -> ComparedRun<'a> {
+        ComparedRun {
+            label,
+            record,
+            response,
+            peaks: &[],
+        }
+    }
+
     /// Analytic: both settle at 5, the peak is 5 + 1 at the start, and each has its own frequency.
     #[test]
     fn a_slower_run_has_the_lower_frequency_and_the_same_mean() {
         let (slow, fast) = (wave(2.0, 5.0), wave(4.0, 5.0));
-        let runs = [("flexible", &slow.0, &slow.1), ("rigid", &fast.0, &fast.1)];
+        let runs = [("flexible", &slow), ("rigid", &fast)].map(|(label, own)| compared(label, own));
         let found = RunComparison::new(&runs, Some(1)).json(&runs);
         for (label, hz) in [("flexible", 2.0), ("rigid", 4.0)] {
             let at = &found["a"][label];
@@ -280,7 +316,8 @@ mod tests {
     #[test]
     fn a_single_run_is_not_compared() {
         let (record, response) = wave(2.0, 5.0);
-        let runs = [("only", &record, &response)];
+        let own = (record, response);
+        let runs = [compared("only", &own)];
         assert!(RunComparison::new(&runs, Some(1)).json(&runs).is_empty());
     }
 }

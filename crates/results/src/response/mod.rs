@@ -16,7 +16,7 @@ mod part_inertia;
 mod serviceability;
 
 pub use crate::loads::{WheelLoad, WheelLoadReader};
-pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
+pub use comparison::{ColumnStatistics, ComparedRun, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
 pub(crate) use influence::{dead_load, inertia, relative_direction};
