@@ -22,13 +22,13 @@ import random
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 # Scenes that take longer are left out, and counted, s.
 LONGEST = 90
 # Largest number of rows of a history.
-ROWS = 100_000
+ROWS = 40_000
 
 
 def spec(draw):
@@ -346,7 +346,7 @@ def compare(program, seed):
         chords = chords[:4]
         for k, chord in enumerate(chords):
             # where it is largest, and elsewhere on the span
-            chord["places"] = [chord["x"]] + [chord["from"] + n / 16 * (chord["to"] - chord["from"]) for n in range(17)]
+            chord["places"] = [chord["x"]] + [chord["from"] + n / 10 * (chord["to"] - chord["from"]) for n in range(11)]
             for n, x in enumerate(chord["places"]):
                 gauges[f"c{k}_{n}"] = {"x": x, "direction": chord["direction"], **on_rail(chord)}
         structure = dict(drawn["structures"]["g"], gauges=gauges)
@@ -421,6 +421,15 @@ def compare(program, seed):
     return kind, drawn["accuracy"], "done", found
 
 
+def one(program, seed):
+    try:
+        return compare(program, seed)
+    except RuntimeError as error:
+        return str(error)
+    except subprocess.TimeoutExpired:
+        return "", 1.0, "too long", []
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -431,17 +440,9 @@ def main():
     program = str(Path(args.program).resolve())
     seeds = [args.seed * 1_000_003 + k for k in range(args.scenes)]
 
-    def one(seed):
-        try:
-            return seed, compare(program, seed)
-        except RuntimeError as error:
-            return seed, str(error)
-        except subprocess.TimeoutExpired:
-            return seed, ("", 1.0, "too long", [])
-
     worst, wrong, left = {}, [], []
-    with ThreadPoolExecutor(args.jobs) as pool:
-        for seed, result in pool.map(one, seeds):
+    with ProcessPoolExecutor(args.jobs) as pool:
+        for seed, result in zip(seeds, pool.map(one, [program] * len(seeds), seeds)):
             if isinstance(result, str):
                 wrong.append(f"{seed}: {result}")
                 continue

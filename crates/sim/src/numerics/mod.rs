@@ -1,8 +1,6 @@
 //! General numerical methods that do not depend on mechanics: dense products and linear systems, the linear
-//! complementarity problem, root finding in one variable, cubic polynomials, bounds of polynomials, and the STEP function with its
-//! integral.
+//! complementarity problem, root finding in one variable, cubic polynomials, and the STEP function with its integral.
 
-pub(crate) mod bernstein;
 pub(crate) mod complementarity;
 pub(crate) mod cubic;
 pub(crate) mod dense;

@@ -1,12 +1,13 @@
 //! Location of the events at which a step must end: breaks of rails and sign changes of the guards of elements.
 
+use piecewise::Polynomial;
+
 use super::step::Step;
 use crate::Error;
 use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::bernstein::{largest_change, value};
 use crate::numerics::root::{behind, narrow};
 
 /// Force by which a step may overshoot an event, relative to the largest contact force.
@@ -138,17 +139,19 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
             }
             let aim = place - 0.5 * slack * (x1 - x0).signum();
             // The position is linear in q, so its Bernstein coefficients are the positions at those of q.
-            let coefficients = *of_step.get_or_insert_with(|| {
-                std::array::from_fn(|k| {
+            let position: &Polynomial = of_step.get_or_insert_with(|| {
+                Polynomial::new((0..6).map(|k| {
                     probe.set_coefficient(from, to, k);
                     places.of_wheel(mechanics, w, &probe.q)
-                })
+                }))
             });
-            let fraction = root(|fraction| value(coefficients, fraction) - aim);
+            let fraction = root(|fraction| position.value(fraction) - aim);
             if first.is_none_or(|(known, _)| fraction < known) {
                 first = Some((fraction, w));
             }
-            reach = largest_change(coefficients, first.map_or(1.0, |(known, _)| known));
+            let passed = position.part([0.0, first.map_or(1.0, |(known, _)| known)]);
+            let [low, high] = passed.bounds();
+            reach = (high - x0).max(x0 - low);
         }
     }
     first
