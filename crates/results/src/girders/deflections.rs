@@ -33,6 +33,18 @@ pub(super) struct DeflectionPeaks {
     pub under: Vec<[[Option<GirderValue>; 2]; 2]>,
 }
 
+/// The largest deflection that is known of a span.
+pub(super) struct KnownDeflection {
+    /// Index in the list of rails.
+    pub rail: usize,
+    pub plane: usize,
+    /// 0: largest, 1: smallest.
+    pub kind: usize,
+    pub x: f64,
+    /// The deflection, with the sign of its kind.
+    pub signed: f64,
+}
+
 /// A place of a rail.
 #[derive(Clone, Copy)]
 struct Place {
@@ -70,53 +82,37 @@ impl DeflectionPeaks {
             points: vec![[[Peak::NONE; 2]; 2]; sections.points.len()],
             under: vec![Default::default(); first_span[first_span.len() - 1]],
         };
-        for rail in 0..sections.rails.len() {
+        for (rail, first_span) in (0..sections.rails.len()).zip(first_span) {
             let of_point = |(peaks, point): (usize, &RailPoint)| {
                 (point.rail == rail).then_some(Place { x: point.x, peaks })
             };
             let points = sections.points.iter().enumerate().filter_map(of_point);
             let places: Vec<Place> = points.collect();
-            out.search(girders, (rail, first_span[rail]), &places, has_loads);
+            out.search(girders, (rail, *first_span), &places, has_loads);
         }
         out
     }
 
-    /// Raises the `values` of deflections of a span, by rail and plane and with the sign of their kind (largest, smallest), to the
-    /// largest ones at their places at any time; returns whether each has been raised.
-    pub fn raise(
-        girders: &LoadedGirders<'_>,
-        values: &mut [(usize, usize, usize, &mut GirderValue)],
-    ) -> Vec<bool> {
+    /// The largest deflections at the places of those that are `known`, at any time, where they are larger.
+    pub fn larger(girders: &LoadedGirders<'_>, known: &[KnownDeflection]) -> Vec<Option<Peak>> {
         let mut out = DeflectionPeaks {
-            points: vec![[[Peak::above(f64::INFINITY); 2]; 2]; values.len()],
+            points: vec![[[Peak::above(f64::INFINITY); 2]; 2]; known.len()],
             under: Vec::new(),
         };
-        for (own, (_, plane, kind, value)) in out.points.iter_mut().zip(&*values) {
-            own[*plane][*kind] = Peak::above(value.signed);
+        for (own, known) in out.points.iter_mut().zip(known) {
+            own[known.plane][known.kind] = Peak::above(known.signed);
         }
         for rail in 0..girders.sections.rails.len() {
-            let of_value = |(peaks, value): (usize, &(usize, usize, usize, &mut GirderValue))| {
-                (value.0 == rail).then_some(Place {
-                    x: value.3.x,
-                    peaks,
-                })
+            let of_known = |(peaks, known): (usize, &KnownDeflection)| {
+                (known.rail == rail).then_some(Place { x: known.x, peaks })
             };
-            let mut places: Vec<Place> = values.iter().enumerate().filter_map(of_value).collect();
+            let mut places: Vec<Place> = known.iter().enumerate().filter_map(of_known).collect();
             places.sort_by(|a, b| a.x.total_cmp(&b.x));
             out.search(girders, (rail, 0), &places, false);
         }
-        let raised = values.iter_mut().zip(&out.points);
-        let raise = |((_, plane, kind, value), own): (
-            &mut (usize, usize, usize, &mut GirderValue),
-            &[[Peak; 2]; 2],
-        )| {
-            let peak = own[*plane][*kind];
-            if peak.is_new {
-                (value.signed, value.at) = (peak.signed, peak.at);
-            }
-            peak.is_new
-        };
-        raised.map(raise).collect()
+        let found = known.iter().zip(out.points);
+        let found = found.map(|(known, own)| own[known.plane][known.kind]);
+        found.map(|peak| peak.is_new.then_some(peak)).collect()
     }
 
     /// Searches places of a rail; the deflections under loads only if `has_loads`. Rails whose deflections are not known, or that are

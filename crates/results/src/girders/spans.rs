@@ -2,13 +2,12 @@
 
 use trains::SectionSide;
 
-use super::deflections::DeflectionPeaks;
+use super::deflections::{DeflectionPeaks, KnownDeflection};
 use super::distributed::FORCES;
 use super::forces::ForcePeaks;
 use super::girder::LoadedGirders;
 use super::value::{GirderValue, offer};
-use crate::pieces::LoadState;
-use crate::pieces::SIGNS;
+use crate::pieces::{LoadState, Peak, SIGNS};
 
 /// Part of the largest value by which that of a section may be lower, and the largest value near to it still be the largest of all.
 /// Sections are twentieths of a span, between which the moment of distributed forces rises by little.
@@ -150,17 +149,26 @@ impl<'a> GirderPeaks<'a> {
         let deflections = all
             .iter_mut()
             .filter(|own| own.quantity >= FORCES && own.found.signed > 0.0);
-        let mut places: Vec<&mut SpanValue> = deflections.collect();
-        let values = places
-            .iter_mut()
-            .map(|own| (own.rail, own.quantity - FORCES, own.kind, &mut own.found));
-        let raised = DeflectionPeaks::raise(self.girders, &mut values.collect::<Vec<_>>());
-        for (own, _) in places
-            .into_iter()
-            .zip(raised)
-            .filter(|(_, is_raised)| *is_raised)
-        {
-            own.found = self.near((own.rail, own.span), own.quantity, own.kind, own.found);
+        let values: Vec<&mut SpanValue> = deflections.collect();
+        let of_value = |own: &&mut SpanValue| KnownDeflection {
+            rail: own.rail,
+            plane: own.quantity - FORCES,
+            kind: own.kind,
+            x: own.found.x,
+            signed: own.found.signed,
+        };
+        let known: Vec<KnownDeflection> = values.iter().map(of_value).collect();
+        let larger = DeflectionPeaks::larger(self.girders, &known);
+        for (own, peak) in values.into_iter().zip(larger) {
+            let Some(Peak { signed, at, .. }) = peak else {
+                continue;
+            };
+            let from = GirderValue {
+                signed,
+                at,
+                ..own.found
+            };
+            own.found = self.near((own.rail, own.span), own.quantity, own.kind, from);
         }
     }
 

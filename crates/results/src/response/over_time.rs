@@ -12,8 +12,7 @@ use sim::{NodeInterval, Side, Solution, SolutionNodes};
 /// Degree of the polynomials in an interval that is looked into.
 const DEGREE: usize = 8;
 
-/// Part of the largest value that one end of an interval has which is looked into: in a step of the method a quantity does not rise
-/// and fall by more.
+/// Part of the largest value that an interval has at an end or in its middle which is looked into.
 const PROMISING: f64 = 0.7;
 
 /// Part of a bound by which the quantity may exceed it beyond what it has exceeded others: cheap values are those of a few places.
@@ -41,8 +40,8 @@ pub(crate) struct TimeSearch<'a> {
 }
 
 impl TimeSearch<'_> {
-    /// Values at the rows that count: at the ends of all intervals, and at all nodes of those whose ends have at least
-    /// [`PROMISING`] of the largest.
+    /// Values at the rows that count: at both ends and the middle node of all intervals, and at all nodes of those that have at least
+    /// [`PROMISING`] of the largest there.
     pub fn near(&self, value: &mut dyn FnMut(&[f64]) -> Option<f64>) -> Vec<(usize, f64)> {
         let rows = &self.nodes.rows;
         let mut found = vec![f64::NAN; rows.len()];
@@ -58,15 +57,17 @@ impl TimeSearch<'_> {
                 set(&mut found, row);
             });
         }
-        for own in &self.nodes.intervals {
-            for row in [own.first, own.first + own.degree] {
-                largest = largest.max(set(&mut found, row));
-            }
+        let three = |own: &NodeInterval| [0, own.degree / 2, own.degree].map(|k| own.first + k);
+        for row in self.nodes.intervals.iter().flat_map(three) {
+            largest = largest.max(set(&mut found, row));
         }
         for own in &self.nodes.intervals {
-            let last = own.first + own.degree;
-            if found[own.first].max(found[last]) >= PROMISING * largest {
-                (own.first + 1..last).for_each(|row| {
+            let most = three(own)
+                .map(|row| found[row])
+                .into_iter()
+                .fold(f64::NEG_INFINITY, f64::max);
+            if most >= PROMISING * largest {
+                (own.first..own.first + own.degree).for_each(|row| {
                     set(&mut found, row);
                 });
             }
