@@ -20,14 +20,14 @@ use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::plane_spans::plane_spans;
 use crate::response::{
-    self, ColumnExtreme, ColumnsInTime, Response, SceneMode, SolvedStructures, TimeSearch,
-    WheelLoadReader,
+    self, ColumnExtreme, ColumnInfluence, ColumnsInTime, Response, SceneMode, SolvedStructures,
+    TimeSearch, WheelLoadReader,
 };
 use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
 use crate::undetermined::undetermined;
 use formats::scene::columns::Column;
-use formats::scene::motion::simulation_input;
+use formats::scene::motion::{SimulationInput, simulation_input};
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 use trains::twists_without_warping;
@@ -220,22 +220,7 @@ fn run_case(
         choices,
         run,
         built,
-    } = chosen.map_err(|error| match error {
-        foundations::Error::Simulation(error) => {
-            let why = crate::run_error::in_scene_names(&error, &case.scene);
-            let at_fault = match error {
-                sim::Error::NoEquilibrium { body, .. } => body,
-                _ => None,
-            };
-            let body = at_fault.map(|body| case.scene.bodies[body].name.clone());
-            Error::Run {
-                label: label.clone(),
-                why,
-                body,
-            }
-        }
-        other => Error::Foundation(other),
-    })?;
+    } = chosen.map_err(|error| in_case(error, case, &label))?;
     if run.status == Status::Stopped {
         return Err(Error::Stopped);
     }
@@ -281,22 +266,7 @@ fn run_case(
     let losses = response.uplifts.len();
     let mut again = |factor: f64| {
         let accuracy = factor * input.scene.accuracy;
-        let other = sim::Scene {
-            accuracy,
-            ..input.scene.clone()
-        };
-        let run = sim::run_by(scene.stepping, &other, &foundations, watch).ok()?;
-        let nodes = run.solution.intervals();
-        let mut found = SteppedColumns::new(&scene, &nodes).peaks();
-        let loads = WheelLoadReader::new(&scene, &input, &nodes.rows);
-        for (s, lines) in lines.iter().enumerate() {
-            let Some(lines) = lines else { continue };
-            let dofs = foundations[s].dofs();
-            let own = ColumnsInTime::new((&scene, s), (&run, &nodes), &loads, lines, dofs);
-            let each = lines.columns().iter().zip(own.extremes);
-            found.extend(each.map(|(column, extremes)| peak_of(column, extremes)));
-        }
-        run.status.is_complete().then_some(found)
+        peaks_at(accuracy, (&scene, &input), &foundations, &lines, watch)
     };
     let undetermined = match run.status.is_complete() {
         true => undetermined(scene.accuracy, losses, &peaks, &mut again),
@@ -370,6 +340,48 @@ fn run_case(
         second_order: OnceLock::new(),
         warnings: OnceLock::new(),
     })
+}
+
+/// An error of the choice of foundations or of a run as one of a case.
+fn in_case(error: foundations::Error, case: &Case, label: &str) -> Error {
+    let foundations::Error::Simulation(error) = error else {
+        return Error::Foundation(error);
+    };
+    let at_fault = match error {
+        sim::Error::NoEquilibrium { body, .. } => body,
+        _ => None,
+    };
+    Error::Run {
+        label: label.to_owned(),
+        why: crate::run_error::in_scene_names(&error, &case.scene),
+        body: at_fault.map(|body| case.scene.bodies[body].name.clone()),
+    }
+}
+
+/// The peaks of all columns of a run at another accuracy; `None` where it does not reach its end.
+fn peaks_at(
+    accuracy: f64,
+    (scene, input): (&Scene, &SimulationInput),
+    foundations: &[Foundation],
+    lines: &[Option<ColumnInfluence>],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Option<Vec<ColumnPeak>> {
+    let other = sim::Scene {
+        accuracy,
+        ..input.scene.clone()
+    };
+    let run = sim::run_by(scene.stepping, &other, foundations, watch).ok()?;
+    let nodes = run.solution.intervals();
+    let mut found = SteppedColumns::new(scene, &nodes).peaks();
+    let loads = WheelLoadReader::new(scene, input, &nodes.rows);
+    for (s, lines) in lines.iter().enumerate() {
+        let Some(lines) = lines else { continue };
+        let dofs = foundations[s].dofs();
+        let own = ColumnsInTime::new((scene, s), (&run, &nodes), &loads, lines, dofs);
+        let each = lines.columns().iter().zip(own.extremes);
+        found.extend(each.map(|(column, extremes)| peak_of(column, extremes)));
+    }
+    run.status.is_complete().then_some(found)
 }
 
 /// The peak of a column of influence lines.
