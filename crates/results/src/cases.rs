@@ -25,7 +25,7 @@ use crate::response::{
 };
 use crate::steps::{ColumnInstant, ColumnPeak, SteppedColumns};
 use crate::threads::parallel_map;
-use crate::undetermined::undetermined;
+use crate::undetermined::{ContactChanges, undetermined};
 use formats::scene::columns::Column;
 use formats::scene::motion::{SimulationInput, simulation_input};
 use formats::scene::{self, Case, Document, Scene, SceneRail, Structure};
@@ -263,13 +263,18 @@ fn run_case(
         };
         peak_of(column, [instant(&own.max), instant(&own.min)])
     }));
-    let losses = response.uplifts.len();
+    let wheels: Vec<String> = input
+        .wheels
+        .iter()
+        .map(|wheel| wheel.name.clone())
+        .collect();
+    let changes = ContactChanges::new(response.uplifts.len(), &wheels, &steps.record);
     let mut again = |factor: f64| {
         let accuracy = factor * input.scene.accuracy;
         peaks_at(accuracy, (&scene, &input), &foundations, &lines, watch)
     };
     let undetermined = match run.status.is_complete() {
-        true => undetermined(scene.accuracy, losses, &peaks, &mut again),
+        true => undetermined(scene.accuracy, changes, &peaks, &mut again),
         false => Vec::new(),
     };
     let spans = SpanResponse {

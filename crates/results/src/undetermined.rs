@@ -1,16 +1,17 @@
 //! Extremes that a run does not determine: where contacts open and close often, small differences grow, and the largest values
 //! change with the last digits of the input.
 //!
-//! Where wheels lose contact or strike again and again, the run is repeated with another accuracy. If largest values differ by much
+//! Where wheels lose contact or flanges strike again and again, the run is repeated with another accuracy. If largest values differ by much
 //! more than both accuracies, it is repeated a few times more, and the smallest and the largest of these values are told.
 
 use formats::text::number::{number, rounded};
 use formats::units::Dimension;
 use serde_json::{Value, json};
 
+use crate::columns::NamedColumns;
 use crate::steps::ColumnPeak;
 
-/// Number of times that contacts are lost from which a run is repeated.
+/// Number of times that wheels lose contact, or that flanges strike, from which a run is repeated.
 const OFTEN: usize = 8;
 
 /// Factors of the accuracy of the first repetition and of the others.
@@ -52,26 +53,65 @@ impl Undetermined {
     }
 }
 
+/// How often contacts open and close in a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactChanges {
+    /// Number of times that wheels lose contact.
+    pub losses: usize,
+    /// Number of times that flanges strike.
+    pub strikes: usize,
+}
+
+impl ContactChanges {
+    /// Those of a run with the columns of `record`, in which wheels lose contact so many times. A flange strikes where its force
+    /// has been zero.
+    pub fn new(losses: usize, wheels: &[String], record: &NamedColumns) -> ContactChanges {
+        let strikes = |wheel: &String| {
+            let forces = record.part(wheel, "lateral").windows(2);
+            forces
+                .filter(|pair| pair[0] == 0.0 && pair[1] != 0.0)
+                .count()
+        };
+        ContactChanges {
+            losses,
+            strikes: wheels.iter().map(strikes).sum(),
+        }
+    }
+
+    fn words(&self) -> String {
+        let mut words = Vec::new();
+        if self.losses > 0 {
+            words.push(format!("wheels lose contact {} times", self.losses));
+        }
+        if self.strikes > 0 {
+            words.push(format!("flanges strike {} times", self.strikes));
+        }
+        words.join(" and ")
+    }
+}
+
 /// The extremes of columns that `again`, which repeats the run with a factor of its accuracy, does not confirm; the least certain
-/// first. `losses` is how often contacts are lost in the run. Without a repetition that ends there are none.
+/// first. `changes` is how often contacts open and close in the run. Without a repetition that ends there are none.
 pub(crate) fn undetermined(
     accuracy: f64,
-    losses: usize,
+    changes: ContactChanges,
     own: &[ColumnPeak],
     again: &mut dyn FnMut(f64) -> Option<Vec<ColumnPeak>>,
 ) -> Vec<Undetermined> {
-    if losses < OFTEN {
+    if changes.losses.max(changes.strikes) < OFTEN {
         return Vec::new();
     }
     let mut all = vec![own.to_vec()];
     all.extend(again(FIRST));
-    if apart(accuracy, &all).is_empty() {
+    let has_ended = all.len() > 1;
+    if has_ended && apart(accuracy, &all).is_empty() {
         return Vec::new();
     }
     all.extend(MORE.iter().filter_map(|factor| again(*factor)));
     let found = apart(accuracy, &all);
     let reason = format!(
-        "wheels lose contact {losses} times; {} runs of other accuracies differ",
+        "{}; {} runs of other accuracies differ",
+        changes.words(),
         all.len()
     );
     let one = |(quantity, [low, high]): (String, [f64; 2])| Undetermined {
@@ -142,13 +182,18 @@ mod tests {
         vec![column("w.vertical", value), column("still.vertical", 50.0)]
     }
 
+    fn lost(losses: usize) -> ContactChanges {
+        ContactChanges { losses, strikes: 0 }
+    }
+
     /// The range is that of all runs; columns that agree, and runs whose contacts last, have none.
     #[test]
     fn ranges_of_runs_that_differ_are_told() {
         let mut values = [110.0, 97.0, 104.0, 120.0].into_iter();
         let mut again = |_: f64| values.next().map(peaks);
-        assert!(undetermined(1e-4, OFTEN - 1, &peaks(100.0), &mut again).is_empty());
-        let found = undetermined(1e-4, OFTEN, &peaks(100.0), &mut again);
+        let few = lost(OFTEN - 1);
+        assert!(undetermined(1e-4, few, &peaks(100.0), &mut again).is_empty());
+        let found = undetermined(1e-4, lost(OFTEN), &peaks(100.0), &mut again);
         assert_eq!(found.len(), 1, "{found:?}");
         let Undetermined {
             quantity,
@@ -166,7 +211,21 @@ mod tests {
             count += 1;
             Some(peaks(100.5))
         };
-        assert!(undetermined(1e-4, OFTEN, &peaks(100.0), &mut same).is_empty());
+        let strikes = ContactChanges {
+            losses: 0,
+            strikes: OFTEN,
+        };
+        assert!(undetermined(1e-4, strikes, &peaks(100.0), &mut same).is_empty());
         assert_eq!(count, 1);
+    }
+
+    /// A flange that leans on its rail from the start, leaves it and strikes again has struck once.
+    #[test]
+    fn flanges_strike_where_their_force_has_been_zero() {
+        let mut record = NamedColumns::default();
+        let forces = vec![3.0, 0.0, 0.0, -2.0, -1.0];
+        record.push("w.lateral", Dimension::FORCE, forces);
+        let found = ContactChanges::new(0, &["w".to_owned()], &record);
+        assert_eq!(found.strikes, 1);
     }
 }

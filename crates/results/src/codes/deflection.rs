@@ -316,10 +316,20 @@ impl Span {
                 .map(|w| (x[*w] / (to - from) * POSITIONS).round() as i64);
             let sag = *known.entry(steps.collect()).or_insert_with(|| {
                 let on = wheels(run.run.nodes.rows.sample(number));
-                let sags = self.sags(surface, rail.rail, &on, &few);
+                // a span may have a corner under each wheel
+                let under = on.iter().filter(|(load, _)| is_inside(load));
+                let at: Vec<f64> = few
+                    .iter()
+                    .copied()
+                    .chain(under.map(|(load, _)| load.x))
+                    .collect();
+                let sags = self.sags(surface, rail.rail, &on, &at);
                 is_resisted &= sags.is_some();
-                let sags = sags.unwrap_or_default().into_iter();
-                crest(sags.map(|sag| self.sized(sag)))
+                let sags = sags.unwrap_or_default();
+                let sized = |sag: &f64| self.sized(*sag);
+                let (grid, wheels) = sags.split_at(sags.len().min(few.len()));
+                let largest = wheels.iter().map(sized).fold(0.0, f64::max);
+                crest(grid.iter().map(sized)).max(largest)
             });
             near.push((number, sag));
         }

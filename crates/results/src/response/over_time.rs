@@ -2,14 +2,15 @@
 //!
 //! A quantity such as the deflection of a span is the largest of many values, one for each place. A cheap value from a few places
 //! is computed at all nodes of the solution; in each interval the polynomial through these values bounds it. The intervals are then
-//! taken in the order of their bounds. In each of them the quantity itself is evaluated at the nodes of degree 8 and where the
-//! polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity exceeded the
+//! taken in the order of their bounds. In each of them the quantity itself is evaluated at the nodes of its degree, at least 8, and
+//! where the polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity exceeded the
 //! cheap value in those before it, does not exceed the largest value is left out, and so are all after it.
 
 use piecewise::Lobatto;
 use sim::{NodeInterval, Side, Solution, SolutionNodes};
+use smallvec::SmallVec;
 
-/// Degree of the polynomials in an interval that is looked into.
+/// Least degree of the polynomials in an interval that is looked into, and that of polynomials along a span.
 const DEGREE: usize = 8;
 
 /// Part of the largest value that an interval has at an end or in its middle which is looked into.
@@ -139,11 +140,11 @@ impl TimeSearch<'_> {
                     }
                 }
             };
-            let nodes = Lobatto::of(DEGREE);
-            let mut found = [0.0; DEGREE + 1];
-            for (found, node) in found.iter_mut().zip(nodes.nodes()) {
+            let nodes = Lobatto::of(interval.degree.max(DEGREE));
+            let mut found: SmallVec<[f64; 17]> = SmallVec::new();
+            for node in nodes.nodes() {
                 let (t, value) = at(*node, &mut row)?;
-                *found = value[0];
+                found.push(value[0]);
                 largest = offer(t, value);
             }
             let most = nodes.polynomial(&found).largest();

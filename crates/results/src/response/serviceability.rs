@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use practice::clause::{CodeClause, Evidence, aist_2021, en_1993_6};
 use practice::cmaa;
 use serde_json::{Value, json};
+use smallvec::SmallVec;
 use splines::{Axis, Probe};
 use trains::RailLoad;
 
@@ -166,14 +167,20 @@ fn largest_deflection(
             return None;
         }
         is_loaded = true;
-        let places = places.as_ref()?;
-        let moved = places.under(&loaded.on(row), loaded.dofs(row), &[]).ok()?;
-        let (inside, ends) = moved.split_at(few.len());
-        let sags = few.iter().zip(inside).map(|(x, moved)| {
+        let (places, on) = (places.as_ref()?, loaded.on(row));
+        // a span may have a corner under each wheel
+        let under = on.iter().filter(|load| is_inside(load)).map(|load| load.x);
+        let under: SmallVec<[f64; 8]> = under.collect();
+        let also: SmallVec<[Probe; 8]> = under.iter().map(|x| probe(*x)).collect();
+        let moved = places.under(&on, loaded.dofs(row), &also).ok()?;
+        let (inside, rest) = moved.split_at(few.len());
+        let (ends, wheels) = rest.split_at(2);
+        let sized = |(x, moved): (&f64, &f64)| {
             let sag = sag(*x, *moved, [ends[0], ends[1]]);
             if is_either { sag.abs() } else { sag }
-        });
-        Some(crest(sags))
+        };
+        let largest = under.iter().zip(wheels).map(sized).fold(0.0, f64::max);
+        Some(crest(few.iter().zip(inside).map(sized)).max(largest))
     });
     if !is_loaded {
         return None;
