@@ -89,7 +89,11 @@ fn run(page: &str, folder: &Path) -> usize {
                 for words in commands(&block) {
                     assert_eq!(words.first(), Some(&"girderway"), "{}", block.text);
                     said = girderway(folder, &words[1..]);
-                    assert!(!said.contains("warning"), "{}: {said}", block.text);
+                    // a crane between its flanges does not determine all its largest values
+                    let is_wrong = |line: &str| {
+                        line.contains("warning") && !line.contains("are not determined")
+                    };
+                    assert!(!said.lines().any(is_wrong), "{}: {said}", block.text);
                     count += 1;
                 }
             }
