@@ -263,12 +263,8 @@ fn run_case(
         };
         peak_of(column, [instant(&own.max), instant(&own.min)])
     }));
-    let wheels: Vec<String> = input
-        .wheels
-        .iter()
-        .map(|wheel| wheel.name.clone())
-        .collect();
-    let changes = ContactChanges::new(response.uplifts.len(), &wheels, &steps.record);
+    let wheels = input.wheels.iter().map(|wheel| wheel.name.as_str());
+    let changes = ContactChanges::new(response.uplifts.len(), wheels, &steps.record);
     let mut again = |factor: f64| {
         let accuracy = factor * input.scene.accuracy;
         peaks_at(accuracy, (&scene, &input), &foundations, &lines, watch)

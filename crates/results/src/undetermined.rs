@@ -1,8 +1,9 @@
 //! Extremes that a run does not determine: where contacts open and close often, small differences grow, and the largest values
 //! change with the last digits of the input.
 //!
-//! Where wheels lose contact or flanges strike again and again, the run is repeated with another accuracy. If largest values differ by much
-//! more than both accuracies, it is repeated a few times more, and the smallest and the largest of these values are told.
+//! Where wheels lose contact or flanges strike again and again, the run is repeated with another accuracy. If largest values
+//! differ by much more than both accuracies, it is repeated a few times more, and the smallest and the largest of these values are
+//! told.
 
 use formats::text::number::{number, rounded};
 use formats::units::Dimension;
@@ -65,8 +66,12 @@ pub(crate) struct ContactChanges {
 impl ContactChanges {
     /// Those of a run with the columns of `record`, in which wheels lose contact so many times. A flange strikes where its force
     /// has been zero.
-    pub fn new(losses: usize, wheels: &[String], record: &NamedColumns) -> ContactChanges {
-        let strikes = |wheel: &String| {
+    pub fn new<'w>(
+        losses: usize,
+        wheels: impl Iterator<Item = &'w str>,
+        record: &NamedColumns,
+    ) -> ContactChanges {
+        let strikes = |wheel: &str| {
             let forces = record.part(wheel, "lateral").windows(2);
             forces
                 .filter(|pair| pair[0] == 0.0 && pair[1] != 0.0)
@@ -74,7 +79,7 @@ impl ContactChanges {
         };
         ContactChanges {
             losses,
-            strikes: wheels.iter().map(strikes).sum(),
+            strikes: wheels.map(strikes).sum(),
         }
     }
 
@@ -225,7 +230,7 @@ mod tests {
         let mut record = NamedColumns::default();
         let forces = vec![3.0, 0.0, 0.0, -2.0, -1.0];
         record.push("w.lateral", Dimension::FORCE, forces);
-        let found = ContactChanges::new(0, &["w".to_owned()], &record);
+        let found = ContactChanges::new(0, ["w"].into_iter(), &record);
         assert_eq!(found.strikes, 1);
     }
 }

@@ -20,14 +20,12 @@ use splines::{Axis, Compliance, Probe};
 
 use super::crane::{CraneData, to_si};
 use crate::response::{
-    LargestInTime, TimeSearch, WheelLoad, WheelLoadReader, crest, largest_along,
+    LargestInTime, TimeSearch, WheelLoad, WheelLoadReader, crest, grid, largest_along,
 };
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, root_body};
 use formats::units::{Dimension, Units};
 
-/// Number of parts of a span at whose ends its deflection is evaluated at all times.
-const PLACES: usize = 16;
 /// Positions of wheels that differ by less than one of so many parts of a span are the same until the largest deflection is looked
 /// for.
 const POSITIONS: f64 = 200.0;
@@ -293,9 +291,7 @@ impl Span {
         let (mut is_loaded, mut is_resisted) = (false, true);
         // the same positions of the wheels come again and again
         let mut known: HashMap<Vec<i64>, f64> = HashMap::new();
-        let few: Vec<f64> = (1..PLACES)
-            .map(|k| from + (to - from) * k as f64 / PLACES as f64)
-            .collect();
+        let few = grid(self.ends);
         let is_heavy = |w: &usize| forces.get(*w).is_some_and(|force| *force != 0.0);
         let own: Vec<usize> = places
             .on(rail.structure, rail.rail)
@@ -316,20 +312,18 @@ impl Span {
                 .map(|w| (x[*w] / (to - from) * POSITIONS).round() as i64);
             let sag = *known.entry(steps.collect()).or_insert_with(|| {
                 let on = wheels(run.run.nodes.rows.sample(number));
-                // a span may have a corner under each wheel
                 let under = on.iter().filter(|(load, _)| is_inside(load));
-                let at: Vec<f64> = few
-                    .iter()
-                    .copied()
-                    .chain(under.map(|(load, _)| load.x))
-                    .collect();
+                let mut at = few.clone();
+                at.extend(under.map(|(load, _)| load.x));
                 let sags = self.sags(surface, rail.rail, &on, &at);
                 is_resisted &= sags.is_some();
-                let sags = sags.unwrap_or_default();
-                let sized = |sag: &f64| self.sized(*sag);
-                let (grid, wheels) = sags.split_at(sags.len().min(few.len()));
-                let largest = wheels.iter().map(sized).fold(0.0, f64::max);
-                crest(grid.iter().map(sized)).max(largest)
+                let sags: Vec<f64> = sags
+                    .into_iter()
+                    .flatten()
+                    .map(|sag| self.sized(sag))
+                    .collect();
+                let (grid, under) = sags.split_at(few.len().min(sags.len()));
+                crest(grid.iter().copied(), under.iter().copied())
             });
             near.push((number, sag));
         }

@@ -115,8 +115,8 @@ impl DeflectionPeaks {
         found.map(|peak| peak.is_new.then_some(peak)).collect()
     }
 
-    /// Searches places of a rail; the deflections under loads only if `has_loads`. Rails whose deflections are not known, or that are
-    /// unrestrained in a plane, have none.
+    /// Searches places of a rail; the deflections under loads only if `has_loads`. Rails whose deflections are not known, or that
+    /// are unrestrained in a plane, have none.
     fn search(
         &mut self,
         girders: &LoadedGirders<'_>,

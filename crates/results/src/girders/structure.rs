@@ -65,8 +65,8 @@ impl<'a> PreparedGirders<'a> {
         }))
     }
 
-    /// The cells in which influence lines of the members, places and supports are cubics, or of rigid parts of the fourth degree, and
-    /// that no end of a span divides.
+    /// The cells in which influence lines of the members, places and supports are cubics, or of rigid parts of the fourth degree,
+    /// and that no end of a span divides.
     fn cells(&self, foundation: &Foundation) -> RailCells {
         let structure = self.members.structure();
         let rails = structure.rail_count();

@@ -155,7 +155,8 @@ impl<'a> Functionals<'a> {
     }
 
     /// The largest and the smallest value of each quantity. First each is evaluated in the stay that has its largest bound, then in
-    /// all others whose bounds exceed what is known. Those of all stays would fill the memory in a large hall. Where `is_stopped` says so, they are incomplete.
+    /// all others whose bounds exceed what is known. Those of all stays would fill the memory in a large hall. Where `is_stopped`
+    /// says so, they are incomplete.
     pub fn peaks(&self, is_stopped: &dyn Fn() -> bool) -> Vec<[Peak; 2]> {
         let stays = &self.pieces.stays;
         let mut largest = vec![(0, f64::NEG_INFINITY); self.all.len()];

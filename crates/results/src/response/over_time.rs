@@ -3,8 +3,8 @@
 //! A quantity such as the deflection of a span is the largest of many values, one for each place. A cheap value from a few places
 //! is computed at all nodes of the solution; in each interval the polynomial through these values bounds it. The intervals are then
 //! taken in the order of their bounds. In each of them the quantity itself is evaluated at the nodes of its degree, at least 8, and
-//! where the polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity exceeded the
-//! cheap value in those before it, does not exceed the largest value is left out, and so are all after it.
+//! where the polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity
+//! exceeded the cheap value in those before it, does not exceed the largest value is left out, and so are all after it.
 
 use piecewise::Lobatto;
 use sim::{NodeInterval, Side, Solution, SolutionNodes};
@@ -12,6 +12,9 @@ use smallvec::SmallVec;
 
 /// Least degree of the polynomials in an interval that is looked into, and that of polynomials along a span.
 const DEGREE: usize = 8;
+
+/// Number of parts of a span at whose ends it is evaluated at all times.
+const PARTS: usize = 16;
 
 /// Part of the largest value that an interval has at an end or in its middle which is looked into.
 const PROMISING: f64 = 0.7;
@@ -41,8 +44,8 @@ pub(crate) struct TimeSearch<'a> {
 }
 
 impl TimeSearch<'_> {
-    /// Values at the rows that count: at both ends and the middle node of all intervals, and at all nodes of those that have at least
-    /// [`PROMISING`] of the largest there.
+    /// Values at the rows that count: at both ends and the middle node of all intervals, and at all nodes of those that have at
+    /// least [`PROMISING`] of the largest there.
     pub fn near(&self, value: &mut dyn FnMut(&[f64]) -> Option<f64>) -> Vec<(usize, f64)> {
         let rows = &self.nodes.rows;
         let mut found = vec![f64::NAN; rows.len()];
@@ -158,9 +161,22 @@ impl TimeSearch<'_> {
     }
 }
 
-/// The largest of the values at places of equal distance, with one of 0 at either end, by the parabola through the largest and the
-/// two beside it.
-pub(crate) fn crest(values: impl Iterator<Item = f64>) -> f64 {
+/// The places inside a span at which it is evaluated at all times, at equal distances.
+pub(crate) fn grid([from, to]: [f64; 2]) -> Vec<f64> {
+    let share = |k: usize| k as f64 / PARTS as f64;
+    (1..PARTS).map(|k| from + (to - from) * share(k)).collect()
+}
+
+/// The largest of the values at places of a [`grid`], with 0 at both ends of the span, by the parabola through the largest and the
+/// two beside it, and of those under wheels, where a span may have corners.
+pub(crate) fn crest(
+    grid: impl Iterator<Item = f64>,
+    under_wheels: impl Iterator<Item = f64>,
+) -> f64 {
+    under_wheels.fold(parabola(grid), f64::max)
+}
+
+fn parabola(values: impl Iterator<Item = f64>) -> f64 {
     let mut all = vec![0.0];
     all.extend(values);
     all.push(0.0);

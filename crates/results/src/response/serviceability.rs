@@ -17,14 +17,12 @@ use trains::RailLoad;
 
 use super::SolvedStructures;
 use super::loaded::{LoadedStructure, PlaceMotions, displacements};
-use super::over_time::{LargestInTime, crest, largest_along};
+use super::over_time::{LargestInTime, crest, grid, largest_along};
 use formats::scene::Origin;
 use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
 use foundations::SolvedModel;
 
-/// Number of parts of a span at whose ends it is evaluated at all times.
-const PLACES: usize = 16;
 /// Usual limits of the ratio of span to deflection.
 const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 
@@ -151,9 +149,7 @@ fn largest_deflection(
         |load: &RailLoad| load.rail == rail && load.x > from && load.x < to && load.force[1] != 0.0;
     let (mut is_loaded, is_either) = (false, axis == Axis::Lateral);
     let probe = |x: f64| Probe { rail, x, axis };
-    let few: Vec<f64> = (1..PLACES)
-        .map(|k| from + (to - from) * k as f64 / PLACES as f64)
-        .collect();
+    let few = grid(none.span);
     let probes: Vec<Probe> = few.iter().chain(&none.span).map(|x| probe(*x)).collect();
     // no deflection is reported in a direction in which the structure is unrestrained
     let places = PlaceMotions::new(foundation, &probes).ok();
@@ -168,7 +164,6 @@ fn largest_deflection(
         }
         is_loaded = true;
         let (places, on) = (places.as_ref()?, loaded.on(row));
-        // a span may have a corner under each wheel
         let under = on.iter().filter(|load| is_inside(load)).map(|load| load.x);
         let under: SmallVec<[f64; 8]> = under.collect();
         let also: SmallVec<[Probe; 8]> = under.iter().map(|x| probe(*x)).collect();
@@ -179,8 +174,8 @@ fn largest_deflection(
             let sag = sag(*x, *moved, [ends[0], ends[1]]);
             if is_either { sag.abs() } else { sag }
         };
-        let largest = under.iter().zip(wheels).map(sized).fold(0.0, f64::max);
-        Some(crest(few.iter().zip(inside).map(sized)).max(largest))
+        let under = under.iter().zip(wheels).map(sized);
+        Some(crest(few.iter().zip(inside).map(sized), under))
     });
     if !is_loaded {
         return None;
