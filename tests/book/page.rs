@@ -91,7 +91,8 @@ fn run(page: &str, folder: &Path) -> usize {
                     said = girderway(folder, &words[1..]);
                     // a crane between its flanges does not determine all its largest values
                     let is_wrong = |line: &str| {
-                        line.contains("warning") && !line.contains("are not determined")
+                        line.contains("warning")
+                            && !line.contains("largest values are not determined: flanges strike")
                     };
                     assert!(!said.lines().any(is_wrong), "{}: {said}", block.text);
                     count += 1;

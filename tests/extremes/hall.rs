@@ -1,9 +1,10 @@
 //! A hall of sixteen bays with a crane that travels through it.
 
 use std::collections::HashMap;
-use std::process::Command;
 
 use serde_json::{Value, json};
+
+use super::summary_of;
 
 const BAYS: usize = 16;
 /// Length of a bay, width of the hall, height of the brackets and distance of the wheels of a rail, m.
@@ -83,7 +84,8 @@ fn spec() -> Value {
             .iter()
             .map(|k| json!({"cell": [0, k], "offset": [0, 0.6, 0]}));
         let stations: Vec<usize> = (0..4 * BAYS - 1).map(|k| 2 * k + 1).collect();
-        json!({"origin": [0, HEIGHT, 0], "axis": [1, 0, 0], "stations": stations, "segments": segments.collect::<Vec<_>>()})
+        let segments: Vec<Value> = segments.collect();
+        json!({"origin": [0, HEIGHT, 0], "axis": [1, 0, 0], "stations": stations, "segments": segments})
     };
     let fix = ["ux", "uy", "uz", "rx", "ry", "rz"];
     json!({
@@ -123,18 +125,7 @@ fn scene() -> Value {
 /// 158.6 kN m that under the wheels at rest. Bays that are alike have nearly the same, on both sides.
 #[test]
 fn largest_moments_of_a_hall_are_those_of_its_bays() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    for (name, value) in [("hall.json", spec()), ("scene.json", scene())] {
-        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
-    }
-    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
-        .args(["run", "scene.json", "-o", "out"])
-        .current_dir(folder.path())
-        .output()
-        .expect("the program starts");
-    let text = std::fs::read_to_string(folder.path().join("out/summary.json"))
-        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)));
-    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    let summary = summary_of(("hall.json", &spec()), &scene(), &[]);
     let mut count = 0;
     for own in summary["extremes"].as_array().expect("extremes") {
         let is_asked = own["quantity"] == "moment"

@@ -25,12 +25,27 @@ fn summary(case: &str, changes: &Value) -> Value {
         scene[key] = value.clone();
     }
     std::fs::write(&path, scene.to_string()).expect("a writable folder");
+    run(folder.path(), &format!("{case}.json"), &[])
+}
+
+/// The summary of a scene that is written into a folder with its spec.
+fn summary_of(spec: (&str, &Value), scene: &Value, flags: &[&str]) -> Value {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, value) in [spec, ("scene.json", scene)] {
+        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
+    }
+    run(folder.path(), "scene.json", flags)
+}
+
+/// The summary of a scene in a folder.
+fn run(folder: &Path, scene: &str, flags: &[&str]) -> Value {
     let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
-        .args(["run", &format!("{case}.json"), "-o", "out"])
-        .current_dir(folder.path())
+        .args(["run", scene, "-o", "out"])
+        .args(flags)
+        .current_dir(folder)
         .output()
         .expect("the program starts");
-    let text = std::fs::read_to_string(folder.path().join("out/summary.json"))
+    let text = std::fs::read_to_string(folder.join("out/summary.json"))
         .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)));
     serde_json::from_str(&text).expect("JSON")
 }

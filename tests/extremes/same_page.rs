@@ -3,10 +3,11 @@
 //! have the same extremes.
 
 use std::collections::BTreeMap;
-use std::process::Command;
 
 use fastrand::Rng;
 use serde_json::{Value, json};
+
+use super::summary_of;
 
 /// A scene in metres, kilonewtons and seconds.
 struct Base {
@@ -287,21 +288,12 @@ impl Base {
 
     /// The extremes of its run in metres and kilonewtons, as those of the scene that is told plainly.
     fn extremes(&self, telling: Telling) -> BTreeMap<String, f64> {
-        let folder = tempfile::tempdir().expect("a temporary folder");
         let [spec, scene] = self.told(telling);
-        for (name, value) in [("g.json", spec), ("scene.json", scene)] {
-            std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
-        }
-        let mut run = Command::new(env!("CARGO_BIN_EXE_girderway"));
-        run.args(["run", "scene.json", "-o", "out"])
-            .current_dir(folder.path());
-        if telling == Telling::OneThread {
-            run.args(["--threads", "1"]);
-        }
-        let output = run.output().expect("the program starts");
-        let text = std::fs::read_to_string(folder.path().join("out/summary.json"))
-            .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)));
-        let summary: Value = serde_json::from_str(&text).expect("JSON");
+        let flags: &[&str] = match telling {
+            Telling::OneThread => &["--threads", "1"],
+            _ => &[],
+        };
+        let summary = summary_of(("g.json", &spec), &scene, flags);
         assert!(
             summary["undetermined"].is_null(),
             "{}",
