@@ -95,8 +95,8 @@ impl ContactChanges {
     }
 }
 
-/// The extremes of columns that `again`, which repeats the run with a factor of its accuracy, does not confirm; the least certain
-/// first. `changes` is how often contacts open and close in the run. Without a repetition that ends there are none.
+/// The extremes of columns that `again`, which repeats the run with a factor of its accuracy, does not confirm; those first that
+/// matter most ([`apart`]). `changes` is how often contacts open and close in the run. Without a repetition that ends there are none.
 pub(crate) fn undetermined(
     accuracy: f64,
     changes: ContactChanges,
@@ -128,8 +128,8 @@ pub(crate) fn undetermined(
     found.into_iter().map(one).collect()
 }
 
-/// Columns whose extremes differ between runs, with the range of those of larger magnitude: forces first, and of one dimension those
-/// that differ most, relative to the larger one.
+/// Columns whose extremes differ between runs, with the range of those of larger magnitude: forces first, and those first that differ
+/// by the largest part of the largest of their dimension.
 fn apart(accuracy: f64, all: &[Vec<ColumnPeak>]) -> Vec<(String, [f64; 2])> {
     let allowed = APART.max(TIMES * accuracy);
     let mut out = Vec::new();
@@ -159,7 +159,7 @@ fn apart(accuracy: f64, all: &[Vec<ColumnPeak>]) -> Vec<(String, [f64; 2])> {
         if largest > SMALL * most && apart > allowed {
             out.push((
                 own.dimension != Dimension::FORCE,
-                apart,
+                (range[1] - range[0]) / most,
                 own.column.clone(),
                 range,
             ));
