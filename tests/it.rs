@@ -7,6 +7,7 @@ mod common;
 mod crane;
 mod deck;
 mod design;
+mod equilibrium;
 mod examples;
 mod extremes;
 mod history;

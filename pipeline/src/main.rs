@@ -3,6 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::panic;
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use clap::Parser;
 use formats::text::diagnostic::Diagnostic;
@@ -12,9 +13,16 @@ use girderway::exit::{Exit, Failure};
 use girderway::interrupt;
 use girderway::output;
 
+/// Where in the sources the program panicked first.
+static PANICKED: OnceLock<String> = OnceLock::new();
+
 fn main() -> ExitCode {
-    // a panic is reported in one line below, without a backtrace
-    panic::set_hook(Box::new(|_| {}));
+    // a panic is reported in one line below, with its place and without a backtrace
+    panic::set_hook(Box::new(|found| {
+        if let Some(place) = found.location() {
+            PANICKED.get_or_init(|| format!(" at {}:{}", place.file(), place.line()));
+        }
+    }));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return usage(&error).into(),
@@ -24,8 +32,9 @@ fn main() -> ExitCode {
     let result = panic::catch_unwind(|| dispatch(cli));
     let result = result.unwrap_or_else(|_| {
         let version = env!("CARGO_PKG_VERSION");
+        let place = PANICKED.get().map_or("", |place| place.as_str());
         Err(Failure::Untrusted(format!(
-            "internal error in version {version}: please report it with its input"
+            "internal error in version {version}{place}: please report it with its input"
         )))
     });
     result.unwrap_or_else(|failure| tell(&failure, json)).into()

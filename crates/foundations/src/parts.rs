@@ -66,7 +66,7 @@ pub fn foundation(
     if separate {
         foundation.parts = Some(vec![chain.clone()]);
     }
-    if let Some(mass) = girder.mass_per_length {
+    if let Some(mass) = girder.mass_per_length.filter(|mass| *mass > 0.0) {
         let dynamics = PartsDynamics::new(girder, mass, &ends, &nodal, excitation.lateral);
         foundation.carrier = excitation
             .carrier
@@ -311,6 +311,30 @@ fn window(handover: Handover) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A mass of zero, which the format allows, is none: the parts follow the forces without degrees of freedom.
+    #[test]
+    fn parts_of_zero_mass_are_parts_without_mass() {
+        for mass_per_length in [None, Some(0.0)] {
+            let girder = Girder {
+                spans: vec![18.0],
+                e: 2.1e8,
+                i_vertical: 1e-3,
+                mass_per_length,
+                ..Girder::default()
+            };
+            let excitation = Excitation::VERTICAL;
+            let built = foundation(
+                &girder,
+                20,
+                Handover::PerPart { length: None },
+                0.0,
+                excitation,
+            );
+            let built = built.expect("it stands").foundation;
+            assert!(built.structure.is_none() && built.compliance.is_some());
+        }
+    }
 
     /// Analytic: natural modes phi of M and K, scaled to phi^T M phi = 1, have phi^T C phi = 2 zeta omega.
     #[test]

@@ -349,7 +349,7 @@ fn in_case(error: foundations::Error, case: &Case, label: &str) -> Error {
         return Error::Foundation(error);
     };
     let at_fault = match error {
-        sim::Error::NoEquilibrium { body, .. } => body,
+        sim::Error::NoEquilibrium { ref fall, .. } => fall.as_ref().map(|fall| fall.body),
         _ => None,
     };
     Error::Run {

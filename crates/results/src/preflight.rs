@@ -7,7 +7,7 @@ use formats::text::fault::{Fault, Faults};
 use formats::text::place::Place;
 
 use crate::Error;
-use crate::run_error::equilibrium_hint;
+use crate::run_error::of_fall;
 
 /// Checks every case of a document as [`foundations::check_scene`] does, and locates what is wrong.
 ///
@@ -74,16 +74,13 @@ pub fn of_error(error: &foundations::Error, scene: &Scene) -> Option<Fault> {
             };
             Some(Fault::new(&list.key(structure).key(key), source.to_string()).hint(hint))
         }
-        foundations::Error::Simulation(sim::Error::NoEquilibrium { body, .. }) => {
+        foundations::Error::Simulation(sim::Error::NoEquilibrium { fall, .. }) => {
+            let fall = fall.as_ref()?;
+            let (why, hint) = of_fall(fall, scene);
             let list = root.key("bodies");
-            let expected =
-                "has no static equilibrium: its wheels on the rail cannot carry its weight";
-            let hint = equilibrium_hint(scene);
-            let fault = match body {
-                Some(body) => Fault::new(&list.key(&scene.bodies[*body].name), expected).at_key(),
-                None => Fault::new(&list, "have no static equilibrium on their wheels").at_key(),
-            };
-            Some(fault.hint(hint))
+            let place = list.key(&scene.bodies[fall.body].name);
+            let fault = Fault::new(&place, format!("has no static equilibrium: {why}"));
+            Some(fault.at_key().hint(hint))
         }
         _ => None,
     }

@@ -1,6 +1,6 @@
 //! The reason why a run stopped, with the names of its scene in place of the indices of the simulator.
 
-use sim::{Error, Status};
+use sim::{Error, Fall, Status};
 
 use formats::scene::{DOFS, Scene};
 use formats::text::number::number;
@@ -34,16 +34,40 @@ pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     }
 }
 
-/// Hint for a scene without a static equilibrium.
-pub(crate) fn equilibrium_hint(scene: &Scene) -> String {
+/// Smallest part of a fall that is named.
+const NAMED: f64 = 0.1;
+
+/// What is expected of a body that falls, how it falls, and a hint.
+pub(crate) fn of_fall(fall: &Fall, scene: &Scene) -> (String, String) {
+    let [_, y, _, roll, _, pitch] = fall.motion;
+    let parts = [
+        (y < -NAMED, "sinks"),
+        (y > NAMED, "rises"),
+        (roll > NAMED, "tips to its right (z > 0)"),
+        (roll < -NAMED, "tips to its left (z < 0)"),
+        (pitch > NAMED, "tips backwards (x < 0)"),
+        (pitch < -NAMED, "tips forwards (x > 0)"),
+    ];
+    let parts: Vec<&str> = parts
+        .iter()
+        .filter(|part| part.0)
+        .map(|part| part.1)
+        .collect();
     let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
         ", and `at` of the structures on bodies"
     } else {
         ""
     };
-    format!(
-        "the centre of mass of each body (`cg`), including loads that it carries or suspends, must lie between its \
-         wheels: check `at` and `tree` of the trucks{carried}, or give the body a `start`"
+    let hint = format!(
+        "the centre of mass (`cg`) with the loads that the body carries or suspends must lie between its wheels: check `at` and \
+         `tree` of the trucks{carried}, or give the body a `start`"
+    );
+    (
+        format!(
+            "its wheels cannot carry its weight: it {}",
+            parts.join(" and ")
+        ),
+        hint,
     )
 }
 
@@ -94,10 +118,15 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             DOFS[*dof as usize]
         ),
         Error::NoEquilibrium {
-            body: unbalanced, ..
+            time,
+            fall: Some(fall),
         } => {
-            let of = unbalanced.map_or_else(String::new, |b| format!(" of {}", body(b)));
-            format!("{error}{of}  hint: {}", equilibrium_hint(scene))
+            let (why, hint) = of_fall(fall, scene);
+            let own = body(fall.body);
+            format!("no static equilibrium of {own} at t = {time}: {why}  hint: {hint}")
+        }
+        Error::NoEquilibrium { fall: None, .. } => {
+            format!("{error}  hint: give the bodies a `start`, from which they move to rest")
         }
         _ => error.to_string(),
     }

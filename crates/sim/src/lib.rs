@@ -83,7 +83,7 @@ pub use scene::body::{Body, Contact, Pin};
 pub use scene::carrier::{CarriedRail, Carrier};
 pub use scene::channel::Channel;
 pub use scene::dof::BodyDof;
-pub use scene::error::Error;
+pub use scene::error::{Error, Fall};
 pub use scene::foundation::{Extent, Foundation};
 pub use scene::irregularity::{Irregularity, Wave};
 pub use scene::method::{Method, Stepping};

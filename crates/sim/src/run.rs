@@ -7,7 +7,7 @@ use piecewise::Side;
 
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
-use crate::instant::equilibrium::acting_springs;
+use crate::instant::balance::acting_springs;
 use crate::instant::hang::{equilibrate, place_below_ropes};
 use crate::instant::settle::{settle, settle_start};
 use crate::instant::uneven::{follow_rigid_rails, locate_wheels};
@@ -283,7 +283,9 @@ fn starting(system: &System) -> State {
 /// scene.bodies[0].free = [false, true, false, false, false, true];
 /// scene.gravity = 9.81;
 /// let found = sim::check_equilibrium(&scene, &[Foundation::rigid()]);
-/// assert_eq!(found, Err(Error::NoEquilibrium { time: 0.0, body: Some(0) }));
+/// let Err(Error::NoEquilibrium { fall: Some(fall), .. }) = found else { panic!("it stands") };
+/// // The end with x < 0 sinks.
+/// assert!(fall.body == 0 && fall.motion[5] > 0.0);
 /// ```
 ///
 /// # Errors
@@ -392,7 +394,7 @@ fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), 
     } else {
         Err(Error::NoEquilibrium {
             time: 0.0,
-            body: None,
+            fall: None,
         })
     }
 }

@@ -466,6 +466,10 @@ impl<'a> Lanczos<'a> {
 /// Eigenvalues of a symmetric matrix, largest first, and their vectors as columns.
 fn spectrum(matrix: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     let size = matrix.nrows();
+    // the size 0 has no eigenvalues, and faer subtracts 1 from it
+    if size == 0 {
+        return (Vec::new(), matrix.clone());
+    }
     let given = Mat::from_fn(size, size, |i, j| matrix[(i, j)]);
     let Ok(eigen) = given.self_adjoint_eigen(Side::Lower) else {
         return (vec![0.0; size], DMatrix::identity(size, size));

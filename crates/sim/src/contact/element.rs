@@ -93,6 +93,11 @@ pub(crate) trait Element {
         Role::Absent
     }
 
+    /// Stiffness and clearance of a flange at rest, for the height of its wheel in `_at`; `None` for other elements.
+    fn flange(&self, _at: &State) -> Option<[f64; 2]> {
+        None
+    }
+
     // Force law.
 
     /// Whether a rule has disabled it permanently.

@@ -9,6 +9,7 @@ use super::element::{
 use super::energy::{Exchanged, Stored};
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
+use crate::mechanics::state::State;
 use crate::scene::dof::arm_rows;
 use crate::scene::irregularity::LATERAL;
 use crate::{BodyDof, Channel, Flange};
@@ -113,6 +114,11 @@ impl Element for FlangeContact<'_> {
 
     fn role(&self) -> Role {
         Role::Guides
+    }
+
+    fn flange(&self, at: &State) -> Option<[f64; 2]> {
+        let (share, _) = self.flange.fraction(self.radius - at.p[self.vertical]);
+        Some([self.flange.stiffness * share, self.flange.clearance])
     }
 
     /// A flange that is free at the start of a stage is assumed to be free until it touches.

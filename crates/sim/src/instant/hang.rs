@@ -55,7 +55,7 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
     }
     Err(Error::NoEquilibrium {
         time: at.t,
-        body: None,
+        fall: None,
     })
 }
 

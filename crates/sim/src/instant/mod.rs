@@ -3,6 +3,7 @@
 //!
 //! This module depends on `contact` and, for the energies of natural modes, on `record`.
 
+pub(crate) mod balance;
 pub(crate) mod contact_forces;
 pub(crate) mod equilibrium;
 pub(crate) mod hang;

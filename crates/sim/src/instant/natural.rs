@@ -51,8 +51,10 @@ pub fn natural_modes(
 ) -> Result<Option<Vec<NaturalMode>>, Error> {
     let still = stilled(scene, place);
     let system = System::new(&still, foundations)?;
-    if system.mechanics.dofs > MOST {
-        return Ok(None);
+    match system.mechanics.dofs {
+        0 => return Ok(Some(Vec::new())),
+        dofs if dofs > MOST => return Ok(None),
+        _ => {}
     }
     let mut solver = Solver::new(&system, RailMemory::Known)?;
     let mut state = system.state();
@@ -74,7 +76,7 @@ pub fn natural_modes(
     if !settle(&mut solver, &mut state)? {
         return Err(Error::NoEquilibrium {
             time: t,
-            body: None,
+            fall: None,
         });
     }
     let mass = mass(&solver, &state);
@@ -152,7 +154,7 @@ fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMa
     let step = MOVE * if depth > 0.0 { depth } else { MOVE };
     let lost = Error::NoEquilibrium {
         time: at.t,
-        body: None,
+        fall: None,
     };
     let mut probe = at.clone();
     let mut out = DMatrix::zeros(n, n);

@@ -3,6 +3,16 @@
 use super::dof::BodyDof;
 use super::method::Method;
 
+/// How a body falls that its wheels cannot carry: a motion in which no wheel is pressed on its rail, and its weight and loads do
+/// work.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fall {
+    /// The body whose weight and loads do most of the work.
+    pub body: usize,
+    /// Its x, y, z, roll, yaw and pitch, each by the displacement of the contact that it moves most; the largest is 1 or -1.
+    pub motion: [f64; 6],
+}
+
 /// Errors of the simulator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -40,13 +50,13 @@ pub enum Error {
         /// Actual value.
         found: f64,
     },
-    /// The wheels in contact cannot carry the bodies at rest.
-    #[error("no static equilibrium at t = {time}: the wheels on the rail cannot carry the weight")]
+    /// The wheels in contact cannot carry the bodies at rest, or, without a fall, the forces did not converge.
+    #[error("no static equilibrium at t = {time}{}", .fall.as_ref().map_or(" was found", |_| ": the wheels on the rail cannot carry the weight"))]
     NoEquilibrium {
         /// Time of the attempt.
         time: f64,
-        /// The body whose weight and loads the wheels balance least, where one can be named.
-        body: Option<usize>,
+        /// How a body falls, which proves that there is no equilibrium; `None` where none was found.
+        fall: Option<Fall>,
     },
     /// A quasi-static sweep with a body whose position along the rail is not prescribed.
     #[error("body {body}: a quasi-static sweep needs its x prescribed")]

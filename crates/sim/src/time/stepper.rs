@@ -766,7 +766,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 }
             }
             if !settle(self.step.solver, &mut self.step.to)? {
-                return Err(Error::NoEquilibrium { time, body: None });
+                return Err(Error::NoEquilibrium { time, fall: None });
             }
             let after = self.stored();
             self.books.book_switch(before.total() - after.total());

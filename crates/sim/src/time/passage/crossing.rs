@@ -100,6 +100,7 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
             "no loads or events",
         ),
         (system.elements.len() > WIDEST, "at most eight contacts"),
+        (system.mechanics.dofs == 0, "degrees of freedom"),
         (
             system.mechanics.dofs > system.elements.len(),
             "no more degrees of freedom than contacts",
