@@ -4,6 +4,7 @@
 //! or `GIRDERWAY_FUZZ_RUNS` for each; `GIRDERWAY_FUZZ_TARGET` names one target, and `GIRDERWAY_FUZZ_SEED` another
 //! sequence of random numbers. An input that fails is stored, and its path is printed with the seed.
 
+mod combinations;
 mod generate;
 mod mutate;
 mod targets;
@@ -269,6 +270,148 @@ fn no_input_makes_a_target_fail() {
     }
     let mut stderr = io::stderr();
     let _ = stderr.write_all(table.as_bytes());
+}
+
+/// What became of a combination.
+enum Became {
+    /// It ran to its end.
+    Ran,
+    /// The run was given up or ended early, with a reason.
+    Incomplete,
+    /// It was refused, with a message.
+    Refused(String),
+    /// It took longer than [`LONGEST`].
+    Slow,
+    /// It panicked or gave a number that is not finite.
+    Failed,
+}
+
+/// Seconds that a combination may take.
+const LONGEST: f64 = 20.0;
+
+/// Runs a combination from its files to its summary.
+fn run_combination(seed: u64, folder: &Path) -> Became {
+    let combination = combinations::combination(seed);
+    for (name, spec) in &combination.specs {
+        fs::write(folder.join(name), spec.to_string()).expect("a writable folder");
+    }
+    let path = folder.join("scene.json");
+    fs::write(&path, combination.scene.to_string()).expect("a writable folder");
+    let begun = Instant::now();
+    let run = || {
+        let document = formats::scene::Document::open(&path)
+            .map_err(|wrong| Became::Refused(wrong[0].to_string()))?;
+        let go_on = |_: results::cases::SimulationProgress<'_>| match begun.elapsed().as_secs_f64()
+            > LONGEST
+        {
+            true => std::ops::ControlFlow::Break(()),
+            false => std::ops::ControlFlow::Continue(()),
+        };
+        let options = results::cases::RunOptions {
+            threads: Some(1),
+            ..Default::default()
+        };
+        let run = results::scene_run::SceneRun::of(
+            document,
+            &foundations::StructureCache::default(),
+            options,
+            &go_on,
+        );
+        let run = run.map_err(|error| match error {
+            results::Error::Stopped => Became::Slow,
+            results::Error::Input(wrong) => Became::Refused(wrong[0].to_string()),
+            other => Became::Refused(other.to_string()),
+        })?;
+        let columns = run.cases.iter().flat_map(|case| &case.columns.columns);
+        if columns
+            .flat_map(|column| &column.values)
+            .any(|value| !value.is_finite())
+        {
+            return Err(Became::Failed);
+        }
+        let _ = run.summary(&run.comparison(Some(1)));
+        Ok(match run.reason_incomplete() {
+            Some(_) => Became::Incomplete,
+            None => Became::Ran,
+        })
+    };
+    let became = panic::catch_unwind(AssertUnwindSafe(run))
+        .unwrap_or(Err(Became::Failed))
+        .unwrap_or_else(|other| other);
+    match became {
+        Became::Failed => Became::Failed,
+        _ if begun.elapsed().as_secs_f64() > LONGEST => Became::Slow,
+        other => other,
+    }
+}
+
+/// Scenes that combine features run, or are refused with a message; none panics or hangs. `GIRDERWAY_FUZZ_COMBINATIONS` is their
+/// number; those that fail are stored.
+#[test]
+fn combinations_of_features_run_or_are_refused() {
+    let count: u64 = setting("GIRDERWAY_FUZZ_COMBINATIONS").unwrap_or(200);
+    let first: u64 = setting("GIRDERWAY_FUZZ_SEED").unwrap_or(1) * 1_000_000_000;
+    let next = AtomicU64::new(0);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let tallies = thread::scope(|scope| {
+        let work = || {
+            let folder = tempfile::tempdir().expect("a temporary folder");
+            let (mut counts, mut told) = ([0_u64; 5], Vec::new());
+            loop {
+                let seed = first + next.fetch_add(1, Ordering::Relaxed);
+                if seed >= first + count {
+                    return (counts, told);
+                }
+                let became = run_combination(seed, folder.path());
+                let (at, what) = match &became {
+                    Became::Ran => (0, None),
+                    Became::Incomplete => (1, None),
+                    Became::Refused(why) => (
+                        2,
+                        (!why.contains(".json:")).then_some("refused without a place"),
+                    ),
+                    Became::Slow => (3, Some("slow")),
+                    Became::Failed => (4, Some("failed")),
+                };
+                counts[at] += 1;
+                if let Some(what) = what {
+                    let kept = store().join(format!("combination-{seed}"));
+                    fs::create_dir_all(&kept).expect("a writable folder");
+                    for entry in fs::read_dir(folder.path()).expect("a folder").flatten() {
+                        let _ = fs::copy(entry.path(), kept.join(entry.file_name()));
+                    }
+                    told.push(format!("{what}: {}", kept.display()));
+                }
+                if let (Became::Refused(why), Ok(_)) = (&became, env::var("GIRDERWAY_FUZZ_TELL")) {
+                    told.push(format!("refused {seed}: {why}"));
+                }
+            }
+        };
+        let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        all.into_iter()
+            .map(|own| own.join().expect("a thread that ends"))
+            .collect::<Vec<_>>()
+    });
+    let mut counts = [0_u64; 5];
+    let mut told = Vec::new();
+    for (own, texts) in tallies {
+        counts
+            .iter_mut()
+            .zip(own)
+            .for_each(|(sum, own)| *sum += own);
+        told.extend(texts);
+    }
+    let [ran, incomplete, refused, slow, failed] = counts;
+    let mut stderr = io::stderr();
+    let _ = writeln!(
+        stderr,
+        "{}\n{count} combinations: {ran} ran, {incomplete} ended early, {refused} refused, {slow} slow, {failed} failed",
+        told.join("\n")
+    );
+    assert!(
+        failed + slow == 0 && 2 * (ran + incomplete) > count,
+        "see above"
+    );
 }
 
 /// Inputs that failed once. Each is named after its target.

@@ -273,7 +273,8 @@ impl PartsDynamics {
     /// phi^T D phi = 2 zeta omega.
     fn damping(&self, zeta: f64) -> DMatrix<f64> {
         let size = self.mass.nrows();
-        if zeta == 0.0 {
+        // parts that all stand on supports do not move
+        if zeta == 0.0 || size == 0 {
             return DMatrix::zeros(size, size);
         }
         let root = self.stiffness.map(f64::sqrt);

@@ -348,14 +348,25 @@ fn in_case(error: foundations::Error, case: &Case, label: &str) -> Error {
     let foundations::Error::Simulation(error) = error else {
         return Error::Foundation(error);
     };
-    let at_fault = match error {
-        sim::Error::NoEquilibrium { ref fall, .. } => fall.as_ref().map(|fall| fall.body),
-        _ => None,
+    let scene = &case.scene;
+    let at = match &error {
+        sim::Error::NoEquilibrium {
+            fall: Some(fall), ..
+        } => vec!["bodies".to_owned(), scene.bodies[fall.body].name.clone()],
+        sim::Error::NoEquilibrium { fall: None, .. } => vec!["bodies".to_owned()],
+        sim::Error::Method { .. } => vec!["stepper".to_owned()],
+        sim::Error::Compliance { structure, .. } => {
+            vec![
+                "structures".to_owned(),
+                scene.structures[*structure].name.clone(),
+            ]
+        }
+        _ => Vec::new(),
     };
     Error::Run {
         label: label.to_owned(),
-        why: crate::run_error::in_scene_names(&error, &case.scene),
-        body: at_fault.map(|body| case.scene.bodies[body].name.clone()),
+        why: crate::run_error::in_scene_names(&error, scene),
+        at,
     }
 }
 

@@ -30,8 +30,8 @@ pub enum Error {
         label: String,
         /// The reason, with names of the scene instead of indices.
         why: String,
-        /// Name of the body that is at fault, if one is known.
-        body: Option<String>,
+        /// The keys under which the scene has what is at fault; none where that is not known.
+        at: Vec<String>,
     },
     /// The influence lines of a structure cannot be computed.
     #[error("{structure}: {source}")]

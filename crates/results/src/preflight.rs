@@ -82,6 +82,14 @@ pub fn of_error(error: &foundations::Error, scene: &Scene) -> Option<Fault> {
             let fault = Fault::new(&place, format!("has no static equilibrium: {why}"));
             Some(fault.at_key().hint(hint))
         }
+        foundations::Error::NoLongitudinal { structure } => {
+            let list = root.key("structures");
+            let fault = Fault::new(
+                &list.key(structure).key("longitudinal"),
+                "the compliance of the structure along its rails is not known",
+            );
+            Some(fault.hint("omit `longitudinal`"))
+        }
         _ => None,
     }
 }
@@ -96,12 +104,15 @@ pub fn located(document: &Document, error: Error) -> Error {
             Some(fault) => Error::Input(diagnosed(fault)),
             None => error,
         },
-        Error::Run {
-            body: Some(body), ..
-        } => {
-            let fault =
-                Fault::new(&Place::root().key("bodies").key(body), error.to_string()).at_key();
-            Error::NoSolution(diagnosed(fault).iter().map(ToString::to_string).collect())
+        Error::Run { at, .. } if !at.is_empty() => {
+            let fault = |place: &Place| Fault::new(place, error.to_string()).at_key();
+            let root = Place::root();
+            let found = match at.as_slice() {
+                [list, name] => fault(&root.key(list).key(name)),
+                [key, ..] => fault(&root.key(key)),
+                [] => fault(&root),
+            };
+            Error::NoSolution(diagnosed(found).iter().map(ToString::to_string).collect())
         }
         _ => error,
     }

@@ -40,33 +40,40 @@ const NAMED: f64 = 0.1;
 /// What is expected of a body that falls, how it falls, and a hint.
 pub(crate) fn of_fall(fall: &Fall, scene: &Scene) -> (String, String) {
     let [_, y, _, roll, _, pitch] = fall.motion;
-    let parts = [
-        (y < -NAMED, "sinks"),
-        (y > NAMED, "rises"),
+    // a body that tips turns about its outermost wheels, so that its origin may sink or rise
+    let tips = [
         (roll > NAMED, "tips to its right (z > 0)"),
         (roll < -NAMED, "tips to its left (z < 0)"),
         (pitch > NAMED, "tips backwards (x < 0)"),
         (pitch < -NAMED, "tips forwards (x > 0)"),
     ];
-    let parts: Vec<&str> = parts
+    let tips: Vec<&str> = tips
         .iter()
         .filter(|part| part.0)
         .map(|part| part.1)
         .collect();
+    let rises = tips.is_empty() && y > 0.0;
+    let falls = match tips.as_slice() {
+        [] if rises => "rises".to_owned(),
+        [] => "sinks".to_owned(),
+        tips => tips.join(" and "),
+    };
     let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
         ", and `at` of the structures on bodies"
     } else {
         ""
     };
-    let hint = format!(
-        "the centre of mass (`cg`) with the loads that the body carries or suspends must lie between its wheels: check `at` and \
-         `tree` of the trucks{carried}, or give the body a `start`"
-    );
-    (
+    let hint = if rises {
+        "its loads lift it off its rails: reduce `loads` at time 0, or give the body a `start`"
+            .to_owned()
+    } else {
         format!(
-            "its wheels cannot carry its weight: it {}",
-            parts.join(" and ")
-        ),
+            "the centre of mass (`cg`) with the loads that the body carries or suspends must lie between its wheels: check \
+             `at` and `tree` of the trucks{carried}, or give the body a `start`"
+        )
+    };
+    (
+        format!("its wheels cannot hold it under its weight and loads: it {falls}"),
         hint,
     )
 }

@@ -25,6 +25,9 @@ const FINEST: f64 = 1e-11;
 /// Differences, relative to the largest value of their kind, that are rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// The same for accelerations of structures, which are differences of larger forces.
+const ROUNDING_ACCELERATION: f64 = 1e-9;
+
 /// Length, relative to a step, below which an interval is not halved.
 const SHORTEST: f64 = 0.015;
 
@@ -460,11 +463,12 @@ impl SolutionBuilder {
             .iter()
             .zip(own_sizes.iter())
             .map(|(kind, own)| {
-                let followed = match kind {
-                    Kind::Position => FOLLOWED_POSITION,
-                    _ => FOLLOWED,
+                let [followed, rounding] = match kind {
+                    Kind::Position => [FOLLOWED_POSITION, ROUNDING],
+                    Kind::Acceleration => [FOLLOWED, ROUNDING_ACCELERATION],
+                    _ => [FOLLOWED, ROUNDING],
                 };
-                (followed * *accuracy * own).max(ROUNDING * sizes[*kind as usize])
+                (followed * *accuracy * own).max(rounding * sizes[*kind as usize])
             })
             .collect();
         let differs = |polynomial: &[f64], value: &[f64]| {
