@@ -11,6 +11,8 @@ use crate::{BodyDof, Error};
 const PASSES: usize = 60;
 /// Change of the forces, relative to the largest, below which they have converged.
 const EQUAL: f64 = 1e-12;
+/// Lever of a wheel, relative to the largest radius, that is rounding.
+const LEVER: f64 = 1e-12;
 /// Change of the degrees of freedom, relative to the largest penetration, below which the positions of the wheels
 /// have converged.
 const SETTLED: f64 = 1e-9;
@@ -93,16 +95,25 @@ fn balance(solver: &mut Solver, entry: &[f64], at: &mut State) -> Result<(), Err
     rest_structures(solver, at)
 }
 
-/// Degrees of freedom of the bodies for which equilibrium is solved: y, roll and pitch, if a wheel resists them.
+/// Degrees of freedom of the bodies for which equilibrium is solved: y, roll and pitch, if a wheel resists them. The mean of wheels
+/// before and behind a pin has no lever but for rounding.
 fn balancing(solver: &Solver) -> Numbers {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
+    let kinds = solver.system().scene.wheels.iter();
+    let rounding = LEVER * kinds.fold(0.0_f64, |most, kind| most.max(kind.radius));
     let numbers = solver.system().mechanics.kinematics.numbers.iter();
     numbers
         .flat_map(|numbers| {
-            [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch].map(|f| numbers[f as usize])
+            [
+                (BodyDof::Y, 0.0),
+                (BodyDof::Roll, rounding),
+                (BodyDof::Pitch, rounding),
+            ]
+            .map(|(dof, least)| (numbers[dof as usize], least))
         })
-        .flatten()
-        .filter(|&number| (0..count).any(|i| rows.approach_row(i)[number] != 0.0))
+        .filter_map(|(number, least)| Some((number?, least)))
+        .filter(|&(number, least)| (0..count).any(|i| rows.approach_row(i)[number].abs() > least))
+        .map(|(number, _)| number)
         .collect()
 }
 
