@@ -27,12 +27,13 @@
 //! assert!(model.text.contains("\"PBAR 3\""));
 //! ```
 //!
-//! Wings, lowest first: findings, axes, structure, links, rail, fix, write, includes, msh, bdf, inp
+//! Wings, lowest first: findings, axes, structure, halves, links, rail, fix, write, includes, msh, bdf, inp
 
 mod axes;
 pub mod bdf;
 pub mod findings;
 pub mod fix;
+mod halves;
 mod includes;
 pub mod inp;
 mod links;
@@ -48,10 +49,10 @@ pub use write::{PARTS, write};
 
 use crate::findings::ImportFindings;
 use crate::structure::ImportedStructure;
-use formats::spec::{Spec, stem};
+use formats::spec::{SECTIONS_FORMAT, SectionFile, Spec, stem};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::read_error_message;
-use formats::text::source::Source;
+use formats::text::source::{Source, without_mark};
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
 /// Properties of a model that the user specifies because its file does not contain them.
@@ -90,9 +91,9 @@ pub struct Imported {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat` and `.nas`
-/// are NASTRAN bulk data, `.msh` is a gmsh mesh, `.inp` an Abaqus input file (or bulk data, if it has a line BEGIN
-/// BULK). `open` reads the file and those that it includes.
+/// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat`, `.nas` and
+/// `.fem` are NASTRAN bulk data, `.msh` is a gmsh mesh, `.inp` an Abaqus input file (or bulk data, if it has a line BEGIN
+/// BULK). `open` reads the file and those that it includes; a byte order mark at the beginning of a file is skipped.
 ///
 /// # Errors
 /// All errors of the model, with their positions. A model with errors is rejected as a whole.
@@ -106,9 +107,10 @@ pub fn import(
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase())
         .unwrap_or_default();
+    let open: OpenFile<'_> = &|file: &Path| open(file).map(|bytes| without_mark(&bytes).to_vec());
     let mut findings = ImportFindings::default();
     let mut structure = match ending.as_str() {
-        "bdf" | "dat" | "nas" => read_deck(path, open, options, &mut findings)?,
+        "bdf" | "dat" | "nas" | "fem" => read_deck(path, open, options, &mut findings)?,
         "msh" => read_mesh(path, open, options, &mut findings)?,
         "inp" => {
             // the file is read once, since a pipe cannot be read again
@@ -137,7 +139,8 @@ pub fn import(
                 name,
                 "the extension of the file is not that of a known format",
             );
-            let hint = "use .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
+            let hint =
+                "use .bdf, .dat, .nas or .fem (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
             return Err(vec![wrong.hint(hint)]);
         }
     };
@@ -304,7 +307,7 @@ fn read_input(
     let length = options.length.unwrap_or(Length::Metre);
     let result = match (&options.sections, options.force) {
         (Some(source), _) => {
-            let sections = msh::Sections::read(source)?;
+            let sections = SectionFile::read(source)?;
             let to = sections.units;
             let factor = Scale {
                 from: Units { length, ..to },
@@ -391,7 +394,7 @@ fn read_mesh(
         );
         let hint = format!(
             "a JSON file of format {} with units, materials, and sections named after the physical groups",
-            msh::FORMAT
+            SECTIONS_FORMAT
         );
         wrong.push(missing.hint(hint));
     }
@@ -409,7 +412,7 @@ fn read_mesh(
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    let sections = msh::Sections::read(source)?;
+    let sections = SectionFile::read(source)?;
     let bytes = open(path).map_err(|error| unreadable(path, &error))?;
     findings.files.push(name.clone());
     let to = sections.units;

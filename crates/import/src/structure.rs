@@ -135,6 +135,15 @@ pub struct ImportedRail {
     pub stations: Vec<f64>,
 }
 
+/// Materials and sections in the words of a beam spec and in the units of the structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrittenTables {
+    /// `materials` of the spec.
+    pub materials: serde_json::Value,
+    /// `sections` of the spec.
+    pub sections: serde_json::Value,
+}
+
 /// A structure with all data that a beam spec in the general form can describe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedStructure {
@@ -150,6 +159,8 @@ pub struct ImportedStructure {
     pub materials: Vec<ImportedMaterial>,
     /// Sections.
     pub sections: Vec<ImportedSection>,
+    /// Materials and sections of a file of sections, which are written in place of the others.
+    pub written: Option<WrittenTables>,
     /// Members.
     pub members: Vec<ImportedMember>,
     /// Restrained degrees of freedom of each supported point.
@@ -179,6 +190,7 @@ impl ImportedStructure {
             points: Vec::new(),
             materials: Vec::new(),
             sections: Vec::new(),
+            written: None,
             members: Vec::new(),
             supports: BTreeMap::new(),
             springs: Vec::new(),

@@ -35,8 +35,10 @@ pub struct InpElement {
     pub at: FilePlace,
     /// Its type.
     pub kind: InpKind,
-    /// Its nodes; a third one of a beam shows the direction of its 1-axis.
+    /// Its nodes without the middle one; a third one of a beam shows the direction of its 1-axis.
     pub nodes: Vec<u64>,
+    /// The node between its ends, of a line of second order.
+    pub middle: Option<u64>,
 }
 
 /// A material.
@@ -310,10 +312,17 @@ impl InpModel {
             return;
         };
         let word = word.text.to_uppercase();
+        let set = block.parameter("ELSET").map(|name| name.text.clone());
+        if let Some(set) = &set {
+            self.element_sets.define(set);
+        }
+        let sheared = InpKind::Beam { sheared: true };
         let (kind, least, most) = match word.as_str() {
-            "B31" | "B31H" => (InpKind::Beam { sheared: true }, 2, 3),
+            "B31" | "B31H" | "B31R" => (sheared, 2, 3),
+            "B32" | "B32H" | "B32R" => (sheared, 3, 4),
             "B33" | "B33H" => (InpKind::Beam { sheared: false }, 2, 3),
             "T3D2" | "T3D2H" => (InpKind::Truss, 2, 2),
+            "T3D3" | "T3D3H" => (InpKind::Truss, 3, 3),
             "SPRING1" => (InpKind::Spring, 1, 1),
             "MASS" => (InpKind::Mass, 1, 1),
             "ROTARYI" => (InpKind::Rotary, 1, 1),
@@ -324,7 +333,7 @@ impl InpModel {
                 return;
             }
         };
-        let set = block.parameter("ELSET").map(|name| name.text.clone());
+        let has_middle = word.starts_with("B32") || word.starts_with("T3D3");
         for line in &block.data {
             let Some(number) = whole(block, line, 0, "element", findings) else {
                 continue;
@@ -341,14 +350,16 @@ impl InpModel {
                     expected,
                 ));
             }
+            if nodes.len() < least {
+                continue;
+            }
+            let middle = has_middle.then(|| nodes.remove(1));
             let element = InpElement {
                 at: line[0].at,
                 kind,
                 nodes,
+                middle,
             };
-            if element.nodes.len() < least {
-                continue;
-            }
             if self.elements.insert(number, element).is_some() {
                 let finding =
                     ImportFinding::new(line[0].at, "*ELEMENT: element", "is defined twice");
