@@ -35,7 +35,7 @@ pub(crate) fn check_straight(ends: [[f64; 3]; 2], middle: [f64; 3]) -> Result<()
         return Err([
             format!(
                 "must be straight, but its middle node is {} of its length off the line between its ends",
-                number((1e4 * aside / whole).round() * 1e-4)
+                number((1e4 * aside / whole).round() / 1e4)
             ),
             "divide curved members into short straight elements of two nodes".to_owned(),
         ]);

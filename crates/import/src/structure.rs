@@ -1,7 +1,7 @@
 //! Structure read from a model of any format, before it is written as a beam spec.
 
 use formats::limits::MAGNITUDES;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fea::MemberKind;
 use formats::units::Units;
@@ -47,6 +47,9 @@ pub struct ImportedSection {
     pub shear_y: Option<f64>,
     /// Effective shear area along z; `None` means rigid in shear.
     pub shear_z: Option<f64>,
+    /// What its file states no value of, so that it has a placeholder here. Its members are released accordingly, and must
+    /// not be loaded between their ends.
+    pub missing: Vec<&'static str>,
 }
 
 /// A member.
@@ -177,6 +180,8 @@ pub struct ImportedStructure {
     pub cell_sets: Vec<(String, Vec<usize>)>,
     /// Rails.
     pub rails: Vec<ImportedRail>,
+    /// Whether beams have their mass along them although that of the model is at their ends.
+    pub moves_mass: bool,
 }
 
 impl ImportedStructure {
@@ -199,7 +204,25 @@ impl ImportedStructure {
             point_sets: Vec::new(),
             cell_sets: Vec::new(),
             rails: Vec::new(),
+            moves_mass: false,
         }
+    }
+
+    /// Whether a beam has mass along it.
+    #[must_use]
+    pub fn has_beams_with_mass(&self) -> bool {
+        let has_mass = |name: &str| {
+            let material = self.materials.iter().find(|known| known.name == name);
+            material.is_some_and(|known| known.density.is_some())
+        };
+        let beams = self
+            .members
+            .iter()
+            .filter(|member| member.kind == MemberKind::Beam);
+        let sections: BTreeSet<usize> = beams.map(|member| member.section).collect();
+        sections
+            .into_iter()
+            .any(|index| has_mass(&self.sections[index].material))
     }
 
     /// Coordinates of the flexible ends of a member: its points with their offsets.

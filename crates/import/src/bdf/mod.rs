@@ -1,7 +1,7 @@
 //! NASTRAN bulk data: beams, bars and rods with their sections, supports, springs, rigid links and masses.
 //!
-//! A deck is read in four stages: `line` joins the files of a deck, `card` divides lines into cards and fields,
-//! `deck` sorts the cards by type (one file for each group of cards), and `resolve` replaces references by indices
+//! A deck is read in four stages: `line` joins the files of a deck, `card` divides lines into cards and fields (and
+//! `replication` writes out lines that repeat others), `deck` sorts the cards by type (one file for each group of cards), and `resolve` replaces references by indices
 //! into a structure.
 //!
 //! # Source
@@ -21,6 +21,7 @@ mod material;
 mod member;
 mod place;
 mod property;
+mod replication;
 mod resolve;
 mod rigid;
 mod roles;
@@ -66,6 +67,7 @@ pub fn read(
     let asked = resolve::Asked {
         spc,
         mass: mass.unwrap_or(of_deck),
+        moves_mass: mass.is_none() && !deck.coupled_mass,
         unused: omit.unused,
     };
     Ok(resolve::resolve(&deck, empty, asked, findings))

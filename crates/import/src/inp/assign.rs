@@ -78,6 +78,7 @@ impl Resolver<'_, '_> {
                 j: beam(numbers.j),
                 shear_y: beam(1.0).and(shear_y),
                 shear_z: beam(1.0).and(shear_z),
+                missing: Vec::new(),
             });
             for number in elements {
                 if self.section_of.insert(number, [index, place]).is_some() {
