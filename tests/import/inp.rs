@@ -141,6 +141,63 @@ fn a_beam_of_three_nodes_is_released_at_its_ends_alone_and_turned_by_a_fourth_no
     );
 }
 
+/// The stiffness of a circle goes with the fourth power of its radius, which Abaqus states; CalculiX states the diameter.
+#[test]
+fn circles_have_the_dimension_of_their_program() {
+    let bend = |r: f64| 1e4 * 8.0 / (3.0 * 2.1e11 * std::f64::consts::FRAC_PI_4 * r.powi(4));
+    let shear = |r: f64| 1e4 * 2.0 / (0.89 * 8.4e10 * std::f64::consts::PI * r * r);
+    let of = |kind: &str, dimension: &str| {
+        let rect = "section=RECT\n0.1, 0.3\n";
+        let text = if kind.contains('2') {
+            second_order(kind, 1.0)
+        } else {
+            let line =
+                "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+            cantilever(kind, line)
+        };
+        text.replace(rect, &format!("section=CIRC\n{dimension}\n"))
+    };
+    let force = [0.0, 1e4, 0.0, 0.0, 0.0, 0.0];
+    for (kind, dimension, radius) in [
+        ("B32R", "0.2", 0.1),
+        ("B32", "0.2, 0.2", 0.1),
+        ("B31", "0.2", 0.2),
+        ("B32H", "0.2", 0.2),
+    ] {
+        close(
+            tip(&of(kind, dimension), force)[1],
+            bend(radius) + shear(radius),
+        );
+    }
+    let parts = of("B32", "0.2").replace("*Heading\n", "*Preprint, echo=NO\n*Heading\n");
+    close(tip(&parts, force)[1], bend(0.2) + shear(0.2));
+    for (text, part) in [
+        (
+            of("B32", "0.2"),
+            "must not be CIRC, because its dimension is the radius in Abaqus",
+        ),
+        (of("B32R", "0.2, 0.1"), "ellipses are not supported"),
+        (
+            of("B32R", "0.2").replace("section=CIRC", "section=CIRC, offset1=0.5"),
+            "OFFSET1: is not supported",
+        ),
+        (
+            second_order("B32R", 1.0).replace("0.1, 0.3\n", "0.1, 0.3, 0.2\n"),
+            "must have 2 dimensions",
+        ),
+        (
+            second_order("B32R", 1.0).replace("section=RECT", "section=RECT, nodal thickness"),
+            "NODALTHICKNESS",
+        ),
+    ] {
+        let wrong = told(&input(&text, &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+    let centred =
+        second_order("B32R", 1.0).replace("section=RECT", "section=RECT, offset1=0., offset2=0");
+    assert!(input(&centred, &plain()).is_ok());
+}
+
 #[test]
 fn sets_of_elements_that_are_left_out_are_empty() {
     let text = second_order("B32", 1.0).replace(

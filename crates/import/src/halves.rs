@@ -25,13 +25,13 @@ pub(crate) fn check_straight(ends: [[f64; 3]; 2], middle: [f64; 3]) -> Result<()
     let own = minus(middle, a);
     let part = dot(own, along) / (whole * whole);
     let aside = length(minus(own, along.map(|component| component * part)));
-    if !(part >= APART && part <= 1.0 - APART) {
+    if !(APART..=1.0 - APART).contains(&part) {
         return Err([
             "must have its middle node between its ends".to_owned(),
             "check the order of its nodes".to_owned(),
         ]);
     }
-    if !(aside <= STRAIGHT * whole) {
+    if !aside.is_finite() || aside > STRAIGHT * whole {
         return Err([
             format!(
                 "must be straight, but its middle node is {} of its length off the line between its ends",

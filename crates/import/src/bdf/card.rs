@@ -93,7 +93,7 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             if is_continuation {
                 let whole = if line.large { 4 } else { 8 };
                 let fields = &mut cards[index].fields;
-                while fields.len() % whole != 0 {
+                while !fields.len().is_multiple_of(whole) {
                     fields.push(CardField {
                         at: line.at,
                         text: String::new(),

@@ -48,7 +48,8 @@ impl Replication {
                 || field.text.starts_with("%(")
         };
         let head_refers = line.free && line.head == ")";
-        if !is_copy && !head_refers && !(line.free && line.fields.iter().any(refers)) {
+        let fields_refer = line.free && line.fields.iter().any(refers);
+        if !(is_copy || head_refers || fields_refer) {
             self.before = Some(line.clone());
             self.changes = None;
             return Ok(vec![line]);
@@ -70,6 +71,7 @@ impl Replication {
             let expected = format!("must not make more than {MOST_COPIES} lines by replication");
             return Err(refused(&line, &expected, ""));
         }
+        copied_head(&line, &before, 1)?;
         let is_bare = line.fields.iter().all(|field| field.text.is_empty())
             && line.tail.text.is_empty()
             && line.head.len() > 1
@@ -192,22 +194,11 @@ fn copy(
         };
         fields.push(CardField { at, text });
     }
-    let marker = |text: &str| counted(text, k);
-    let head = match line.head.as_str() {
-        ")" => before.tail.text.trim().to_owned(),
-        _ if !is_copy => line.head.clone(),
-        _ if !before.head.is_empty() && !before.head.starts_with(['+', '*']) => before.head.clone(),
-        _ => marker(&before.head).ok_or_else(|| {
-            let expected = "must not repeat a continuation line whose marker has no number";
-            let hint =
-                "give the markers a form such as +A-1, which is counted up, or write the card out";
-            refused(line, expected, hint)
-        })?,
-    };
+    let head = copied_head(line, before, k)?;
     let tail = if is_copy && matches!(line.tail.text.as_str(), "" | "=" | "==") {
         CardField {
             at: line.at,
-            text: marker(before.tail.text.trim()).unwrap_or_default(),
+            text: counted(before.tail.text.trim(), k).unwrap_or_default(),
         }
     } else {
         line.tail.clone()
@@ -218,6 +209,27 @@ fn copy(
         tail,
         ..line.clone()
     })
+}
+
+/// The first field of the copy number `k` of the line before: its name, or its marker counted up.
+fn copied_head(
+    line: &LineFields,
+    before: &LineFields,
+    k: u64,
+) -> Result<String, Box<ImportFinding>> {
+    let is_copy = line.head.starts_with('=');
+    let is_continuation = before.head.is_empty() || before.head.starts_with(['+', '*']);
+    match (line.head.as_str(), is_copy) {
+        (")", _) => Ok(before.tail.text.trim().to_owned()),
+        (own, false) => Ok(own.to_owned()),
+        (_, true) if !is_continuation => Ok(before.head.clone()),
+        _ => counted(&before.head, k).ok_or_else(|| {
+            let expected = "must not repeat a continuation line whose marker has no number";
+            let hint =
+                "give the markers a form such as +A-1, which is counted up, or write the card out";
+            refused(line, expected, hint)
+        }),
+    }
 }
 
 /// A number in the notation of bulk data plus `k` times a step of the same type.

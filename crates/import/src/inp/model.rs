@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::keyword::{InpField, KeywordBlock};
 use super::roles::{KeywordRole, advice, role};
-use super::section::{self, InpSection};
+use super::section::{self, InpSection, Origin};
 use super::sets::InpSets;
 use super::values::{key_of, positive, real, vector, whole};
 use crate::bdf::Omissions;
@@ -147,6 +147,7 @@ impl InpModel {
         findings: &mut ImportFindings,
     ) -> InpModel {
         let mut model = InpModel::default();
+        let origin = Origin::of(blocks);
         let [mut left_out, mut unused, mut unknown] = [Counts::new(), Counts::new(), Counts::new()];
         let count = |counts: &mut Counts, name: &str, at: FilePlace| {
             counts.entry(name.to_owned()).or_insert((at, 0)).1 += 1;
@@ -154,7 +155,7 @@ impl InpModel {
         for block in blocks.iter().filter(|block| !omit.skips(&block.name)) {
             if block.name == "ELEMENT" {
                 model.read_elements(block, omit, &mut unknown, findings);
-            } else if !model.take(block, omit, findings) {
+            } else if !model.take(block, omit, origin, findings) {
                 match role(&block.name) {
                     Some(KeywordRole::Frame) => model.steps += usize::from(block.name == "STEP"),
                     Some(KeywordRole::Request) => count(&mut left_out, &block.label(), block.at),
@@ -203,6 +204,7 @@ impl InpModel {
         &mut self,
         block: &KeywordBlock,
         omit: Omissions<'_>,
+        origin: Origin,
         findings: &mut ImportFindings,
     ) -> bool {
         match block.name.as_str() {
@@ -221,8 +223,12 @@ impl InpModel {
                 }
             }
             "ELASTIC" | "DENSITY" => self.read_material(block, findings),
-            "BEAM SECTION" => self.sections.extend(section::beam(block, false, findings)),
-            "BEAM GENERAL SECTION" => self.sections.extend(section::beam(block, true, findings)),
+            "BEAM SECTION" => self
+                .sections
+                .extend(section::beam(block, false, origin, findings)),
+            "BEAM GENERAL SECTION" => self
+                .sections
+                .extend(section::beam(block, true, origin, findings)),
             "SOLID SECTION" => self.sections.extend(section::solid(block, findings)),
             "TRANSVERSE SHEAR STIFFNESS" => self.read_shear(block, findings),
             "BOUNDARY" => self.read_boundary(block, omit, findings),
