@@ -1,6 +1,7 @@
 //! Access to the fields of a card by number, with checks of their types.
 
-use super::card::{Card, CardField};
+use super::card::Card;
+use super::divide::CardField;
 use super::field::{Number, freedoms, number};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::limits::MAGNITUDES;

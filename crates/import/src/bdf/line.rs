@@ -61,7 +61,7 @@ impl Reader<'_> {
                 continue;
             }
             // some decks separate parts by lines of this sign
-            if text.trim().chars().all(|c| c == '&') {
+            if text.chars().all(|c| matches!(c, '&' | ' ' | '\t')) {
                 continue;
             }
             if let Some(name) = included(text) {

@@ -10,7 +10,7 @@
 //! # Source
 //! NASTRAN user's manual (NASA), section 2.4.1.2, free-field input; NASTRAN quick reference guides, replication.
 
-use super::card::{CardField, LineFields};
+use super::divide::{CardField, LineFields};
 use super::field::{Number, number};
 use crate::findings::ImportFinding;
 

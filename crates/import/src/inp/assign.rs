@@ -35,7 +35,6 @@ impl Resolver<'_, '_> {
                 let hint = "change the type of its elements to B32R in a file of CalculiX, B32H in one of Abaqus";
                 let finding = ImportFinding::new(section.set.at, about, expected);
                 self.findings.error(finding.hint(hint));
-                continue;
             }
             let is_cubic = |number: &u64| {
                 let kind = model.elements.get(number).map(|element| element.kind);

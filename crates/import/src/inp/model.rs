@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::keyword::{InpField, KeywordBlock};
 use super::roles::{KeywordRole, advice, role};
-use super::section::{self, InpSection, Origin};
+use super::section::{self, InpOrigin, InpSection};
 use super::sets::InpSets;
 use super::values::{key_of, positive, real, vector, whole};
 use crate::bdf::Omissions;
@@ -147,7 +147,7 @@ impl InpModel {
         findings: &mut ImportFindings,
     ) -> InpModel {
         let mut model = InpModel::default();
-        let origin = Origin::of(blocks);
+        let origin = InpOrigin::of(blocks);
         let [mut left_out, mut unused, mut unknown] = [Counts::new(), Counts::new(), Counts::new()];
         let count = |counts: &mut Counts, name: &str, at: FilePlace| {
             counts.entry(name.to_owned()).or_insert((at, 0)).1 += 1;
@@ -204,7 +204,7 @@ impl InpModel {
         &mut self,
         block: &KeywordBlock,
         omit: Omissions<'_>,
-        origin: Origin,
+        origin: InpOrigin,
         findings: &mut ImportFindings,
     ) -> bool {
         match block.name.as_str() {

@@ -64,7 +64,7 @@ pub struct InpSection {
 
 /// The program for which a file was written, as far as it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum InpOrigin {
     /// CalculiX: it has types of elements or dimensions that Abaqus does not have.
     Calculix,
     /// Abaqus: it has parts or types of elements that CalculiX does not have.
@@ -73,10 +73,10 @@ pub enum Origin {
     Unknown,
 }
 
-impl Origin {
+impl InpOrigin {
     /// The program for which keywords were written.
     #[must_use]
-    pub fn of(blocks: &[KeywordBlock]) -> Origin {
+    pub fn of(blocks: &[KeywordBlock]) -> InpOrigin {
         let is_of_calculix = |block: &KeywordBlock| match block.name.as_str() {
             "ELEMENT" => block
                 .parameter("TYPE")
@@ -94,11 +94,11 @@ impl Origin {
             _ => false,
         };
         if blocks.iter().any(is_of_calculix) {
-            Origin::Calculix
+            InpOrigin::Calculix
         } else if blocks.iter().any(is_of_abaqus) {
-            Origin::Abaqus
+            InpOrigin::Abaqus
         } else {
-            Origin::Unknown
+            InpOrigin::Unknown
         }
     }
 }
@@ -158,7 +158,7 @@ pub fn solid(block: &KeywordBlock, findings: &mut ImportFindings) -> Option<InpS
 pub fn beam(
     block: &KeywordBlock,
     general: bool,
-    origin: Origin,
+    origin: InpOrigin,
     findings: &mut ImportFindings,
 ) -> Option<InpSection> {
     refuse_parameters(block, findings);
@@ -206,7 +206,7 @@ pub fn beam(
         material,
         numbers: numbers?,
         is_beam: true,
-        is_unclear_circle: shape == "CIRC" && origin == Origin::Unknown,
+        is_unclear_circle: shape == "CIRC" && origin == InpOrigin::Unknown,
         n1: n1?,
         shear_stiffness: None,
     })
@@ -248,12 +248,12 @@ fn shape_numbers(
     block: &KeywordBlock,
     shape: &str,
     line: &[InpField],
-    origin: Origin,
+    origin: InpOrigin,
     findings: &mut ImportFindings,
 ) -> Option<SectionNumbers> {
     let names: &[&str] = match shape {
         "RECT" => &["a", "b"],
-        "CIRC" if origin == Origin::Calculix => &["d"],
+        "CIRC" if origin == InpOrigin::Calculix => &["d"],
         "CIRC" => &["r"],
         "PIPE" => &["r", "t"],
         "BOX" => &["a", "b", "t1", "t2", "t3", "t4"],
@@ -282,7 +282,8 @@ fn shape_numbers(
         d.push(positive(block, line, index, name, findings)?);
     }
     let beyond = line.iter().skip(names.len()).find(|field| {
-        let is_same = shape == "CIRC" && origin == Origin::Calculix && field.text == line[0].text;
+        let is_same =
+            shape == "CIRC" && origin == InpOrigin::Calculix && field.text == line[0].text;
         !field.text.is_empty() && !is_same
     });
     if let Some(field) = beyond {
@@ -296,7 +297,7 @@ fn shape_numbers(
         return None;
     }
     // CalculiX states the diameter, Abaqus the radius
-    if shape == "CIRC" && origin == Origin::Calculix {
+    if shape == "CIRC" && origin == InpOrigin::Calculix {
         d[0] *= 0.5;
     }
     let mut refuse = |what: &str, expected: &str, hint: &str| {
