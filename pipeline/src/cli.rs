@@ -471,7 +471,7 @@ impl From<DeckFormArg> for DeckForm {
 /// Arguments of `import`.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
-    /// Model file: .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)
+    /// Model file: .bdf, .dat, .nas or .fem (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)
     pub model: PathBuf,
     /// Output file [default: standard output]
     #[arg(short, long, value_name = "SPEC.json")]

@@ -372,9 +372,10 @@ fn an_imported_deck_can_be_solved_at_once() {
         serde_json::json!([0.0, 6.0, 12.0])
     );
     let told = "warning: deck.bdf:15:1: mass: the mass of rods and tubes is lumped at their ends, as in NASTRAN unless \
-                PARAM COUPMASS is positive; the mass of beams is distributed  hint: use --mass distributed to \
-                distribute it along all elements\n\
-                warning: deck.bdf:18:1: CELAS2 6: is ignored, because it has no free end\n";
+                PARAM COUPMASS is positive  hint: use --mass distributed to distribute it along all elements\n\
+                warning: deck.bdf:18:1: CELAS2 6: is ignored, because it has no free end\n\
+                warning: deck.bdf: the mass of beams acts along them, that of the deck at their ends  hint: use --mass \
+                lumped for the masses of the deck; the beams then have no weight between their ends\n";
     assert_eq!(text(&run.stderr), told);
     let run = girderway(&folder, &[&deck[..], &["-o", "spec.json"]].concat());
     assert_eq!((run.status.code(), run.stdout.len()), (Some(0), 0));

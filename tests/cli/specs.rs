@@ -121,3 +121,64 @@ fn a_modulus_of_no_material_is_told() {
     let told = "warning: `E` of section \"column\" is 210000 kN/m^2, 0.21 GPa: steel has about 200000000 kN/m^2";
     assert!(text(&run.stderr).contains(told), "{}", text(&run.stderr));
 }
+
+/// A byte order mark, as some editors write it, is no part of the text: results and places of faults are the same.
+#[test]
+fn a_byte_order_mark_is_skipped_in_every_file() {
+    let [plain, marked] = [folder(), folder()];
+    let files = [
+        "spec.json",
+        "scene.json",
+        "design.json",
+        "grid.json",
+        "mesh.msh",
+        "groups.json",
+        "deck.bdf",
+    ];
+    let sweep = r#"{"format": "girderway-sweep/1", "scene": "scene.json", "axes": {"/bodies/bogie/weight": [4e6, 5e6], "spec.json#/girder/E": [4e9]}, "sampling": "grid", "results": ["ratios"]}"#;
+    for name in files.into_iter().chain(["sweep.json"]) {
+        let text = if name == "sweep.json" {
+            sweep.as_bytes().to_vec()
+        } else {
+            fs::read(base(name)).expect("a base file")
+        };
+        fs::write(plain.path().join(name), &text).expect("a writable folder");
+        let text = [b"\xef\xbb\xbf", text.as_slice()].concat();
+        fs::write(marked.path().join(name), text).expect("a writable folder");
+    }
+    for line in [
+        "fea spec.json",
+        "splines grid.json",
+        "import mesh.msh --length m --up 0,1,0 --sections groups.json",
+        "import deck.bdf --length m --force N",
+        "run scene.json -o run --quiet",
+        "design design.json -o design --quiet",
+        "sweep sweep.json -o sweep --quiet",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let [one, two] = [&plain, &marked].map(|folder| girderway(folder, &arguments));
+        for run in [&one, &two] {
+            assert!(run.status.success(), "{line}: {}", text(&run.stderr));
+        }
+        assert_eq!(text(&one.stdout), text(&two.stdout), "{line}");
+    }
+    for file in [
+        "run/history.csv",
+        "design/envelope.csv",
+        "sweep/results.csv",
+    ] {
+        let [one, two] = [&plain, &marked].map(|folder| fs::read(folder.path().join(file)));
+        assert!(one.expect(file) == two.expect(file), "{file}");
+    }
+    fs::write(
+        marked.path().join("wrong.json"),
+        b"\xef\xbb\xbf{\"formt\": 1}",
+    )
+    .expect("a writable folder");
+    let wrong = girderway(&marked, &["fea", "wrong.json"]);
+    assert!(
+        text(&wrong.stderr).contains("wrong.json:1:2: formt"),
+        "{}",
+        text(&wrong.stderr)
+    );
+}

@@ -601,7 +601,7 @@ fn sections(bytes: &[u8]) -> u64 {
         Ok(source) => source,
         Err(told) => return told,
     };
-    match import::msh::Sections::read(&source) {
+    match formats::spec::SectionFile::read(&source) {
         Ok(sections) => sections.groups.len() as u64,
         Err(wrong) => refused(&wrong, Some(bytes)),
     }

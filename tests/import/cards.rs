@@ -4,7 +4,7 @@ use import::structure::MassDistribution;
 use import::{ImportOptions, Imported};
 use serde_json::json as value;
 
-use super::{deck, displacements, frame, json, plain, told};
+use super::{deck, displacements, frame, from_memory, json, plain, told};
 
 fn good(text: &str) -> Imported {
     deck(text, &plain()).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)))
@@ -418,4 +418,198 @@ fn errors_of_one_kind_are_counted_and_defaults_are_blamed_once() {
     // the flag of older programs in place of OFFT
     let old = format!("{bars}BAROR,,5,,,0.,1.,0.,1\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n");
     assert!(deck(&old, &plain()).is_ok());
+}
+
+/// A bar whose property is to be tested beside one along which a rail can lie.
+fn beside(property: &str, support: &str) -> String {
+    format!(
+        "{STEEL}GRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.,,{support}\nCBAR,1,5,1,2,0.,1.,0.\n{property}\n\
+         GRID,3,,0.,0.,9.,,123456\nGRID,4,,2.,0.,9.\nCBAR,2,6,3,4,0.,1.,0.\nPBAR,6,1,.02,1.-4,2.-4,1.-4\n"
+    )
+}
+
+/// Whether a bar that a rail needs holds it: the bar with the property is between the support and the bar with the rail.
+fn holds(property: &str) -> bool {
+    let text = format!(
+        "{STEEL}GRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.\nGRID,3,,4.,0.,0.\nCBAR,1,5,1,2,0.,1.,0.\n\
+         CBAR,2,6,2,3,0.,1.,0.\n{property}\nPBAR,6,1,.02,1.-4,2.-4,1.-4\n"
+    );
+    let imported = with_rail(&text, "r=2").unwrap_or_else(|wrong| panic!("{wrong}"));
+    let frame = frame(&imported);
+    let rails: Vec<fea::Rail> = frame.rails.iter().map(|(_, rail)| rail.clone()).collect();
+    fea::FactoredFrame::new(&frame.model, &rails).is_ok()
+}
+
+fn with_rail(text: &str, rail: &str) -> Result<Imported, String> {
+    let options = ImportOptions {
+        up: Some([0.0, 1.0, 0.0]),
+        rails: vec![rail.parse().expect("a rail")],
+        ..plain()
+    };
+    deck(text, &options).map_err(|wrong| told(&wrong))
+}
+
+#[test]
+fn bars_without_an_area_bend_and_have_no_axial_stiffness() {
+    for area in ["", "0."] {
+        // a cantilever of 2 m: P L^3 / (3 E I) in both planes; the support holds it along its axis
+        let text = beside(&format!("PBAR,5,1,{area},1.-4,2.-4,1.-4,12."), "14");
+        let imported = with_rail(&text, "r=2").unwrap_or_else(|wrong| panic!("{wrong}"));
+        let load = [0.0, 1e4, 1e4, 0.0, 0.0, 0.0];
+        let found = displacements(&frame(&imported), &["GRID 2"], load);
+        close(found[1], 1e4 * 8.0 / (3.0 * 2e11 * 1e-4));
+        close(found[2], 1e4 * 8.0 / (3.0 * 2e11 * 2e-4));
+        assert!(
+            told(&imported.warnings)
+                .contains("PBAR 5: has no A: its members have no axial stiffness")
+        );
+        // without an area the density gives no mass, the mass per length all of it
+        let spec = json(&imported);
+        let part = |list: &str, key: &str| spec[list][0][key].as_f64().expect("a number");
+        close(part("sections", "A") * part("materials", "density"), 12.0);
+        // nothing else holds the grid along the bar
+        assert!(!holds(&format!("PBAR,5,1,{area},1.-4,2.-4,1.-4")));
+        assert!(holds("PBAR,5,1,.02,1.-4,2.-4,1.-4"));
+        let wrong = with_rail(&text, "r=1").expect_err("a rail on a bar without area");
+        assert!(
+            wrong.contains("element 1, because its section PBAR 5 has no A"),
+            "{wrong}"
+        );
+    }
+    let wrong = refused(&beside("PBAR,5,1", "14"));
+    assert!(
+        wrong.contains("must be positive if I1, I2 and J are 0"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn bars_with_one_second_moment_bend_in_its_plane_alone() {
+    let load = 1e4;
+    for (property, freedom, held, missing) in [
+        ("PBAR,5,1,.02,1.-4", 1, "345", "I2"),
+        ("PBAR,5,1,.02,1.-4,0.,1.-5", 1, "345", "I2"),
+        ("PBAR,5,1,.02,,1.-4", 2, "246", "I1"),
+        // shear of the plane that bends: P L / (K1 G A) in addition
+        ("PBAR,5,1,.02,1.-4\n+\n+,.5", 1, "345", "I2"),
+    ] {
+        let imported =
+            with_rail(&beside(property, held), "r=2").unwrap_or_else(|wrong| panic!("{wrong}"));
+        let mut force = [0.0; 6];
+        force[freedom] = load;
+        let found = displacements(&frame(&imported), &["GRID 2"], force);
+        let shear = if property.ends_with(".5") {
+            load * 2.0 / (0.5 * 8e10 * 0.02)
+        } else {
+            0.0
+        };
+        close(found[freedom], load * 8.0 / (3.0 * 2e11 * 1e-4) + shear);
+        // the rotation of the tip is P L^2 / (2 E I)
+        let turn = if freedom == 1 { found[5] } else { -found[4] };
+        close(turn, load * 4.0 / (2.0 * 2e11 * 1e-4));
+        let warned = told(&imported.warnings);
+        assert!(
+            warned.contains(&format!(
+                "PBAR 5: has no {missing}: its members have no bending stiffness"
+            )),
+            "{warned}"
+        );
+        // the other plane has no stiffness: grids that nothing holds there move freely
+        assert!(!holds(property));
+        let wrong = with_rail(&beside(property, held), "r=1").expect_err("a rail");
+        assert!(wrong.contains(&format!("has no {missing}")), "{wrong}");
+    }
+    // a product of inertia needs both, as do beams
+    assert!(refused(&beside("PBAR,5,1,.02,1.-4\n+\n+,,,1.-5", "")).contains("I12"));
+    let beam = beside("PBEAM,5,1,.02,1.-4", "345").replace("CBAR,1", "CBEAM,1");
+    assert!(refused(&beam).contains("I2"));
+}
+
+#[test]
+fn the_mass_of_the_deck_is_told_where_it_acts_elsewhere() {
+    // a cantilever that moves along y alone: half of its mass at its tip, or all of it along it
+    let text = format!(
+        "{STEEL}GRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.,,1345\nCBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n"
+    );
+    let told_of =
+        |text: &str, options: &ImportOptions| told(&deck(text, options).expect("a deck").warnings);
+    let warned = told_of(&text, &plain());
+    let hertz: Vec<f64> = warned
+        .split(" Hz")
+        .filter_map(|before| before.rsplit(' ').next()?.parse().ok())
+        .collect();
+    let [along, at_ends] = hertz[..] else {
+        panic!("{warned}")
+    };
+    let cycle = std::f64::consts::TAU;
+    let [stiffness, mass]: [f64; 2] = [2e11 * 1e-4, 8000.0 * 0.02];
+    let tip = (3.0 * stiffness / 8.0 / mass).sqrt() / cycle;
+    assert!((at_ends / tip - 1.0).abs() < 1e-3, "{at_ends} {tip}");
+    // k L = 1.875104 (Euler and Bernoulli; rotary inertia lowers it by 0.3 %)
+    let whole = (1.875_104_f64 / 2.0).powi(2) * (stiffness / mass).sqrt() / cycle;
+    assert!((along / whole - 1.0).abs() < 5e-3, "{along} {whole}");
+    // WTMASS scales both
+    let scaled = told_of(&format!("{text}PARAM,WTMASS,.25\n"), &plain());
+    assert!(
+        scaled.contains(&format!("with the masses of the deck {:.2} Hz", 2.0 * tip)),
+        "{scaled}"
+    );
+    // nothing to tell where the user asked for it, or where the deck has its mass along its members
+    for mass in [MassDistribution::Lumped, MassDistribution::Distributed] {
+        let asked = ImportOptions {
+            mass: Some(mass),
+            ..plain()
+        };
+        assert!(!told_of(&text, &asked).contains("Hz"), "{mass:?}");
+    }
+    assert!(!told_of(&format!("{text}PARAM,COUPMASS,1\n"), &plain()).contains("Hz"));
+    // masses that are left out are told as such
+    let unused = ImportOptions {
+        skip_unused: true,
+        ..plain()
+    };
+    let warned = told_of(&format!("{text}CMASS2,9,5.,2,2\n"), &unused);
+    assert!(
+        warned.contains("CMASS2: is ignored (1 card): its mass is missing in natural frequencies"),
+        "{warned}"
+    );
+}
+
+#[test]
+fn replicated_cards_make_the_same_model() {
+    let replicated = format!(
+        "{STEEL}GRDSET,8)4\nGRID,1,,0.,0.,0.,,123456\nGRID,2,,.5,0.,0.\n=,*(1),=,*(.5),==\n=(2)\n\
+         CBAR,1,5,1,2,0.,1.,0.\n=(4),*(1),=,*(1),/,==\nPBAR,5,1,.02 1.-4 2.-4,1.-4\n"
+    );
+    let mut written = format!("{STEEL}GRDSET,,,,,,,4\nGRID,1,,0.,0.,0.,,123456\n");
+    for k in 2..=5 {
+        written += &format!("GRID,{k},,{:?},0.,0.\n", 0.5 * (f64::from(k) - 1.0));
+    }
+    for k in 1..=4 {
+        written += &format!("CBAR,{k},5,{k},{},0.,1.,0.\n", k + 1);
+    }
+    written += "PBAR,5,1,.02,1.-4,2.-4,1.-4\n";
+    assert!(refused(&replicated).contains("refers to a grid that does not exist"));
+    let replicated = replicated.replace("=(4),*(1)", "=(3),*(1)");
+    assert_eq!(good(&replicated).text, good(&written).text);
+}
+
+#[test]
+fn lines_of_signs_and_a_mark_at_the_beginning_mean_nothing_in_any_file_of_bulk_data() {
+    let text = format!(
+        "CEND\nBEGIN BULK\n{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n"
+    );
+    let marked = text.replace("BEGIN BULK\n", "BEGIN BULK\n&&&& &&\n&\n");
+    let marked = format!("\u{feff}{marked}");
+    let wanted = good(&text).text;
+    for name in ["deck.fem", "deck.nas", "deck.DAT", "deck.inp"] {
+        let found = from_memory(name, &[(name, &marked)], &plain());
+        assert_eq!(
+            found
+                .unwrap_or_else(|wrong| panic!("{}", told(&wrong)))
+                .text,
+            wanted,
+            "{name}"
+        );
+    }
 }

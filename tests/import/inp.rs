@@ -81,6 +81,161 @@ fn sections_have_their_dimensions_along_the_axes_of_the_guide() {
     }
 }
 
+/// A cantilever of 2 m along x of one straight beam with three nodes, of which the third is at `middle`.
+fn second_order(kind: &str, middle: f64) -> String {
+    let rect = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    cantilever(kind, rect)
+        .replace("*Element", &format!("3, {middle:?}, 0., 0.\n*Element"))
+        .replace("\n1, 1, 2\n", "\n1, 1, 3, 2\n")
+}
+
+#[test]
+fn straight_beams_of_three_nodes_bend_as_their_closed_form_wherever_the_middle_node_is() {
+    let (e, g, a, i) = (2.1e11, 8.4e10, 0.03, 0.1 * 0.027 / 12.0);
+    let end = 1e4 * 8.0 / (3.0 * e * i) + 1e4 * 2.0 / (0.85 * g * a);
+    for kind in ["B32", "B32R", "B32H", "b32"] {
+        for middle in [1.0, 0.4, 1.75] {
+            let text = second_order(kind, middle);
+            close(tip(&text, [0.0, 1e4, 0.0, 0.0, 0.0, 0.0])[1], end);
+            // under the same force at the tip the middle node moves by P x^2 (3 L - x) / (6 E I) + P x / (k G A)
+            let options = ImportOptions {
+                up: Some([0.0, 1.0, 0.0]),
+                rails: vec!["r=beam".parse().expect("a rail")],
+                ..plain()
+            };
+            let imported = input(&text, &options).expect("a model");
+            let load = [0.0, 1e4, 0.0, 0.0, 0.0, 0.0];
+            let moved = displacements(&frame(&imported), &["node 2", "node 3"], load);
+            let x: f64 = middle;
+            close(
+                moved[7],
+                1e4 * x * x * (6.0 - x) / (6.0 * e * i) + 1e4 * x / (0.85 * g * a),
+            );
+            let spec = json(&imported);
+            assert_eq!(spec["cell_sets"]["beam"], value!([[0, 1]]));
+            assert_eq!(spec["rails"]["r"]["stations"], value!([0.0, middle, 2.0]));
+        }
+    }
+    // a beam of two nodes with one point of integration
+    let rect = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    close(
+        tip(&cantilever("B31R", rect), [0.0, 1e4, 0.0, 0.0, 0.0, 0.0])[1],
+        end,
+    );
+}
+
+#[test]
+fn a_beam_of_three_nodes_is_released_at_its_ends_alone_and_turned_by_a_fourth_node() {
+    let text = second_order("B32", 1.0);
+    let released = text.replace("*Boundary", "*Release\n1, S1, M1\n1, S2, M2\n*Boundary");
+    let data = &json(&good(&released))["cell_data"];
+    assert_eq!(data["release_a"], value!([[["ry"], []]]));
+    assert_eq!(data["release_b"], value!([[[], ["rz"]]]));
+    let turned = text
+        .replace("*Element", "9, 0., 5., 0.\n*Element")
+        .replace("1, 1, 3, 2\n", "1, 1, 3, 2, 9\n");
+    let data = &json(&good(&turned))["cell_data"];
+    assert_eq!(
+        data["orientation"],
+        value!([[[0.0, 5.0, 0.0], [0.0, 5.0, 0.0]]])
+    );
+}
+
+/// The stiffness of a circle goes with the fourth power of its radius, which Abaqus states; CalculiX states the diameter.
+#[test]
+fn circles_have_the_dimension_of_their_program() {
+    let bend = |r: f64| 1e4 * 8.0 / (3.0 * 2.1e11 * std::f64::consts::FRAC_PI_4 * r.powi(4));
+    let shear = |r: f64| 1e4 * 2.0 / (0.89 * 8.4e10 * std::f64::consts::PI * r * r);
+    let of = |kind: &str, dimension: &str| {
+        let rect = "section=RECT\n0.1, 0.3\n";
+        let text = if kind.contains('2') {
+            second_order(kind, 1.0)
+        } else {
+            let line =
+                "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+            cantilever(kind, line)
+        };
+        text.replace(rect, &format!("section=CIRC\n{dimension}\n"))
+    };
+    let force = [0.0, 1e4, 0.0, 0.0, 0.0, 0.0];
+    for (kind, dimension, radius) in [
+        ("B32R", "0.2", 0.1),
+        ("B32", "0.2, 0.2", 0.1),
+        ("B31", "0.2", 0.2),
+        ("B32H", "0.2", 0.2),
+    ] {
+        close(
+            tip(&of(kind, dimension), force)[1],
+            bend(radius) + shear(radius),
+        );
+    }
+    let parts = of("B32", "0.2").replace("*Heading\n", "*Preprint, echo=NO\n*Heading\n");
+    close(tip(&parts, force)[1], bend(0.2) + shear(0.2));
+    for (text, part) in [
+        (
+            of("B32", "0.2"),
+            "must not be CIRC, because its dimension is the radius in Abaqus",
+        ),
+        (of("B32R", "0.2, 0.1"), "ellipses are not supported"),
+        (
+            of("B32R", "0.2").replace("section=CIRC", "section=CIRC, offset1=0.5"),
+            "OFFSET1: is not supported",
+        ),
+        (
+            second_order("B32R", 1.0).replace("0.1, 0.3\n", "0.1, 0.3, 0.2\n"),
+            "must have 2 dimensions",
+        ),
+        (
+            second_order("B32R", 1.0).replace("section=RECT", "section=RECT, nodal thickness"),
+            "NODALTHICKNESS",
+        ),
+    ] {
+        let wrong = told(&input(&text, &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+    let centred =
+        second_order("B32R", 1.0).replace("section=RECT", "section=RECT, offset1=0., offset2=0");
+    assert!(input(&centred, &plain()).is_ok());
+}
+
+#[test]
+fn sets_of_elements_that_are_left_out_are_empty() {
+    let text = second_order("B32", 1.0).replace(
+        "*Material",
+        "*Element, type=S4, elset=plate\n7, 1, 2, 3, 1\n*Elset, elset=all\nplate, beam\n*Material",
+    );
+    assert!(told(&input(&text, &plain()).expect_err("a shell")).contains("S4: is not supported"));
+    let skip = ImportOptions {
+        skip: vec!["S4".to_owned()],
+        ..plain()
+    };
+    let imported = input(&text, &skip).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    assert_eq!(
+        json(&imported)["cell_sets"],
+        value!({ "all": [[0, 1]], "beam": [[0, 1]] })
+    );
+}
+
+#[test]
+fn a_truss_of_three_nodes_is_one_member_unless_something_holds_its_middle() {
+    let text = "*NODE\n1,0,0,0\n2,4,3,0\n3,2,1.5,0\n4,0,3,0\n*ELEMENT, TYPE=T3D3, ELSET=tie\n1,1,3,2\n\
+        *SOLID SECTION, ELSET=tie, MATERIAL=steel\n0.002\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*BOUNDARY\n1, 1, 6\n2, 3, 6\n";
+    let spec = json(&good(text));
+    assert_eq!(spec["cells"][0]["data"], value!([[0, 1]]));
+    assert_eq!(spec["points"], value!([[0.0, 0.0, 0.0], [4.0, 3.0, 0.0]]));
+    for held in [
+        "*ELEMENT, TYPE=T3D2, ELSET=tie\n2,3,4\n",
+        "*ELEMENT, TYPE=T3D3, ELSET=tie\n2,4,3,5\n*NODE\n5,4,0,0\n",
+        "*BOUNDARY\n3, 2\n",
+    ] {
+        let wrong = told(&input(&format!("{text}{held}"), &plain()).expect_err(held));
+        assert!(
+            wrong.contains("a middle node that nothing else uses"),
+            "{held}: {wrong}"
+        );
+    }
+}
+
 #[test]
 fn general_sections_bend_about_their_principal_axes() {
     let general = "*Beam General Section, elset=beam, density=7850.\n0.01, 4.e-4, 1.e-4, 2.e-4, 3.e-6\n0,0,-1\n2.1e11, 8.e10\n";

@@ -9,7 +9,7 @@ use formats::units::Length;
 use import::{ImportOptions, Imported, import};
 use serde_json::json as value;
 
-use super::{folder, frame, json, text, told};
+use super::{displacements, folder, frame, json, text, told};
 
 fn options(sections: &str) -> ImportOptions {
     let name = format!("meshes/{sections}");
@@ -174,16 +174,114 @@ fn elements_that_are_no_lines_are_left_out_by_name() {
 
 #[test]
 fn other_versions_are_refused_with_the_way_to_convert_them() {
-    for (name, part) in [
-        ("portal_40.msh", "must be version 2.2 or 4.1, got 4"),
-        ("portal_order_2.msh", "lines of more than two nodes"),
-    ] {
+    for (name, part) in [("portal_40.msh", "must be version 2.2 or 4.1, got 4")] {
         let wrong = told(&mesh(name, &portal()).expect_err("another format"));
         assert!(
             wrong.contains(part) && wrong.contains("hint"),
             "{name}: {wrong}"
         );
     }
+}
+
+/// The portal meshed with lines of second order: each beam has a point inside it, the brace has none.
+#[test]
+fn straight_lines_of_three_nodes_are_members_with_a_point_inside() {
+    let [first, second] = ["portal.msh", "portal_order_2.msh"].map(|name| {
+        mesh(name, &portal()).unwrap_or_else(|wrong| panic!("{name}: {}", told(&wrong)))
+    });
+    let [one, two] = [&first, &second].map(json);
+    let count =
+        |spec: &serde_json::Value, key: &str| spec["cell_sets"][key][0].as_array().map(Vec::len);
+    for set in ["column", "runway girder", "brace"] {
+        let own = count(&one, set).map(|count| if set == "brace" { count } else { 2 * count });
+        assert_eq!(count(&two, set), own, "{set}");
+    }
+    // members are exact, so that points inside them change no displacement
+    let load = [1e3, 2e3, 3e3, 0.0, 0.0, 0.0];
+    let [one, two] = [&first, &second].map(|model| displacements(&frame(model), &["middle"], load));
+    assert!((&one - &two).amax() < 1e-10 * two.amax(), "{one} {two}");
+}
+
+const LINE: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n0 1 \"foot\"\n1 3 \"girder\"\n$EndPhysicalNames\n\
+    $Nodes\n3\n1 0 0 0\n2 4000 0 0\n3 1000 0 0\n$EndNodes\n$Elements\n2\n1 15 2 1 1 1\n2 8 2 3 1 1 2 3\n$EndElements\n";
+
+fn line(mesh: &str, sections: &str) -> Result<Imported, Vec<Diagnostic>> {
+    let options = ImportOptions {
+        length: Some(Length::Millimetre),
+        up: Some([0.0, 0.0, 1.0]),
+        sections: Some(Source {
+            name: "sections.json".to_owned(),
+            text: sections.to_owned(),
+        }),
+        rails: vec!["r=girder".parse().expect("a rail")],
+        ..ImportOptions::default()
+    };
+    import(
+        Path::new("line.msh"),
+        &|_| Ok(mesh.as_bytes().to_vec()),
+        &options,
+    )
+}
+
+#[test]
+fn sections_of_meshes_are_those_of_specs() {
+    let sections = r#"{"format": "girderway-sections/1", "units": {"length": "m", "force": "kN", "time": "s"},
+        "materials": [{"name": "S235", "E": 2.1e8, "G": 8.1e7, "density": 7.85, "fy": 235e3}],
+        "sections": [{"name": "girder", "material": "S235", "shape": "HEB 400", "points": [{"name": "top", "y": 0.2}]},
+         {"name": "box", "material": "S235", "J": 0, "shape": {"kind": "box", "length": "mm", "height": 500, "width": 300, "flange": 20, "web": 10}}]}"#;
+    let imported = line(LINE, sections).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let spec = json(&imported);
+    let written: serde_json::Value = serde_json::from_str(sections).expect("JSON");
+    for key in ["materials", "sections"] {
+        assert_eq!(spec[key], written[key], "{key}");
+    }
+    // HEB 400: A = 197.8 cm2, Iy = 57,680 cm4 (tables of EN 10365)
+    let heb = &frame(&imported).model.sections[0];
+    assert!((heb.area / 197.8e-4 - 1.0).abs() < 1e-3, "{}", heb.area);
+    assert!((heb.iz / 57_680e-8 - 1.0).abs() < 1e-3, "{}", heb.iz);
+    assert_eq!(spec["rails"]["r"]["stations"], value!([0.0, 1.0, 4.0]));
+    // faults are those of specs, at their places in the file of sections
+    for (old, new, part) in [
+        ("HEB 400", "HEB 401", "sections.json:3:"),
+        ("235e3", "-1", "sections.json:2:"),
+        (
+            "\"y\": 0.2",
+            "\"x\": 0.2",
+            "sections[0].points[0].x: unknown key",
+        ),
+        ("\"fy\"", "\"fu\"", "materials[0].fu: unknown key"),
+    ] {
+        let wrong = told(&line(LINE, &sections.replace(old, new)).expect_err(new));
+        assert!(wrong.contains(part), "{new}: {wrong}");
+    }
+}
+
+#[test]
+fn results_in_a_mesh_may_occur_again_and_again() {
+    let sections = text("meshes/portal.json");
+    let plain = mesh("portal.msh", &portal()).expect("a mesh").text;
+    let data = "$NodeData\n1\n\"u\"\n1\n0.0\n3\n0\n1\n1\n1 0.5\n$EndNodeData\n";
+    let data = format!("{data}{data}{0}{0}", data.replace("Node", "Element"));
+    let own = std::fs::read(folder().join("meshes/portal.msh")).expect("a mesh");
+    let with_mark = [b"\xef\xbb\xbf", own.as_slice(), data.as_bytes()].concat();
+    let imported = import(
+        Path::new("portal.msh"),
+        &|_| Ok(with_mark.clone()),
+        &portal(),
+    );
+    assert_eq!(
+        imported
+            .unwrap_or_else(|wrong| panic!("{}", told(&wrong)))
+            .text,
+        plain
+    );
+    let binary = std::fs::read(folder().join("meshes/portal_binary.msh")).expect("a mesh");
+    let more = [binary.as_slice(), data.as_bytes()].concat();
+    assert!(import(Path::new("portal.msh"), &|_| Ok(more.clone()), &portal()).is_ok());
+    // the sections that define the mesh may not
+    let twice = format!("{LINE}{}", &LINE[LINE.find("$Nodes").expect("nodes")..]);
+    let wrong = told(&line(&twice, &sections).expect_err("two sections"));
+    assert!(wrong.contains("$Nodes: must occur only once"), "{wrong}");
 }
 
 #[test]

@@ -27,12 +27,14 @@
 //! assert!(model.text.contains("\"PBAR 3\""));
 //! ```
 //!
-//! Wings, lowest first: findings, axes, structure, links, rail, fix, write, includes, msh, bdf, inp
+//! Wings, lowest first: findings, axes, structure, halves, links, rail, fix, write, frequencies, includes, msh, bdf, inp
 
 mod axes;
 pub mod bdf;
 pub mod findings;
 pub mod fix;
+mod frequencies;
+mod halves;
 mod includes;
 pub mod inp;
 mod links;
@@ -41,17 +43,21 @@ pub mod rail;
 pub mod structure;
 mod write;
 
-use std::path::Path;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 pub use includes::OpenFile;
 pub use write::{PARTS, write};
 
 use crate::findings::ImportFindings;
+use crate::frequencies::lowest_frequency;
 use crate::structure::ImportedStructure;
-use formats::spec::{Spec, stem};
+use formats::spec::{SECTIONS_FORMAT, SectionFile, Spec, stem};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::read_error_message;
-use formats::text::source::Source;
+use formats::text::number::{number, rounded};
+use formats::text::source::{Source, without_mark};
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
 /// Properties of a model that the user specifies because its file does not contain them.
@@ -90,9 +96,9 @@ pub struct Imported {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat` and `.nas`
-/// are NASTRAN bulk data, `.msh` is a gmsh mesh, `.inp` an Abaqus input file (or bulk data, if it has a line BEGIN
-/// BULK). `open` reads the file and those that it includes.
+/// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat`, `.nas` and
+/// `.fem` are NASTRAN bulk data, `.msh` is a gmsh mesh, `.inp` an Abaqus input file (or bulk data, if it has a line BEGIN
+/// BULK). `open` reads the file and those that it includes; a byte order mark at the beginning of a file is skipped.
 ///
 /// # Errors
 /// All errors of the model, with their positions. A model with errors is rejected as a whole.
@@ -106,24 +112,26 @@ pub fn import(
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase())
         .unwrap_or_default();
+    // each file is read once, since a pipe cannot be read again
+    let read: RefCell<BTreeMap<PathBuf, Vec<u8>>> = RefCell::default();
+    let open: OpenFile<'_> = &|file: &Path| {
+        if let Some(bytes) = read.borrow().get(file) {
+            return Ok(bytes.clone());
+        }
+        let bytes = without_mark(&open(file)?).to_vec();
+        read.borrow_mut().insert(file.to_path_buf(), bytes.clone());
+        Ok(bytes)
+    };
     let mut findings = ImportFindings::default();
     let mut structure = match ending.as_str() {
-        "bdf" | "dat" | "nas" => read_deck(path, open, options, &mut findings)?,
+        "bdf" | "dat" | "nas" | "fem" => read_deck(path, open, options, &mut findings)?,
         "msh" => read_mesh(path, open, options, &mut findings)?,
         "inp" => {
-            // the file is read once, since a pipe cannot be read again
             let bytes = open(path).map_err(|error| unreadable(path, &error))?;
-            let again = |other: &Path| {
-                if other == path {
-                    Ok(bytes.clone())
-                } else {
-                    open(other)
-                }
-            };
             if is_bulk_data(&bytes) {
-                read_deck(path, &again, options, &mut findings)?
+                read_deck(path, open, options, &mut findings)?
             } else {
-                read_input(path, &again, options, &mut findings)?
+                read_input(path, open, options, &mut findings)?
             }
         }
         _ => {
@@ -137,7 +145,8 @@ pub fn import(
                 name,
                 "the extension of the file is not that of a known format",
             );
-            let hint = "use .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
+            let hint =
+                "use .bdf, .dat, .nas or .fem (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
             return Err(vec![wrong.hint(hint)]);
         }
     };
@@ -158,11 +167,47 @@ pub fn import(
     }
     let text = write(&structure);
     check_spec(&name, &text, &structure)?;
+    if structure.moves_mass {
+        warnings.push(moved_mass(path, open, options, &structure));
+    }
     Ok(Imported {
         text,
         structure,
         warnings,
     })
+}
+
+/// The warning that the mass of beams does not act where that of the deck does, with the natural frequencies of both.
+fn moved_mass(
+    path: &Path,
+    open: OpenFile<'_>,
+    options: &ImportOptions,
+    structure: &ImportedStructure,
+) -> Diagnostic {
+    let lumped = ImportOptions {
+        mass: Some(structure::MassDistribution::Lumped),
+        ..options.clone()
+    };
+    let of_deck = read_deck(path, open, &lumped, &mut ImportFindings::default());
+    let of_deck = of_deck.ok().and_then(|mut own| {
+        // the members and points are the same
+        own.up = structure.up;
+        own.supports.clone_from(&structure.supports);
+        own.rails.clone_from(&structure.rails);
+        lowest_frequency(&own)
+    });
+    let mut message =
+        "the mass of beams acts along them, that of the deck at their ends".to_owned();
+    if let (Some(own), Some(of_deck)) = (lowest_frequency(structure), of_deck) {
+        let hertz = |frequency: f64| number(rounded(frequency, 4));
+        message += &format!(
+            ": the lowest natural frequency is {} Hz, with the masses of the deck {} Hz",
+            hertz(own),
+            hertz(of_deck)
+        );
+    }
+    let hint = "use --mass lumped for the masses of the deck; the beams then have no weight between their ends";
+    Diagnostic::of_file(path.display().to_string(), message).hint(hint)
 }
 
 /// Adds the supports and rails that the user requested.
@@ -304,7 +349,7 @@ fn read_input(
     let length = options.length.unwrap_or(Length::Metre);
     let result = match (&options.sections, options.force) {
         (Some(source), _) => {
-            let sections = msh::Sections::read(source)?;
+            let sections = SectionFile::read(source)?;
             let to = sections.units;
             let factor = Scale {
                 from: Units { length, ..to },
@@ -391,7 +436,7 @@ fn read_mesh(
         );
         let hint = format!(
             "a JSON file of format {} with units, materials, and sections named after the physical groups",
-            msh::FORMAT
+            SECTIONS_FORMAT
         );
         wrong.push(missing.hint(hint));
     }
@@ -409,7 +454,7 @@ fn read_mesh(
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    let sections = msh::Sections::read(source)?;
+    let sections = SectionFile::read(source)?;
     let bytes = open(path).map_err(|error| unreadable(path, &error))?;
     findings.files.push(name.clone());
     let to = sections.units;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::structure::{ImportedRail, ImportedStructure};
+use super::structure::{ImportedMember, ImportedRail, ImportedStructure};
 use formats::vector::{dot, length, minus, parallel, unit};
 
 /// A request for a rail, parsed from `NAME=12,23,30-35` or `NAME=SET`, optionally followed by `/offset=X,Y,Z` and
@@ -134,6 +134,18 @@ pub fn rail_along_members(
     })?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {
+        let ImportedMember { id, section, .. } = &structure.members[member];
+        let section = structure.sections.get(*section);
+        if let Some(section) = section.filter(|section| !section.missing.is_empty()) {
+            let missing = section.missing.join(" and no ");
+            return Err([
+                format!(
+                    "must not contain element {id}, because its section {} has no {missing}",
+                    section.name
+                ),
+                "specify it: wheels load members between their ends".to_owned(),
+            ]);
+        }
         let [a, b] = structure.ends(member);
         if dot(minus(b, a), axis).abs() <= 1e-9 * length(minus(b, a)) {
             let id = structure.members[member].id;

@@ -1,7 +1,7 @@
 //! Structure read from a model of any format, before it is written as a beam spec.
 
 use formats::limits::MAGNITUDES;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fea::MemberKind;
 use formats::units::Units;
@@ -47,6 +47,9 @@ pub struct ImportedSection {
     pub shear_y: Option<f64>,
     /// Effective shear area along z; `None` means rigid in shear.
     pub shear_z: Option<f64>,
+    /// What its file states no value of, so that it has a placeholder here. Its members are released accordingly, and must
+    /// not be loaded between their ends.
+    pub missing: Vec<&'static str>,
 }
 
 /// A member.
@@ -135,6 +138,15 @@ pub struct ImportedRail {
     pub stations: Vec<f64>,
 }
 
+/// Materials and sections in the words of a beam spec and in the units of the structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrittenTables {
+    /// `materials` of the spec.
+    pub materials: serde_json::Value,
+    /// `sections` of the spec.
+    pub sections: serde_json::Value,
+}
+
 /// A structure with all data that a beam spec in the general form can describe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedStructure {
@@ -150,6 +162,8 @@ pub struct ImportedStructure {
     pub materials: Vec<ImportedMaterial>,
     /// Sections.
     pub sections: Vec<ImportedSection>,
+    /// Materials and sections of a file of sections, which are written in place of the others.
+    pub written: Option<WrittenTables>,
     /// Members.
     pub members: Vec<ImportedMember>,
     /// Restrained degrees of freedom of each supported point.
@@ -166,6 +180,8 @@ pub struct ImportedStructure {
     pub cell_sets: Vec<(String, Vec<usize>)>,
     /// Rails.
     pub rails: Vec<ImportedRail>,
+    /// Whether beams have their mass along them although that of the model is at their ends.
+    pub moves_mass: bool,
 }
 
 impl ImportedStructure {
@@ -179,6 +195,7 @@ impl ImportedStructure {
             points: Vec::new(),
             materials: Vec::new(),
             sections: Vec::new(),
+            written: None,
             members: Vec::new(),
             supports: BTreeMap::new(),
             springs: Vec::new(),
@@ -187,7 +204,25 @@ impl ImportedStructure {
             point_sets: Vec::new(),
             cell_sets: Vec::new(),
             rails: Vec::new(),
+            moves_mass: false,
         }
+    }
+
+    /// Whether a beam has mass along it.
+    #[must_use]
+    pub fn has_beams_with_mass(&self) -> bool {
+        let has_mass = |name: &str| {
+            let material = self.materials.iter().find(|known| known.name == name);
+            material.is_some_and(|known| known.density.is_some())
+        };
+        let beams = self
+            .members
+            .iter()
+            .filter(|member| member.kind == MemberKind::Beam);
+        let sections: BTreeSet<usize> = beams.map(|member| member.section).collect();
+        sections
+            .into_iter()
+            .any(|index| has_mass(&self.sections[index].material))
     }
 
     /// Coordinates of the flexible ends of a member: its points with their offsets.

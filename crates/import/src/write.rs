@@ -65,11 +65,15 @@ pub fn write(structure: &ImportedStructure) -> String {
             .map(|(name, set)| (name.clone(), json!([set])))
             .collect(),
     );
-    put(
-        "materials",
-        structure.materials.iter().map(material).collect(),
-    );
-    put("sections", structure.sections.iter().map(section).collect());
+    let (materials, sections) = match &structure.written {
+        Some(written) => (written.materials.clone(), written.sections.clone()),
+        None => (
+            structure.materials.iter().map(material).collect(),
+            structure.sections.iter().map(section).collect(),
+        ),
+    };
+    put("materials", materials);
+    put("sections", sections);
     put(
         "supports",
         structure

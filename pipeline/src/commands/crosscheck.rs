@@ -104,7 +104,7 @@ type Grids = Vec<(GridBlock, PlainGrid)>;
 
 impl<'a> Check<'a> {
     fn new(source: &'a Source, spec: Spec) -> Result<Self, Failure> {
-        let raw = serde_json::from_str(source.text.trim_start_matches('\u{feff}'))
+        let raw = serde_json::from_str(&source.text)
             .map_err(|error| Diagnostic::of_file(&source.name, error.to_string()))?;
         let raw = crosscheck::in_numbers(raw, &spec);
         Ok(Check {

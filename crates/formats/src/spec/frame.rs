@@ -65,10 +65,10 @@ pub(super) fn read(
             .faults
             .add(fault.hint("in the general form each rail has its own `stations`"));
     }
-    let sections = sections::read(raw, root, &mut model, check);
+    let sections = sections::read(raw.tables(), root, &mut model, check);
     let cells = members::read(raw, root, &sections, &mut model, check);
     if cells.complete {
-        sections::check_complete(raw, root, &model, &cells.tapers, check);
+        sections::check_complete(raw.tables(), root, &model, &cells.tapers, "", check);
     }
     let point_sets = read_sets(raw, root, &model, check);
     let known = Points {
@@ -81,7 +81,7 @@ pub(super) fn read(
     read_masses(raw, root, &known, &mut model, check);
     let preload = preload::read(raw, root, None, &known, has_mass(&model), check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
-    let points = stress::of_sections(raw, root, check);
+    let points = stress::of_sections(raw.tables(), root, check);
     // a tapered cell has no section of the file between its ends, and therefore no stress points
     let points_of = |member: usize| -> Vec<StressPoint> {
         let uniform = cells.tapers.get(member).is_some_and(Option::is_none);

@@ -3,7 +3,7 @@
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
 //! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`, `incomplete`); the checked [`Spec`] (`structure`); the readers of the general form
-//! (`frame`), of the `preload`, and of specs (`read`); and results derived from a spec: names of supported points
+//! (`frame`), of the `preload`, and of specs (`read`); files of sections alone (`section_file`); and results derived from a spec: names of supported points
 //! (`grounds`), spans of rails (`spans`), the state of a preload (`loaded`), places of solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
 mod block;
@@ -28,6 +28,7 @@ mod raw;
 mod read;
 mod references;
 mod rolled;
+mod section_file;
 mod sections;
 mod shape;
 mod spans;
@@ -51,6 +52,7 @@ pub use outline::{
 pub use preload::SpecPreload;
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
+pub use section_file::{SECTIONS_FORMAT, SectionFile, SectionGroup};
 pub use stress::{Detail, StressPoint};
 pub use structure::{Form, FrameSpec, GIRDER_RAIL, RailOutline, Spec};
 pub use words::{COMPONENTS, THEORIES, theory_word};

@@ -2,7 +2,7 @@
 
 use sections::{RailProfile, SectionDimensions, crane_rail, rolled};
 
-use super::raw::{RawGirder, RawSection, RawSectionShape, RawSpec};
+use super::raw::{RawGirder, RawSection, RawSectionShape, RawSpec, SectionTables};
 use super::shape::{self, Kind};
 use crate::check::Check;
 use crate::text::place::Place;
@@ -175,13 +175,13 @@ pub(super) fn girder_shape(raw: &RawGirder, scale: &Scale) -> Option<OutlineShap
 
 /// The outlines of the sections of the general form, in their order.
 pub(super) fn of_sections(
-    raw: &RawSpec,
+    tables: SectionTables<'_>,
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<SectionOutline> {
     let list = root.key("materials");
     let mut strengths = Vec::new();
-    for (index, material) in raw.materials.iter().flatten().enumerate() {
+    for (index, material) in tables.materials.iter().flatten().enumerate() {
         let at = list.index(index);
         let fy = check.optional_positive(
             material.fy,
@@ -218,7 +218,7 @@ pub(super) fn of_sections(
             yield_strength: strength.and_then(|(_, fy)| *fy),
         }
     };
-    raw.sections.iter().flatten().map(outline).collect()
+    tables.sections.iter().flatten().map(outline).collect()
 }
 
 /// The crane rails of a spec without faults, by rail.

@@ -83,6 +83,23 @@ pub(crate) struct RawSpec {
     pub preload: Option<RawPreload>,
 }
 
+/// The materials and sections of a file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SectionTables<'r> {
+    pub materials: &'r Option<Vec<RawMaterial>>,
+    pub sections: &'r Option<Vec<RawSection>>,
+}
+
+impl RawSpec {
+    /// Its materials and sections.
+    pub(super) fn tables(&self) -> SectionTables<'_> {
+        SectionTables {
+            materials: &self.materials,
+            sections: &self.sections,
+        }
+    }
+}
+
 /// Permanent loads under which the structure is at rest.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]

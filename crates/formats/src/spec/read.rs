@@ -89,7 +89,7 @@ impl Spec {
         let name = raw.name.clone().unwrap_or_else(|| stem(file));
         let outlines = match &raw.girder {
             Some(girder) => vec![outline::of_girder(girder, &root.key("girder"), &mut check)],
-            None => outline::of_sections(raw, &root, &mut check),
+            None => outline::of_sections(raw.tables(), &root, &mut check),
         };
         let (notes, incomplete) = if check.faults.0.is_empty() {
             (notes::of(raw, from), incomplete::of(raw, &form, from))

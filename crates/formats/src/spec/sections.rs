@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fea::{BeamTheory, CrossSection, MemberKind, Model, Taper};
 
-use super::raw::{RawMaterial, RawSection, RawSpec};
+use super::raw::{RawMaterial, RawSection, SectionTables};
 use crate::check::Check;
 use crate::text::fault::{Fault, nearest};
 use crate::text::place::Place;
@@ -19,7 +19,7 @@ struct Material {
 
 /// Reads materials and sections into the model and returns the names of the sections.
 pub(super) fn read(
-    raw: &RawSpec,
+    tables: SectionTables<'_>,
     root: &Place<'_>,
     model: &mut Model,
     check: &mut Check<'_>,
@@ -28,7 +28,7 @@ pub(super) fn read(
     let list = root.key("materials");
     for (index, raw) in check
         .faults
-        .require(&raw.materials, root, "materials")
+        .require(tables.materials, root, "materials")
         .into_iter()
         .flatten()
         .enumerate()
@@ -49,7 +49,7 @@ pub(super) fn read(
     let mut names: Vec<String> = Vec::new();
     for (index, raw) in check
         .faults
-        .require(&raw.sections, root, "sections")
+        .require(tables.sections, root, "sections")
         .into_iter()
         .flatten()
         .enumerate()
@@ -146,18 +146,20 @@ fn read_section(
 
 /// Checks that sections have the properties that their members require: an area, for rods also a torsion constant, and
 /// for beams the second moments of area and a torsion constant, which may be 0. Sections that no member uses are not checked.
+/// `advice` follows the hint that beams use a section.
 pub(super) fn check_complete(
-    raw: &RawSpec,
+    tables: SectionTables<'_>,
     root: &Place<'_>,
     model: &Model,
     tapers: &[Option<Taper>],
+    advice: &str,
     check: &mut Check<'_>,
 ) {
     let list = root.key("sections");
     for (index, (section, raw)) in model
         .sections
         .iter()
-        .zip(raw.sections.iter().flatten())
+        .zip(tables.sections.iter().flatten())
         .enumerate()
     {
         let at = list.index(index);
@@ -179,15 +181,14 @@ pub(super) fn check_complete(
                 && raw.shape.is_none()
                 && (beams || key == "A" || (rods && key == "J"))
             {
-                let user = match (beams, rods) {
-                    (true, _) => "beams",
-                    (false, true) => "rods",
-                    (false, false) => "members",
+                let user: String = match (beams, rods) {
+                    (true, _) => format!("beams use this section{advice}"),
+                    (false, true) => "rods use this section".to_owned(),
+                    (false, false) => "members use this section".to_owned(),
                 };
-                check.faults.add(
-                    Fault::new(&at, format!("missing key `{key}`"))
-                        .hint(format!("{user} use this section")),
-                );
+                check
+                    .faults
+                    .add(Fault::new(&at, format!("missing key `{key}`")).hint(user));
             }
         }
         let sheared = model.theory == BeamTheory::Timoshenko

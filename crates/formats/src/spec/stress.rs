@@ -3,7 +3,7 @@
 use practice::aisc::AiscCategory;
 use practice::fatigue::CATEGORIES;
 
-use super::raw::{RawDetail, RawPoint, RawSpec};
+use super::raw::{RawDetail, RawPoint, SectionTables};
 use super::words::COMPONENTS;
 use crate::check::Check;
 use crate::text::fault::{Fault, alternatives, number};
@@ -48,12 +48,12 @@ impl Detail {
 
 /// Stress points of every section of the general form.
 pub(super) fn of_sections(
-    raw: &RawSpec,
+    tables: SectionTables<'_>,
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<Vec<StressPoint>> {
     let list = root.key("sections");
-    let all = raw.sections.iter().flatten().enumerate();
+    let all = tables.sections.iter().flatten().enumerate();
     all.map(|(index, section)| read(&section.points, &list.index(index), check))
         .collect()
 }

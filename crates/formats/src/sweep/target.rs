@@ -1,7 +1,7 @@
 //! The files of a scene or design as texts in which values are replaced.
 
 use crate::text::inputs::Inputs;
-use crate::text::source::Source;
+use crate::text::source::{Source, without_mark};
 use crate::text::tree::{TreeNode, Value};
 
 use super::axis_value::AxisValue;
@@ -59,7 +59,8 @@ impl SweepTarget {
                 continue;
             }
             own.sort_by_key(|(place, _)| place.start);
-            let old = &self.inputs.all()[file].bytes;
+            // places count from the beginning of the text
+            let old = without_mark(&self.inputs.all()[file].bytes);
             let mut new = Vec::with_capacity(old.len() + 24 * own.len());
             let mut from = 0;
             for (place, value) in own {

@@ -12,7 +12,7 @@ use super::parsed::Parsed;
 use super::set::{Table, TableSet};
 use super::{adm, csv, json, npz, view};
 use crate::text::diagnostic::Diagnostic;
-use crate::text::source::Source;
+use crate::text::source::{Source, without_mark};
 use crate::units::Units;
 
 /// A format of tables.
@@ -179,7 +179,9 @@ pub fn is_tables(name: &str, bytes: &[u8]) -> bool {
     }
     match TableFormat::of(name) {
         Ok(TableFormat::Json) => {
-            serde_json::from_slice(bytes).is_ok_and(|members: Members| match &members.format {
+            serde_json::from_slice(without_mark(bytes)).is_ok_and(|members: Members| match &members
+                .format
+            {
                 Some(format) => format == json::FORMAT,
                 None => members.tables.is_some() || members.values.is_some(),
             })

@@ -35,13 +35,33 @@ pub struct Source {
     pub text: String,
 }
 
+/// The mark with which some editors begin a file of UTF-8 text. It is no part of the text.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// The bytes of a file without the byte order mark at their beginning.
+///
+/// ```
+/// use formats::text::source::without_mark;
+///
+/// assert_eq!(without_mark(b"\xef\xbb\xbf{}"), b"{}");
+/// assert_eq!(without_mark(b"{}"), b"{}");
+/// ```
+#[must_use]
+pub fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
 impl Source {
-    /// Makes a source of the bytes of a file.
+    /// Makes a source of the bytes of a file, without a byte order mark.
     ///
     /// # Errors
     /// Bytes that are not UTF-8, with their line and column.
-    pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, Box<Diagnostic>> {
+    pub fn from_bytes(
+        name: impl Into<String>,
+        mut bytes: Vec<u8>,
+    ) -> Result<Source, Box<Diagnostic>> {
         let name = name.into();
+        bytes.drain(..bytes.len() - without_mark(&bytes).len());
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Source { name, text }),
             Err(error) => {

@@ -280,10 +280,6 @@ pub(super) fn syntax(message: &str, text: &str, offset: usize) -> (String, Optio
             Some("a JSON object is needed".to_owned()),
         );
     }
-    if text.starts_with('\u{feff}') {
-        let hint = "the file begins with a byte order mark: save it as UTF-8 without one";
-        return ("not valid JSON".to_owned(), Some(hint.to_owned()));
-    }
     if message == "number out of range" {
         let hint = "the largest number in double precision is 1.8e308";
         return ("the number is too large".to_owned(), Some(hint.to_owned()));

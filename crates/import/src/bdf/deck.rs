@@ -13,7 +13,7 @@ use super::lump::{self, MassCard, SpringCard};
 use super::material::{MaterialCard, material};
 use super::property::{self, Property};
 use super::rigid::{self, Rigid};
-use super::roles::{CardRole, advice, role};
+use super::roles::{CardRole, advice, has_mass, role};
 use super::support::{self, SupportCard};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
@@ -121,10 +121,12 @@ impl BulkDeck {
             ));
         }
         for (name, (at, number)) in unused {
-            let message = format!(
-                "is ignored ({}): it does not affect the stiffness",
-                cards_of(number)
-            );
+            let effect = if has_mass(name) {
+                "its mass is missing in natural frequencies, weight and inertia forces"
+            } else {
+                "it does not affect the stiffness"
+            };
+            let message = format!("is ignored ({}): {effect}", cards_of(number));
             findings.warn(ImportFinding::new(at, name, message));
         }
         for (name, (at, number)) in unknown {

@@ -1,6 +1,7 @@
 //! Access to the fields of a card by number, with checks of their types.
 
-use super::card::{Card, CardField};
+use super::card::Card;
+use super::divide::CardField;
 use super::field::{Number, freedoms, number};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::limits::MAGNITUDES;
@@ -24,10 +25,10 @@ static BLANK: CardField = CardField {
     text: String::new(),
 };
 
-/// Returns the text with every character other than printable ASCII escaped as `\u{...}`.
+/// Returns the text with every character other than printable ASCII and blanks escaped as `\u{...}`.
 fn ascii(text: &str) -> String {
     let escape = |c: char| {
-        if c.is_ascii_graphic() {
+        if c.is_ascii_graphic() || c == ' ' {
             c.to_string()
         } else {
             c.escape_unicode().to_string()

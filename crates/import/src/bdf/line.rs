@@ -60,6 +60,10 @@ impl Reader<'_> {
                 gap |= raw.trim().is_empty();
                 continue;
             }
+            // some decks separate parts by lines of this sign
+            if text.chars().all(|c| matches!(c, '&' | ' ' | '\t')) {
+                continue;
+            }
             if let Some(name) = included(text) {
                 self.include(name, at, findings);
             } else if text

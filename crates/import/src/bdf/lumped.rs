@@ -82,7 +82,7 @@ pub fn add(
     let first = masses.iter().find(|mass| mass.per_length > 0.0);
     if let Some(first) = first {
         let of_rods = "the mass of rods and tubes is lumped at their ends, as in NASTRAN unless PARAM COUPMASS is \
-                       positive; the mass of beams is distributed";
+                       positive";
         let of_all = "the mass of elements is lumped at their ends, as in NASTRAN unless PARAM COUPMASS is positive";
         let message = if mass == MassDistribution::LumpedRods {
             of_rods

@@ -131,7 +131,7 @@ impl<'d> Resolver<'d, '_> {
                 .error(finding.hint("its ends, including offsets, coincide"));
             return None;
         }
-        let bends = property.bending[0] > 0.0;
+        let bends = property.bends();
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
             let hint = "X1, X2, X3 or G0 defines the local x-y plane of the element";
             let finding = match element.orientation_default {
@@ -159,6 +159,7 @@ impl<'d> Resolver<'d, '_> {
             releases: element.pins,
         };
         use_kind_of(property, &mut member);
+        release_what_is_missing(property, &mut member);
         let bar = self.adapt(property, element.card, &about, along, &mut member)?;
         self.structure.members.push(member);
         let is_lumped = is_lumped(self.asked.mass, property);
@@ -301,7 +302,7 @@ impl<'d> Resolver<'d, '_> {
 /// The kind of a member with the stiffnesses of its property: without bending stiffness it is a rod, and without
 /// torsional stiffness as well a truss. A member with bending stiffness only is a beam whose section has the J 0.
 fn use_kind_of(property: &Property, member: &mut ImportedMember) {
-    if property.bending[0] > 0.0 {
+    if property.bends() {
         return;
     }
     // releases of what the member does not resist have no effect
@@ -318,4 +319,22 @@ fn use_kind_of(property: &Property, member: &mut ImportedMember) {
         }
     }
     member.orientation = None;
+}
+
+/// Releases a member where its property has no stiffness: along its axis at one end, and in a plane in which it does not
+/// bend by hinges at both ends, which transmit no shear force then.
+fn release_what_is_missing(property: &Property, member: &mut ImportedMember) {
+    if property.area == 0.0 {
+        member.releases[0][Dof::Ux as usize] = false;
+        member.releases[1][Dof::Ux as usize] = true;
+    }
+    let planes = [(Dof::Uy, Dof::Rz), (Dof::Uz, Dof::Ry)];
+    for ((across, turn), second_moment) in planes.into_iter().zip(property.bending) {
+        if property.bends() && second_moment == 0.0 {
+            for pins in &mut member.releases {
+                pins[across as usize] = false;
+                pins[turn as usize] = true;
+            }
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! NASTRAN bulk data: beams, bars and rods with their sections, supports, springs, rigid links and masses.
 //!
-//! A deck is read in four stages: `line` joins the files of a deck, `card` divides lines into cards and fields,
-//! `deck` sorts the cards by type (one file for each group of cards), and `resolve` replaces references by indices
-//! into a structure.
+//! A deck is read in four stages: `line` joins the files of a deck, `card` joins lines to cards (after `divide` has
+//! divided them into fields and `replication` has written out those that repeat others), `deck` sorts the cards by type
+//! (one file for each group of cards), and `resolve` replaces references by indices into a structure.
 //!
 //! # Source
 //! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
@@ -10,6 +10,7 @@
 mod card;
 mod coordinates;
 mod deck;
+mod divide;
 mod element;
 mod field;
 mod fields;
@@ -21,6 +22,7 @@ mod material;
 mod member;
 mod place;
 mod property;
+mod replication;
 mod resolve;
 mod rigid;
 mod roles;
@@ -66,6 +68,7 @@ pub fn read(
     let asked = resolve::Asked {
         spc,
         mass: mass.unwrap_or(of_deck),
+        moves_mass: mass.is_none() && !deck.coupled_mass,
         unused: omit.unused,
     };
     Ok(resolve::resolve(&deck, empty, asked, findings))

@@ -19,9 +19,10 @@ pub struct Property {
     pub kind: String,
     /// Number of its material.
     pub material: u64,
-    /// Area.
+    /// Area; 0 for a bar without axial stiffness.
     pub area: f64,
-    /// Second moments of area for bending in planes 1 and 2; zero for rods.
+    /// Second moments of area for bending in planes 1 and 2; both are 0 for rods, one for a bar that bends in the other
+    /// plane alone.
     pub bending: [f64; 2],
     /// Torsion constant.
     pub j: f64,
@@ -36,6 +37,40 @@ pub struct Property {
     pub neutral: [f64; 2],
     /// Property at end B of a tapered beam, whose properties vary linearly between the ends; `None` if uniform.
     pub end: Option<Box<Property>>,
+}
+
+impl Property {
+    /// Whether it resists bending in any plane.
+    #[must_use]
+    pub fn bends(&self) -> bool {
+        self.bending
+            .iter()
+            .any(|second_moment| *second_moment > 0.0)
+    }
+
+    /// Its area, or a placeholder of the same order for a bar without axial stiffness.
+    #[must_use]
+    pub fn area_or_placeholder(&self) -> f64 {
+        if self.area > 0.0 {
+            self.area
+        } else {
+            self.bending.iter().copied().fold(self.j, f64::max).sqrt()
+        }
+    }
+
+    /// Fields of its card without which its members have no axial stiffness, or none to bending in one plane.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&'static str> {
+        let [i1, i2] = self.bending.map(|second_moment| second_moment == 0.0);
+        let bends = self.bends();
+        let fields = [
+            ("A", self.area == 0.0),
+            ("I1", bends && i1),
+            ("I2", bends && i2),
+        ];
+        let missing = fields.into_iter().filter(|(_, is_missing)| *is_missing);
+        missing.map(|(name, _)| name).collect()
+    }
 }
 
 const NO_PRODUCT: &str =
@@ -142,7 +177,7 @@ pub fn positive(card: &mut CardFields<'_, '_>, index: usize, name: &str) -> Opti
 pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
-    let area = positive(card, 3, "A");
+    let area = card.not_negative(3, "A");
     let bending = [(4, "I1"), (5, "I2")].map(|(index, name)| card.not_negative(index, name));
     let j = card.not_negative(6, "J");
     let nsm = card.not_negative(7, "NSM");
@@ -168,7 +203,11 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     if product != 0.0 && !turned(card, 19, product, &mut property) {
         return None;
     }
-    whole(card, &property).then_some((id, property))
+    if property.area == 0.0 && !property.bends() && property.j == 0.0 {
+        card.refuse(3, "A", "must be positive if I1, I2 and J are 0", "");
+        return None;
+    }
+    Some((id, property))
 }
 
 /// Replaces second moments with a product of inertia by the principal ones. Returns false, with an error, if this is
@@ -196,11 +235,11 @@ fn turned(
     true
 }
 
-/// Checks that a bar has bending stiffness in both planes or in none.
+/// Checks that a beam has bending stiffness in both planes or in none.
 fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
     let hint =
-        "specify both second moments of area, or neither for a bar without bending stiffness";
+        "specify both second moments of area, or neither for a beam without bending stiffness";
     if i1 != i2 {
         let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
         card.refuse(

@@ -38,6 +38,8 @@ pub struct Asked {
     pub spc: Option<u64>,
     /// Where the mass of elements acts.
     pub mass: MassDistribution,
+    /// Whether the mass of beams acts elsewhere than in the deck, although the user did not ask for it.
+    pub moves_mass: bool,
     /// Whether what cannot change the stiffness is left out.
     pub unused: bool,
 }
@@ -96,7 +98,9 @@ pub fn resolve(
         );
     }
     resolver.sets();
-    resolver.structure
+    let mut structure = resolver.structure;
+    structure.moves_mass = asked.moves_mass && structure.has_beams_with_mass();
+    structure
 }
 
 impl<'d> Resolver<'d, '_> {

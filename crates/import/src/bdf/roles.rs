@@ -81,6 +81,12 @@ pub fn role(name: &str) -> Option<CardRole> {
     }
 }
 
+/// Whether a card that may be left out has mass, so that its omission changes natural frequencies and inertia.
+#[must_use]
+pub fn has_mass(name: &str) -> bool {
+    matches!(name, "CONM1" | "CMASS1" | "CMASS2" | "CMASS3" | "CMASS4")
+}
+
 /// Advice for a card that is refused: what the reader supports instead.
 #[must_use]
 pub fn advice(name: &str) -> &'static str {

@@ -98,14 +98,15 @@ impl SectionTable {
         let wtmass = deck.wtmass.unwrap_or(1.0);
         let mut density = known.density * wtmass;
         let mut material = format!("MAT1 {}", property.material);
-        if is_lumped(self.mass, property) {
+        let is_lumped = is_lumped(self.mass, property);
+        if is_lumped || property.area == 0.0 {
             density = 0.0;
-            if self.mass == MassDistribution::LumpedRods && known.density > 0.0 {
-                material += " without mass";
-            }
-        } else if property.nsm > 0.0 {
-            density += property.nsm * wtmass / property.area;
+        }
+        if !is_lumped && property.nsm > 0.0 {
+            density += property.nsm * wtmass / property.area_or_placeholder();
             material = format!("{material} and NSM of {name}");
+        } else if density == 0.0 && known.density > 0.0 && self.mass != MassDistribution::Lumped {
+            material += " without mass";
         }
         if !density.is_finite() {
             let expected = "must have a mass within the range of double precision";
@@ -191,7 +192,7 @@ fn material_of<'d>(
         findings.error(finding.with_found(property.material));
         return None;
     };
-    let is_shear_flexible = property.bending[0] > 0.0 && property.shear.iter().any(|k| *k > 0.0);
+    let is_shear_flexible = property.bends() && property.shear.iter().any(|k| *k > 0.0);
     if material.g.is_none() && (property.j > 0.0 || is_shear_flexible) {
         let expected = format!("is missing, but {name} of {about} requires it");
         let finding = ImportFinding::new(
@@ -205,9 +206,21 @@ fn material_of<'d>(
     Some(material)
 }
 
-/// Adds warnings for a missing torsional stiffness and for a tapered property.
+/// Adds warnings for missing stiffnesses and for a tapered property.
 fn warn_of_conversions(property: &Property, name: &str, findings: &mut ImportFindings) {
-    if property.bending[0] > 0.0 && property.j == 0.0 {
+    for field in property.missing() {
+        let lost = match field {
+            "A" => "axial stiffness",
+            "I1" => "bending stiffness in plane 1",
+            _ => "bending stiffness in plane 2",
+        };
+        let expected = format!("has no {field}: its members have no {lost}");
+        let finding = ImportFinding::new(property.card, name, expected);
+        findings.warn(finding.hint(
+            "what they do not resist must be held by supports or other members at their points",
+        ));
+    }
+    if property.bends() && property.j == 0.0 {
         let expected = "has no J: its members have no torsional stiffness";
         let finding = ImportFinding::new(property.card, name, expected);
         findings.warn(
@@ -226,19 +239,27 @@ fn warn_of_conversions(property: &Property, name: &str, findings: &mut ImportFin
 }
 
 /// Converts a property to a section. Rods have no second moments; the J of a bar without torsional stiffness is 0.
+///
+/// A section of a beam must have an area and both second moments. Where the property has none, there is a placeholder of
+/// the same order, which has no effect because the members are released accordingly.
 fn section_of(property: &Property, name: String, material: String) -> ImportedSection {
     let [i1, i2] = property.bending;
-    let bends = i1 > 0.0;
-    let bending = |i: f64| bends.then_some(i);
-    let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
+    let bends = property.bends();
+    let bending = |own: f64, other: f64| bends.then_some(if own > 0.0 { own } else { other });
+    let shear = |plane: usize| {
+        let [own, k] = [property.bending[plane], property.shear[plane]];
+        let area = k * property.area;
+        (own > 0.0 && area > 0.0).then_some(area)
+    };
     ImportedSection {
         name,
         material,
-        area: Some(property.area),
-        iy: bending(i2),
-        iz: bending(i1),
+        area: Some(property.area_or_placeholder()),
+        iy: bending(i2, i1),
+        iz: bending(i1, i2),
         j: (bends || property.j > 0.0).then_some(property.j),
-        shear_y: shear(property.shear[0]),
-        shear_z: shear(property.shear[1]),
+        shear_y: shear(0),
+        shear_z: shear(1),
+        missing: property.missing(),
     }
 }

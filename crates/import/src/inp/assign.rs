@@ -23,6 +23,19 @@ impl Resolver<'_, '_> {
                 &about,
                 self.findings,
             );
+            // CalculiX has no circles in beams of two nodes
+            let is_of_either = |number: &u64| {
+                let element = model.elements.get(number);
+                element.is_some_and(|element| element.middle.is_some())
+            };
+            if section.is_unclear_circle && elements.iter().any(is_of_either) {
+                let about = format!("{}: SECTION", section.label);
+                let expected = "must not be CIRC, because its dimension is the radius in Abaqus and the diameter in \
+                                CalculiX, and the file is of either";
+                let hint = "change the type of its elements to B32R in a file of CalculiX, B32H in one of Abaqus";
+                let finding = ImportFinding::new(section.set.at, about, expected);
+                self.findings.error(finding.hint(hint));
+            }
             let is_cubic = |number: &u64| {
                 let kind = model.elements.get(number).map(|element| element.kind);
                 kind == Some(InpKind::Beam { sheared: false })
@@ -78,6 +91,7 @@ impl Resolver<'_, '_> {
                 j: beam(numbers.j),
                 shear_y: beam(1.0).and(shear_y),
                 shear_z: beam(1.0).and(shear_z),
+                missing: Vec::new(),
             });
             for number in elements {
                 if self.section_of.insert(number, [index, place]).is_some() {

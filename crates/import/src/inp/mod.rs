@@ -27,8 +27,9 @@ use std::path::Path;
 use super::bdf::Omissions;
 use super::findings::{ImportFinding, ImportFindings};
 use super::includes::OpenFile;
-use super::msh::{Mesh, Sections, structure_of};
+use super::msh::{Mesh, MeshLine, structure_of};
 use super::structure::ImportedStructure;
+use formats::spec::SectionFile;
 use model::{InpKind, InpModel};
 
 /// Reads a file into `empty`, a structure that has a name, units and the upward direction only. `omit` states what is
@@ -72,7 +73,7 @@ pub fn read_mesh(
     path: &Path,
     open: OpenFile<'_>,
     factor: f64,
-    groups: &Sections,
+    groups: &SectionFile,
     empty: ImportedStructure,
     omit: Omissions<'_>,
     findings: &mut ImportFindings,
@@ -99,7 +100,13 @@ pub fn read_mesh(
         if let (InpKind::Beam { .. } | InpKind::Truss, [a, b, ..]) =
             (element.kind, element.nodes.as_slice())
         {
-            mesh.lines.insert(number, (number, [*a, *b], element.at));
+            let line = MeshLine {
+                curve: number,
+                ends: [*a, *b],
+                middle: element.middle,
+                at: element.at,
+            };
+            mesh.lines.insert(number, line);
         }
     }
     for (group, set) in (1..).zip(model.element_sets.iter()) {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::keyword::{InpField, KeywordBlock};
 use super::roles::{KeywordRole, advice, role};
-use super::section::{self, InpSection};
+use super::section::{self, InpOrigin, InpSection};
 use super::sets::InpSets;
 use super::values::{key_of, positive, real, vector, whole};
 use crate::bdf::Omissions;
@@ -35,8 +35,10 @@ pub struct InpElement {
     pub at: FilePlace,
     /// Its type.
     pub kind: InpKind,
-    /// Its nodes; a third one of a beam shows the direction of its 1-axis.
+    /// Its nodes without the middle one; a third one of a beam shows the direction of its 1-axis.
     pub nodes: Vec<u64>,
+    /// The node between its ends, of a line of second order.
+    pub middle: Option<u64>,
 }
 
 /// A material.
@@ -145,6 +147,7 @@ impl InpModel {
         findings: &mut ImportFindings,
     ) -> InpModel {
         let mut model = InpModel::default();
+        let origin = InpOrigin::of(blocks);
         let [mut left_out, mut unused, mut unknown] = [Counts::new(), Counts::new(), Counts::new()];
         let count = |counts: &mut Counts, name: &str, at: FilePlace| {
             counts.entry(name.to_owned()).or_insert((at, 0)).1 += 1;
@@ -152,7 +155,7 @@ impl InpModel {
         for block in blocks.iter().filter(|block| !omit.skips(&block.name)) {
             if block.name == "ELEMENT" {
                 model.read_elements(block, omit, &mut unknown, findings);
-            } else if !model.take(block, omit, findings) {
+            } else if !model.take(block, omit, origin, findings) {
                 match role(&block.name) {
                     Some(KeywordRole::Frame) => model.steps += usize::from(block.name == "STEP"),
                     Some(KeywordRole::Request) => count(&mut left_out, &block.label(), block.at),
@@ -201,6 +204,7 @@ impl InpModel {
         &mut self,
         block: &KeywordBlock,
         omit: Omissions<'_>,
+        origin: InpOrigin,
         findings: &mut ImportFindings,
     ) -> bool {
         match block.name.as_str() {
@@ -219,8 +223,12 @@ impl InpModel {
                 }
             }
             "ELASTIC" | "DENSITY" => self.read_material(block, findings),
-            "BEAM SECTION" => self.sections.extend(section::beam(block, false, findings)),
-            "BEAM GENERAL SECTION" => self.sections.extend(section::beam(block, true, findings)),
+            "BEAM SECTION" => self
+                .sections
+                .extend(section::beam(block, false, origin, findings)),
+            "BEAM GENERAL SECTION" => self
+                .sections
+                .extend(section::beam(block, true, origin, findings)),
             "SOLID SECTION" => self.sections.extend(section::solid(block, findings)),
             "TRANSVERSE SHEAR STIFFNESS" => self.read_shear(block, findings),
             "BOUNDARY" => self.read_boundary(block, omit, findings),
@@ -310,10 +318,17 @@ impl InpModel {
             return;
         };
         let word = word.text.to_uppercase();
+        let set = block.parameter("ELSET").map(|name| name.text.clone());
+        if let Some(set) = &set {
+            self.element_sets.define(set);
+        }
+        let sheared = InpKind::Beam { sheared: true };
         let (kind, least, most) = match word.as_str() {
-            "B31" | "B31H" => (InpKind::Beam { sheared: true }, 2, 3),
+            "B31" | "B31H" | "B31R" => (sheared, 2, 3),
+            "B32" | "B32H" | "B32R" => (sheared, 3, 4),
             "B33" | "B33H" => (InpKind::Beam { sheared: false }, 2, 3),
             "T3D2" | "T3D2H" => (InpKind::Truss, 2, 2),
+            "T3D3" | "T3D3H" => (InpKind::Truss, 3, 3),
             "SPRING1" => (InpKind::Spring, 1, 1),
             "MASS" => (InpKind::Mass, 1, 1),
             "ROTARYI" => (InpKind::Rotary, 1, 1),
@@ -324,7 +339,7 @@ impl InpModel {
                 return;
             }
         };
-        let set = block.parameter("ELSET").map(|name| name.text.clone());
+        let has_middle = word.starts_with("B32") || word.starts_with("T3D3");
         for line in &block.data {
             let Some(number) = whole(block, line, 0, "element", findings) else {
                 continue;
@@ -341,14 +356,16 @@ impl InpModel {
                     expected,
                 ));
             }
+            if nodes.len() < least {
+                continue;
+            }
+            let middle = has_middle.then(|| nodes.remove(1));
             let element = InpElement {
                 at: line[0].at,
                 kind,
                 nodes,
+                middle,
             };
-            if element.nodes.len() < least {
-                continue;
-            }
             if self.elements.insert(number, element).is_some() {
                 let finding =
                     ImportFinding::new(line[0].at, "*ELEMENT: element", "is defined twice");

@@ -8,8 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::keyword::InpField;
 use super::model::{InpElement, InpKind, InpModel, Joint};
+use super::values::number_of;
 use crate::axes::LocalAxes;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+use crate::halves::{check_straight, push_halves};
 use crate::links::{self, PartialLink};
 use crate::structure::{
     ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure, MASS_RANGE,
@@ -22,6 +24,8 @@ pub(super) struct Resolver<'m, 'f> {
     pub(super) model: &'m InpModel,
     /// Index of the point of each node that is used.
     pub(super) index: BTreeMap<u64, usize>,
+    /// Middle nodes of trusses that cannot be left out.
+    held_middles: BTreeSet<u64>,
     /// Index of the section of each element, in the structure and in the file.
     pub(super) section_of: BTreeMap<u64, [usize; 2]>,
     pub(super) structure: ImportedStructure,
@@ -37,11 +41,13 @@ pub fn resolve(
     let mut resolver = Resolver {
         model,
         index: BTreeMap::new(),
+        held_middles: BTreeSet::new(),
         section_of: BTreeMap::new(),
         structure: empty,
         findings,
     };
     resolver.points();
+    resolver.held_middles = resolver.held_middles();
     resolver.assign_sections();
     resolver.members();
     resolver.releases();
@@ -63,6 +69,11 @@ impl Resolver<'_, '_> {
                 1
             };
             used.extend(element.nodes.iter().take(count));
+            used.extend(
+                element
+                    .middle
+                    .filter(|_| matches!(element.kind, InpKind::Beam { .. })),
+            );
         }
         for joint in &model.joints {
             for target in [&joint.followers, &joint.leader] {
@@ -112,7 +123,7 @@ impl Resolver<'_, '_> {
             };
             let finding = ImportFinding::new(at, "", "contains no members");
             self.findings
-                .error(finding.hint("supported members are B31, B33 and T3D2"));
+                .error(finding.hint("supported members are B31, B32, B33, T3D2 and T3D3"));
         }
     }
 
@@ -135,6 +146,10 @@ impl Resolver<'_, '_> {
             ));
             return None;
         }
+        let middle = match element.middle {
+            Some(middle) => self.middle(middle, element, [a, b], &about)?,
+            None => None,
+        };
         let Some(&[section, place]) = self.section_of.get(&number) else {
             let finding = ImportFinding::new(element.at, "element", "must have a section");
             let hint = "assign *BEAM SECTION or *SOLID SECTION to a set that contains the element; a file without \
@@ -169,7 +184,7 @@ impl Resolver<'_, '_> {
         } else {
             section
         };
-        self.structure.members.push(ImportedMember {
+        let member = ImportedMember {
             id: number,
             points: [a, b],
             kind: if is_beam {
@@ -182,8 +197,73 @@ impl Resolver<'_, '_> {
             orientation,
             offsets: [[0.0; 3]; 2],
             releases: [[false; 6]; 2],
-        });
+        };
+        match middle {
+            Some(middle) => push_halves(&mut self.structure, member, middle),
+            None => self.structure.members.push(member),
+        }
         Some(())
+    }
+
+    /// The point at the middle node of an element between the points `ends`: `Some(None)` if it is a truss, whose middle node
+    /// is left out; `None`, with an error, if the element is not straight or something else holds the middle node of a truss.
+    fn middle(
+        &mut self,
+        node: u64,
+        element: &InpElement,
+        ends: [usize; 2],
+        about: &str,
+    ) -> Option<Option<usize>> {
+        let is_truss = element.kind == InpKind::Truss;
+        let Some(&at) = self.model.nodes.get(&node) else {
+            self.point(node, element.at, about);
+            return None;
+        };
+        let ends = ends.map(|point| self.structure.points[point].at);
+        let mut wrong = check_straight(ends, at).err();
+        if wrong.is_none() && is_truss && self.held_middles.contains(&node) {
+            let expected = "must have a middle node that nothing else uses, because it is a truss";
+            let hint = "end the element at this node";
+            wrong = Some([expected, hint].map(str::to_owned));
+        }
+        if let Some([expected, hint]) = wrong {
+            self.findings
+                .error(ImportFinding::new(element.at, about, expected).hint(hint));
+            return None;
+        }
+        if is_truss {
+            return Some(None);
+        }
+        self.point(node, element.at, about).map(Some)
+    }
+
+    /// Middle nodes of trusses at which something else acts: another element, a joint or a support.
+    fn held_middles(&self) -> BTreeSet<u64> {
+        let model = self.model;
+        let trusses = model
+            .elements
+            .values()
+            .filter(|element| element.kind == InpKind::Truss);
+        let mut middles: BTreeMap<u64, bool> = BTreeMap::new();
+        for node in trusses.filter_map(|element| element.middle) {
+            let is_used = self.index.contains_key(&node);
+            middles
+                .entry(node)
+                .and_modify(|held| *held = true)
+                .or_insert(is_used);
+        }
+        for boundary in &model.boundaries {
+            let target = &boundary.target.text;
+            let nodes = match model.node_sets.get(target) {
+                Some(set) => set.numbers(&middles),
+                None => number_of(target).into_iter().collect(),
+            };
+            for node in nodes {
+                middles.entry(node).and_modify(|held| *held = true);
+            }
+        }
+        let held = middles.into_iter().filter(|(_, held)| *held);
+        held.map(|(node, _)| node).collect()
     }
 
     /// The direction of the 1-axis of a beam: to its third node, or that of its section.
@@ -239,6 +319,15 @@ impl Resolver<'_, '_> {
                 .iter_mut()
                 .filter(|member| member.kind == MemberKind::Beam);
             for member in beams.filter(|member| numbers.contains(&member.id)) {
+                // the halves of an element have one of its ends each
+                let node = model
+                    .elements
+                    .get(&member.id)
+                    .and_then(|element| element.nodes.get(release.end));
+                let point = node.and_then(|node| self.index.get(node));
+                if point != Some(&member.points[release.end]) {
+                    continue;
+                }
                 for (dof, released) in release.release.iter().enumerate() {
                     member.releases[release.end][dof] |= released;
                 }
@@ -431,28 +520,19 @@ impl Resolver<'_, '_> {
         for (index, point) in structure.points.iter().enumerate() {
             structure.point_sets.push((point.name.clone(), vec![index]));
         }
-        let members: BTreeMap<u64, usize> = structure
-            .members
-            .iter()
-            .enumerate()
-            .map(|(index, member)| (member.id, index))
-            .collect();
-        let indices = |numbers: Vec<u64>, of: &BTreeMap<u64, usize>| {
-            numbers
-                .iter()
-                .filter_map(|number| of.get(number).copied())
-                .collect::<Vec<usize>>()
-        };
+        let mut members: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+        for (index, member) in structure.members.iter().enumerate() {
+            members.entry(member.id).or_default().push(index);
+        }
         for set in model.node_sets.iter() {
-            structure.point_sets.push((
-                set.name.clone(),
-                indices(set.numbers(&self.index), &self.index),
-            ));
+            let numbers = set.numbers(&self.index);
+            let points = numbers.iter().map(|number| self.index[number]).collect();
+            structure.point_sets.push((set.name.clone(), points));
         }
         for set in model.element_sets.iter() {
-            structure
-                .cell_sets
-                .push((set.name.clone(), indices(set.numbers(&members), &members)));
+            let numbers = set.numbers(&members);
+            let own = numbers.iter().flat_map(|number| members[number].clone());
+            structure.cell_sets.push((set.name.clone(), own.collect()));
         }
         structure.point_sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets.retain(|(_, set)| !set.is_empty());

@@ -4,9 +4,11 @@
 //! bending about the 1-axis, the integral of the square of the 2-coordinate. Areas and second moments of shapes are exact;
 //! torsion constants are those of `formats`. Shear areas are k A with the factors k of the Abaqus guide.
 //!
+//! CalculiX has the same shapes, but states the diameter of a circle where Abaqus states the radius.
+//!
 //! # Source
 //! Abaqus Analysis User's Guide, "Beam cross-section library" (dimensions) and "Choosing a beam element" (transverse
-//! shear: k = 0.85 for rectangles, 0.89 for circles, 0.53 for pipes, 0.44 for boxes and I sections, 1 for general ones).
+//! shear: k = 0.85 for rectangles, 0.89 for circles, 0.53 for pipes, 0.44 for boxes and I sections, 1 for general ones). CalculiX user's manual, *BEAM SECTION.
 
 use super::keyword::{InpField, KeywordBlock};
 use super::values::{positive, real, vector};
@@ -52,10 +54,77 @@ pub struct InpSection {
     pub numbers: SectionNumbers,
     /// Whether it belongs to beams.
     pub is_beam: bool,
+    /// Whether its dimension is a radius in Abaqus and a diameter in CalculiX, and the file does not show for which it is.
+    pub is_unclear_circle: bool,
     /// Direction of the 1-axis.
     pub n1: [f64; 3],
     /// Transverse shear stiffnesses along the 1-axis and the 2-axis, in place of k G A.
     pub shear_stiffness: Option<[f64; 2]>,
+}
+
+/// The program for which a file was written, as far as it shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InpOrigin {
+    /// CalculiX: it has types of elements or dimensions that Abaqus does not have.
+    Calculix,
+    /// Abaqus: it has parts or types of elements that CalculiX does not have.
+    Abaqus,
+    /// Either of them.
+    Unknown,
+}
+
+impl InpOrigin {
+    /// The program for which keywords were written.
+    #[must_use]
+    pub fn of(blocks: &[KeywordBlock]) -> InpOrigin {
+        let is_of_calculix = |block: &KeywordBlock| match block.name.as_str() {
+            "ELEMENT" => block
+                .parameter("TYPE")
+                .is_some_and(|kind| ["B31R", "B32R"].contains(&kind.text.to_uppercase().as_str())),
+            "BEAM SECTION" => {
+                is_circle(block) && block.data.first().is_some_and(|line| line.len() > 1)
+            }
+            _ => false,
+        };
+        let is_of_abaqus = |block: &KeywordBlock| match block.name.as_str() {
+            "PART" | "ASSEMBLY" | "PREPRINT" => true,
+            "ELEMENT" => block.parameter("TYPE").is_some_and(|kind| {
+                ["B31H", "B32H", "B33", "B33H"].contains(&kind.text.to_uppercase().as_str())
+            }),
+            _ => false,
+        };
+        if blocks.iter().any(is_of_calculix) {
+            InpOrigin::Calculix
+        } else if blocks.iter().any(is_of_abaqus) {
+            InpOrigin::Abaqus
+        } else {
+            InpOrigin::Unknown
+        }
+    }
+}
+
+/// Whether a section is a circle.
+fn is_circle(block: &KeywordBlock) -> bool {
+    block
+        .parameter("SECTION")
+        .is_some_and(|shape| shape.text.eq_ignore_ascii_case("CIRC"))
+}
+
+/// Adds an error for each parameter that moves the section or its axes.
+fn refuse_parameters(block: &KeywordBlock, findings: &mut ImportFindings) {
+    for parameter in &block.parameters {
+        let hint = match parameter.name.as_str() {
+            "OFFSET1" | "OFFSET2" if parameter.value.text.parse() != Ok(0.0) => {
+                "the nodes of beams must be on their centroidal axes"
+            }
+            "ORIENTATION" => "state the direction n1 on the second data line",
+            "NODALTHICKNESS" => "state the dimensions with the section",
+            _ => continue,
+        };
+        let about = format!("{}: {}", block.label(), parameter.name);
+        let finding = ImportFinding::new(parameter.value.at, about, "is not supported");
+        findings.error(finding.hint(hint));
+    }
 }
 
 /// Reads *SOLID SECTION, whose data line has the area of trusses.
@@ -79,6 +148,7 @@ pub fn solid(block: &KeywordBlock, findings: &mut ImportFindings) -> Option<InpS
         material: MaterialOf::Named(material),
         numbers,
         is_beam: false,
+        is_unclear_circle: false,
         n1: [0.0, 0.0, -1.0],
         shear_stiffness: None,
     })
@@ -88,8 +158,10 @@ pub fn solid(block: &KeywordBlock, findings: &mut ImportFindings) -> Option<InpS
 pub fn beam(
     block: &KeywordBlock,
     general: bool,
+    origin: InpOrigin,
     findings: &mut ImportFindings,
 ) -> Option<InpSection> {
+    refuse_parameters(block, findings);
     let set = block.required("ELSET", findings)?.clone();
     let shape = match block.parameter("SECTION") {
         Some(shape) => shape.text.to_uppercase(),
@@ -104,7 +176,7 @@ pub fn beam(
     let numbers = if general && shape == "GENERAL" {
         general_numbers(block, line(0), findings)
     } else {
-        shape_numbers(block, &shape, line(0), findings)
+        shape_numbers(block, &shape, line(0), origin, findings)
     };
     let n1 = if line(1).iter().all(|field| field.text.is_empty()) {
         Some([0.0, 0.0, -1.0])
@@ -134,6 +206,7 @@ pub fn beam(
         material,
         numbers: numbers?,
         is_beam: true,
+        is_unclear_circle: shape == "CIRC" && origin == InpOrigin::Unknown,
         n1: n1?,
         shear_stiffness: None,
     })
@@ -175,10 +248,12 @@ fn shape_numbers(
     block: &KeywordBlock,
     shape: &str,
     line: &[InpField],
+    origin: InpOrigin,
     findings: &mut ImportFindings,
 ) -> Option<SectionNumbers> {
     let names: &[&str] = match shape {
         "RECT" => &["a", "b"],
+        "CIRC" if origin == InpOrigin::Calculix => &["d"],
         "CIRC" => &["r"],
         "PIPE" => &["r", "t"],
         "BOX" => &["a", "b", "t1", "t2", "t3", "t4"],
@@ -205,6 +280,25 @@ fn shape_numbers(
     let mut d = Vec::new();
     for (index, name) in names.iter().enumerate() {
         d.push(positive(block, line, index, name, findings)?);
+    }
+    let beyond = line.iter().skip(names.len()).find(|field| {
+        let is_same =
+            shape == "CIRC" && origin == InpOrigin::Calculix && field.text == line[0].text;
+        !field.text.is_empty() && !is_same
+    });
+    if let Some(field) = beyond {
+        let expected = if shape == "CIRC" {
+            "must have equal diameters: ellipses are not supported".to_owned()
+        } else {
+            format!("must have {} dimensions", names.len())
+        };
+        let finding = ImportFinding::new(field.at, block.label(), expected);
+        findings.error(finding.with_found(&field.text));
+        return None;
+    }
+    // CalculiX states the diameter, Abaqus the radius
+    if shape == "CIRC" && origin == InpOrigin::Calculix {
+        d[0] *= 0.5;
     }
     let mut refuse = |what: &str, expected: &str, hint: &str| {
         let at = line.first().map_or(block.at, |field| field.at);

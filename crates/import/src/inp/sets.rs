@@ -44,12 +44,18 @@ impl InpSets {
         self.add_range(name, [number, number, 1]);
     }
 
-    fn add_range(&mut self, name: &str, range: SetRange) {
+    /// The set with a name, which is made if it does not exist.
+    pub fn define(&mut self, name: &str) -> &mut InpSet {
         let set = self.sets.entry(key_of(name)).or_default();
         if set.name.is_empty() {
             name.trim().clone_into(&mut set.name);
         }
-        self.entries += usize::from(set.entries.insert(range));
+        set
+    }
+
+    fn add_range(&mut self, name: &str, range: SetRange) {
+        let is_new = self.define(name).entries.insert(range);
+        self.entries += usize::from(is_new);
     }
 
     /// Reads *NSET or *ELSET, of which `parameter` is the name of the set.
@@ -94,12 +100,7 @@ impl InpSets {
                 }
             }
         }
-        if block.data.is_empty() {
-            self.sets.entry(key_of(&name)).or_insert(InpSet {
-                name,
-                entries: BTreeSet::new(),
-            });
-        }
+        self.define(&name);
     }
 }
 

@@ -6,7 +6,9 @@
 //! states: each entry is added when its bytes have been read.
 
 use super::header::MeshVersion;
-use super::mesh::{LINE, Mesh, OtherElements, POINT, report_others, require};
+use super::mesh::{
+    LINE, LINE_OF_THREE, Mesh, MeshLine, OtherElements, POINT, SECTIONS, report_others, require,
+};
 use super::text::{LARGEST, sections};
 use super::version2::{Element2, ElementCollector};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
@@ -145,7 +147,7 @@ pub fn read(mesh: &mut Mesh, all: &[u8], version: MeshVersion, findings: &mut Im
             findings.error(finding.hint("the file is damaged; save the mesh again"));
             return;
         };
-        let result = if seen.contains(&name) {
+        let result = if SECTIONS.contains(&name.as_str()) && seen.contains(&name) {
             Err(bytes.broken("must occur only once"))
         } else {
             section(mesh, &name, &mut bytes, version, findings)
@@ -292,9 +294,18 @@ fn elements(
         for _ in 0..bytes.size()? {
             let tag = bytes.size()?;
             match kind {
-                LINE => {
-                    let ends = [bytes.size()?, bytes.size()?];
-                    mesh.add_line(entity, tag, ends, WHOLE_FILE, findings);
+                LINE | LINE_OF_THREE => {
+                    let line = MeshLine {
+                        curve: entity,
+                        ends: [bytes.size()?, bytes.size()?],
+                        middle: if kind == LINE {
+                            None
+                        } else {
+                            Some(bytes.size()?)
+                        },
+                        at: WHOLE_FILE,
+                    };
+                    mesh.add_line(tag, line, findings);
                 }
                 POINT if dimension == 0 => {
                     let node = bytes.size()?;

@@ -24,8 +24,21 @@ pub struct Mesh {
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Nodes of each entity of dimension 0.
     pub points: BTreeMap<u64, Vec<u64>>,
-    /// Curve, nodes and position of each line element, by number.
-    pub lines: BTreeMap<u64, (u64, [u64; 2], FilePlace)>,
+    /// Line elements by number.
+    pub lines: BTreeMap<u64, MeshLine>,
+}
+
+/// A line element.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshLine {
+    /// Its curve.
+    pub curve: u64,
+    /// Nodes at its ends.
+    pub ends: [u64; 2],
+    /// Node between its ends, if it has three.
+    pub middle: Option<u64>,
+    /// Its position.
+    pub at: FilePlace,
 }
 
 impl Default for Mesh {
@@ -187,12 +200,23 @@ impl Mesh {
                 let record = section.next(findings)?;
                 let tag = record.whole(0, "element", findings)?;
                 match kind {
-                    LINE => {
-                        let nodes = [
+                    LINE | LINE_OF_THREE => {
+                        let ends = [
                             record.whole(1, "node", findings)?,
                             record.whole(2, "node", findings)?,
                         ];
-                        self.add_line(entity, tag, nodes, record.at, findings);
+                        let middle = if kind == LINE {
+                            None
+                        } else {
+                            Some(record.whole(3, "node", findings)?)
+                        };
+                        let line = MeshLine {
+                            curve: entity,
+                            ends,
+                            middle,
+                            at: record.at,
+                        };
+                        self.add_line(tag, line, findings);
                     }
                     POINT if dimension == 0 => {
                         let node = record.whole(1, "node", findings)?;
@@ -215,22 +239,16 @@ impl Mesh {
     }
 
     /// Adds a line element.
-    pub(super) fn add_line(
-        &mut self,
-        curve: u64,
-        tag: u64,
-        nodes: [u64; 2],
-        at: FilePlace,
-        findings: &mut ImportFindings,
-    ) {
-        if nodes[0] == nodes[1] {
+    pub(super) fn add_line(&mut self, tag: u64, line: MeshLine, findings: &mut ImportFindings) {
+        let MeshLine { ends, at, .. } = line;
+        if ends[0] == ends[1] {
             findings.error(ImportFinding::new(
                 at,
                 format!("element {tag}"),
                 "must connect two different nodes",
             ));
         }
-        if self.lines.insert(tag, (curve, nodes, at)).is_some() {
+        if self.lines.insert(tag, line).is_some() {
             findings.error(ImportFinding::new(at, "element", "is defined twice").with_found(tag));
         }
     }
@@ -249,16 +267,15 @@ impl Mesh {
     }
 }
 
-/// Adds a warning for each type of element that is left out, and an error for lines of more than two nodes.
+/// Adds a warning for each type of element that is left out, and an error for lines of more than three nodes.
 pub(super) fn report_others(others: OtherElements, findings: &mut ImportFindings) {
     for (kind, (at, count)) in others {
         let name = kind_name(kind);
         let about = format!("elements of type {kind}");
-        if matches!(kind, 8 | 26..=28) {
-            let expected = format!("{name} are not supported: members have two nodes");
-            findings.error(
-                ImportFinding::new(at, about, expected).hint("mesh with Mesh.ElementOrder = 1"),
-            );
+        if matches!(kind, 26..=28) {
+            let expected = format!("{name} are not supported");
+            let hint = "mesh with Mesh.ElementOrder = 1 or 2";
+            findings.error(ImportFinding::new(at, about, expected).hint(hint));
         } else {
             findings.warn(ImportFinding::new(
                 at,
@@ -269,14 +286,25 @@ pub(super) fn report_others(others: OtherElements, findings: &mut ImportFindings
     }
 }
 
-/// The sections of a text, of which each may occur once; their names are added to `seen`.
+/// Sections that define the mesh, of which each may occur once. Others, such as results, may occur again and again.
+pub(super) const SECTIONS: [&str; 6] = [
+    "MeshFormat",
+    "PhysicalNames",
+    "Entities",
+    "PartitionedEntities",
+    "Nodes",
+    "Elements",
+];
+
+/// The sections of a text that define the mesh; their names are added to `seen`.
 pub(super) fn once_each<'t>(
     text: &'t str,
     seen: &mut Vec<&'t str>,
     findings: &mut ImportFindings,
 ) -> Vec<MeshBlock<'t>> {
     let mut kept = Vec::new();
-    for section in sections(text, findings) {
+    let known = |section: &MeshBlock<'_>| SECTIONS.contains(&section.name);
+    for section in sections(text, findings).into_iter().filter(known) {
         if seen.contains(&section.name) {
             let about = format!("${}", section.name);
             findings.error(ImportFinding::new(
@@ -308,6 +336,8 @@ pub(super) fn require(needed: &[&str], seen: &[&str], findings: &mut ImportFindi
 
 /// Type of lines of two nodes.
 pub(super) const LINE: u64 = 1;
+/// Type of lines of three nodes, of which the third is between the others.
+pub(super) const LINE_OF_THREE: u64 = 8;
 /// Type of points.
 pub(super) const POINT: u64 = 15;
 
@@ -319,7 +349,7 @@ const fn kind_name(kind: u64) -> &'static str {
         5 | 12 | 17 => "hexahedra",
         6 | 13 | 18 => "prisms",
         7 | 14 | 19 => "pyramids",
-        8 | 26..=28 => "lines of more than two nodes",
+        26..=28 => "lines of more than three nodes",
         15 => "points",
         _ => "elements of other kinds",
     }

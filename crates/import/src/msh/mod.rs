@@ -10,19 +10,18 @@
 mod binary;
 mod header;
 mod mesh;
-mod sections;
 mod text;
 mod version2;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use mesh::Mesh;
-pub use sections::{FORMAT, Sections};
-
 use fea::MemberKind;
+pub use mesh::{Mesh, MeshLine};
 
 use super::findings::{FilePlace, ImportFinding, ImportFindings};
-use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
+use super::halves::{check_straight, push_halves};
+use super::structure::{ImportedMember, ImportedPoint, ImportedStructure, WrittenTables};
+use formats::spec::{SectionFile, SectionGroup};
 use formats::vector::{minus, parallel};
 use header::MeshVersion;
 
@@ -32,7 +31,7 @@ use header::MeshVersion;
 pub fn read(
     bytes: &[u8],
     factor: f64,
-    groups: &Sections,
+    groups: &SectionFile,
     empty: ImportedStructure,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
@@ -48,42 +47,73 @@ pub fn read(
 pub fn structure_of(
     mesh: &Mesh,
     factor: f64,
-    groups: &Sections,
+    groups: &SectionFile,
     empty: ImportedStructure,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
     let mut structure = empty;
-    structure.materials.clone_from(&groups.materials);
-    structure.sections.clone_from(&groups.sections);
-    let index = points(mesh, factor, &mut structure);
-    let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    structure.written = Some(WrittenTables {
+        materials: groups.materials.clone(),
+        sections: groups.sections.clone(),
+    });
     // curves for which an error was added, so that each causes one error instead of one for each of its elements
     let mut reported = BTreeSet::new();
-    for (&id, &(curve, nodes, at)) in &mesh.lines {
+    let mut lines = Vec::new();
+    for (&id, line) in &mesh.lines {
+        let names = names(mesh, 1, line.curve);
+        if let Some(name) = group_of(mesh, line, &names, groups, &mut reported, findings) {
+            lines.push(GroupedLine {
+                id,
+                line,
+                names,
+                name,
+                group: &groups.groups[name],
+            });
+        }
+    }
+    let index = points(mesh, &lines, factor, &mut structure);
+    let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for GroupedLine {
+        id,
+        line,
+        names,
+        name,
+        group,
+    } in lines
+    {
+        let MeshLine { curve, at, .. } = *line;
         let about = format!("element {id}");
-        let [a, b] = nodes.map(|node| index.get(&node).copied());
-        let (Some(a), Some(b)) = (a, b) else {
-            let missing = nodes
-                .into_iter()
-                .find(|node| !index.contains_key(node))
-                .unwrap_or_default();
+        let nodes = [Some(line.ends[0]), Some(line.ends[1]), line.middle];
+        if let Some(missing) = nodes
+            .into_iter()
+            .flatten()
+            .find(|node| !mesh.nodes.contains_key(node))
+        {
             findings.error(
                 ImportFinding::new(at, about, "refers to a node that does not exist")
                     .with_found(missing),
             );
             continue;
-        };
-        let names: Vec<&str> = names(mesh, 1, curve);
-        let Some(name) = group_of(mesh, (curve, at), &names, groups, &mut reported, findings)
-        else {
-            continue;
-        };
-        let group = &groups.groups[name];
-        let along = minus(structure.points[b].at, structure.points[a].at);
+        }
+        let place = |node: u64| mesh.nodes[&node].map(|part| part * factor);
+        let ends = line.ends.map(place);
+        let along = minus(ends[1], ends[0]);
         let orientation = group.orientation.or(structure.up);
         if along == [0.0; 3] {
             findings.error(ImportFinding::new(at, about, "must have a positive length"));
             continue;
+        }
+        if let Some(middle) = line.middle {
+            let bends = group.kind == MemberKind::Beam;
+            let wrong = check_straight(ends, place(middle)).err();
+            let wrong = wrong.or_else(|| {
+                let is_joined = !bends && index.contains_key(&middle);
+                is_joined.then(|| axial_middle(group.kind))
+            });
+            if let Some([expected, hint]) = wrong {
+                findings.error(ImportFinding::new(at, about, expected).hint(hint));
+                continue;
+            }
         }
         if group.kind == MemberKind::Beam
             && orientation.is_none_or(|vector| parallel(vector, along))
@@ -97,19 +127,26 @@ pub fn structure_of(
             }
             continue;
         }
-        for name in names {
-            sets.entry(name).or_default().push(structure.members.len());
-        }
-        structure.members.push(ImportedMember {
+        let first = structure.members.len();
+        let member = ImportedMember {
             id,
-            points: [a, b],
+            points: line.ends.map(|node| index[&node]),
             kind: group.kind,
             section: group.section,
             section_b: None,
             orientation: group.orientation.filter(|_| group.kind == MemberKind::Beam),
             offsets: [[0.0; 3]; 2],
             releases: group.releases,
-        });
+        };
+        match line.middle.filter(|_| group.kind == MemberKind::Beam) {
+            Some(middle) => push_halves(&mut structure, member, index[&middle]),
+            None => structure.members.push(member),
+        }
+        for name in names {
+            sets.entry(name)
+                .or_default()
+                .extend(first..structure.members.len());
+        }
     }
     if structure.members.is_empty() && !findings.has_errors() {
         let at = FilePlace {
@@ -125,6 +162,29 @@ pub fn structure_of(
         .map(|(name, set)| (name.to_owned(), set))
         .collect();
     structure
+}
+
+/// A line element with the physical groups of its curve, and the one that the sections file defines.
+struct GroupedLine<'m> {
+    id: u64,
+    line: &'m MeshLine,
+    names: Vec<&'m str>,
+    name: &'m str,
+    group: &'m SectionGroup,
+}
+
+/// The message and hint for the middle node of a truss or rod to which something else is joined. Nothing but the end
+/// nodes could hold it aside.
+fn axial_middle(kind: MemberKind) -> [String; 2] {
+    let name = if kind == MemberKind::Rod {
+        "rod"
+    } else {
+        "truss"
+    };
+    [
+        format!("must have a middle node that no other element uses, because it is a {name}"),
+        "end the element at this node, or mesh with Mesh.ElementOrder = 1".to_owned(),
+    ]
 }
 
 /// Reads the contents of a mesh of any format; its errors are among the findings.
@@ -146,9 +206,9 @@ fn read_mesh(bytes: &[u8], findings: &mut ImportFindings) -> Mesh {
 /// or there are several, an error is added unless the curve is among `reported`.
 fn group_of<'m>(
     mesh: &Mesh,
-    (curve, at): (u64, FilePlace),
+    line: &MeshLine,
     names: &[&'m str],
-    groups: &Sections,
+    groups: &SectionFile,
     reported: &mut BTreeSet<u64>,
     findings: &mut ImportFindings,
 ) -> Option<&'m str> {
@@ -158,6 +218,7 @@ fn group_of<'m>(
     if let (Some(&only), None) = (known.next(), known.next()) {
         return Some(only);
     }
+    let MeshLine { curve, at, .. } = *line;
     if reported.insert(curve) {
         let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
         let [entity, set] = mesh.group_words;
@@ -189,19 +250,28 @@ fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
 }
 
 /// Adds the nodes of line elements and of physical points in the order of their numbers, and a set for each physical
-/// group of points. Returns the index of the point of each node.
-fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeMap<u64, usize> {
+/// group of points. Middle nodes of trusses and rods are left out. Returns the index of the point of each node.
+fn points(
+    mesh: &Mesh,
+    lines: &[GroupedLine<'_>],
+    factor: f64,
+    structure: &mut ImportedStructure,
+) -> BTreeMap<u64, usize> {
     let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for (entity, nodes) in &mesh.points {
         for name in names(mesh, 0, *entity) {
             named.entry(name).or_default().extend(nodes);
         }
     }
-    let mut used: Vec<u64> = mesh
-        .lines
-        .values()
-        .flat_map(|(_, nodes, _)| *nodes)
-        .collect();
+    let mut used: Vec<u64> = lines.iter().flat_map(|own| own.line.ends).collect();
+    let mut middles = BTreeSet::new();
+    for own in lines {
+        // a middle node of two trusses joins them
+        let is_new = own.line.middle.is_none_or(|middle| middles.insert(middle));
+        if own.group.kind == MemberKind::Beam || !is_new {
+            used.extend(own.line.middle);
+        }
+    }
     used.extend(named.values().flatten());
     used.sort_unstable();
     used.dedup();

@@ -5,7 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use super::mesh::{LINE, Mesh, OtherElements, POINT, once_each, report_others, require};
+use super::mesh::{
+    LINE, LINE_OF_THREE, Mesh, MeshLine, OtherElements, POINT, once_each, report_others, require,
+};
 use super::text::MeshBlock;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
@@ -38,7 +40,7 @@ impl ElementCollector {
     /// Adds one element.
     pub fn add(&mut self, mesh: &mut Mesh, element: Element2<'_>, findings: &mut ImportFindings) {
         let dimension = match element.kind {
-            LINE => 1,
+            LINE | LINE_OF_THREE => 1,
             POINT => 0,
             kind => {
                 self.others.entry(kind).or_insert((element.at, 0)).1 += 1;
@@ -51,10 +53,16 @@ impl ElementCollector {
         }
         match *element.nodes {
             [node] if dimension == 0 => mesh.add_point(element.entity, node),
-            [a, b] if dimension == 1 => {
+            [a, b] | [a, b, _] if dimension == 1 => {
                 let key = (element.entity, [a.min(b), a.max(b)]);
                 if *self.lines.entry(key).or_insert(element.tag) == element.tag {
-                    mesh.add_line(element.entity, element.tag, [a, b], element.at, findings);
+                    let line = MeshLine {
+                        curve: element.entity,
+                        ends: [a, b],
+                        middle: element.nodes.get(2).copied(),
+                        at: element.at,
+                    };
+                    mesh.add_line(element.tag, line, findings);
                 }
             }
             _ => {
@@ -134,6 +142,7 @@ fn read_elements(
         let entity = label(1, "entity", findings)?;
         let nodes = match kind {
             LINE => 2,
+            LINE_OF_THREE => 3,
             POINT => 1,
             _ => 0,
         };

@@ -25,7 +25,7 @@ def import_model(
     mass: str | None = None,
     changes: Mapping[str, Any] | None = None,
 ) -> Structure:
-    """A structure from NASTRAN bulk data (.bdf, .dat, .nas), an Abaqus input file (.inp) or a gmsh mesh (.msh).
+    """A structure from NASTRAN bulk data (.bdf, .dat, .nas, .fem), an Abaqus input file (.inp) or a gmsh mesh (.msh).
 
     The options are those of `girderway import`: units of the model, the upward direction, rails such as
     `"runway=12,23,30-35"`, supports such as `"feet=ux,uy,uz"`. `changes` are members of the beam spec that replace

@@ -26,11 +26,7 @@ impl<'s> Sheet<'s> {
     /// first row; if none occurs, cells are separated by blanks. A row that begins with `#`, `%` or `!` is a comment.
     /// Cells may be enclosed in double quotes.
     pub fn of(source: &'s Source) -> Result<Sheet<'s>, Box<Diagnostic>> {
-        let text = source
-            .text
-            .trim_start_matches('\u{feff}')
-            .replace("\r\n", "\n")
-            .replace('\r', "\n");
+        let text = source.text.replace("\r\n", "\n").replace('\r', "\n");
         let mut separator = None;
         let mut sheet = Sheet {
             name: &source.name,
