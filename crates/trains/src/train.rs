@@ -75,6 +75,8 @@ pub(crate) struct PlacedWheel {
 pub(crate) struct PlacedTrain {
     pub stance: Orientation,
     pub wheels: Vec<PlacedWheel>,
+    /// What it covers of each rail ([`Train::extents`]).
+    pub extents: Vec<Option<[f64; 2]>>,
     /// Positions from first to last.
     pub range: [f64; 2],
 }
