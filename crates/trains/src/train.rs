@@ -84,7 +84,8 @@ pub(crate) struct PlacedTrain {
 impl Train {
     /// The stances to try: unturned first, all signs positive first. A sign is tried only where it changes a load, and
     /// a train is turned only where that changes it.
-    pub(crate) fn stances(&self) -> Vec<Orientation> {
+    #[must_use]
+    pub fn stances(&self) -> Vec<Orientation> {
         let any = |of: fn(&TrainWheel) -> f64| {
             self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0)
         };
