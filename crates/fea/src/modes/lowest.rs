@@ -33,8 +33,7 @@ const DENSE_UNKNOWNS_PER_MODE: usize = 6;
 const FEW_UNKNOWNS: usize = 100;
 
 /// The `count` lowest modes of a frame: K phi = omega^2 M phi, M the consistent mass of the members (mass per
-/// length of their sections) and the rigid masses. Where the last of them has a frequency that further modes share, to a
-/// relative difference of 1e-6 in its square, these are returned too.
+/// length of their sections) and the rigid masses.
 ///
 /// Guarantee: no mode is missing ([`Modes::count_below_shift`]). Fewer are returned if fewer frequencies are finite.
 ///
@@ -50,11 +49,19 @@ impl FactoredFrame {
     /// # Errors
     /// As [`FactoredFrame::excited_modes`].
     pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
+        let in_groups = false;
+        self.lowest_of_all(m, Asked { count, in_groups })
+    }
+
+    /// [`FactoredFrame::modes`]; where the last of them has a frequency that further modes share, to a relative difference of
+    /// 1e-6 in its square, these are returned too.
+    pub(super) fn modes_in_groups(&self, m: &Model, count: usize) -> Result<Modes, Error> {
+        let in_groups = true;
+        self.lowest_of_all(m, Asked { count, in_groups })
+    }
+
+    fn lowest_of_all(&self, m: &Model, asked: Asked) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        let asked = Asked {
-            count,
-            in_groups: true,
-        };
         self.lowest_of(&Part::whole(self, &mass), &mass, asked, DOUBLES_SUFFICE[0])
     }
 
