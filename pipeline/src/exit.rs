@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use anstyle::{AnsiColor, Effects};
 use formats::spec::SolveError;
 use formats::tables::WriteError;
-use formats::text::diagnostic::Diagnostic;
+use formats::text::diagnostic::{Diagnostic, plain};
 
 /// Largest number of errors that are printed as text.
 const MOST: usize = 20;
@@ -120,7 +120,9 @@ impl Failure {
                 }
                 lines.concat()
             }
-            Failure::Differs(message) | Failure::Untrusted(message) => format!("{name}{message}\n"),
+            Failure::Differs(message) | Failure::Untrusted(message) => {
+                format!("{name}{}\n", plain(message))
+            }
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Standard output, and results that go to a file or to it.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use crate::exit::Failure;
 use crate::progress::Progress;
-use formats::text::diagnostic::Diagnostic;
+use formats::text::diagnostic::{Diagnostic, plain};
 use outputs::files::{reason, write};
 
 /// Writes to standard output. A closed pipe is not an error.
@@ -13,6 +13,10 @@ use outputs::files::{reason, write};
 /// # Errors
 /// Standard output cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
+    // a file that goes there keeps its bytes, a terminal obeys no control characters
+    if io::stdout().is_terminal() {
+        return print_bytes(plain(text).as_bytes());
+    }
     print_bytes(text.as_bytes())
 }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
+use formats::text::diagnostic::plain;
 use formats::text::inputs::Inputs;
 use study::{Observer, Steps};
 
@@ -42,7 +43,7 @@ impl Progress {
     pub fn say(&self, message: &str) {
         if self.speaks {
             // an error of writing is ignored: standard error may be closed
-            let _ = writeln!(std::io::stderr(), "{message}");
+            let _ = writeln!(std::io::stderr(), "{}", plain(message));
         }
     }
 
@@ -149,7 +150,7 @@ impl Bar {
     /// Changes the message of a bar.
     pub fn name(&self, message: &str) {
         if let Some(bar) = &self.bar {
-            bar.set_message(message.to_owned());
+            bar.set_message(plain(message));
         }
     }
 }

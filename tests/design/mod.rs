@@ -431,3 +431,51 @@ fn a_design_about_a_preload_has_the_closed_moment() {
         summary["warnings"]
     );
 }
+
+/// Statics: lateral forces of either sign are in the states of equal moment, so that which one a state has is a matter of
+/// rounding; the stress is the same in any unit, and at least that of the worst signs: M/W_v + M_l/W_l of both.
+#[test]
+fn stresses_do_not_depend_on_units() {
+    let stress = |length: &str, force: &str, [l, f]: [f64; 2]| {
+        let spec = json!({"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
+            "girder": {"spans": [4.57, 5.56, 7.98], "overhangs": [0.68, 0], "fy": 235000.0, "section": "HEB 400",
+                "rail_height": 0.3, "torsion": null}});
+        let mut spec = spec;
+        spec["girder"]
+            .as_object_mut()
+            .expect("an object")
+            .remove("torsion");
+        let wheel = |x: f64, load: f64, side: f64| json!({"x": x * l, "vertical": load * f, "eccentricity": side * l});
+        let train = json!({"name": "t", "wheels": [wheel(0.0, 157.77, 0.0), wheel(2.528, 113.08, -0.043)],
+            "lateral": 7.96 * f, "longitudinal": 14.02 * f});
+        let design = json!({"format": "girderway-design/1", "units": {"length": length, "force": force, "time": "s"},
+            "spec": "spec.json", "trains": [train], "practice": {"code": "CMAA 70"}});
+        let (folder, output) = run(&spec, &design, &[]);
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let found = summary(&folder);
+        let all = found["stresses"].as_array().expect("a list").clone();
+        let own = all
+            .iter()
+            .find(|one| one["quantity"] == "direct stress")
+            .expect("a direct stress");
+        (
+            own["utilisation"].as_f64().expect("a number"),
+            own["signs"].clone(),
+            own["side"].clone(),
+        )
+    };
+    let metres = stress("m", "kN", [1.0, 1.0]);
+    for (length, force, factors) in [
+        ("mm", "N", [1e3, 1e3]),
+        ("mm", "kN", [1e3, 1.0]),
+        ("m", "N", [1.0, 1e3]),
+    ] {
+        let own = stress(length, force, factors);
+        assert!((own.0 / metres.0 - 1.0).abs() < 1e-9, "{own:?} {metres:?}");
+        assert_eq!((&own.1, &own.2), (&metres.1, &metres.2), "{length} {force}");
+    }
+}

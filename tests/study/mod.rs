@@ -227,6 +227,32 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
     );
 }
 
+/// Statement: rigid parts have the damping of the scene, as modes and meshes have.
+#[test]
+fn parts_have_the_damping_of_the_scene() {
+    let depth = StudyBudget {
+        parts: vec![2, 4],
+        ..nothing()
+    };
+    let mut scene = scene(15.0, 30.0, 0.5);
+    scene["structures"]["girder"]["foundation"] = json!("modal");
+    scene["structures"]["girder"]["modes"] = json!(3);
+    scene["structures"]["girder"]["damping"] = json!(0.1);
+    scene["accuracy"] = json!(1e-4);
+    let study = conduct(&scene, &girder(Some(26.4)), &depth);
+    let own = study
+        .points
+        .iter()
+        .filter(|point| point.setting.family == SettingFamily::Parts);
+    let dampings: Vec<f64> = own
+        .map(|point| match point.setting.scene.structures[0].foundation {
+            formats::scene::Foundation::Parts { damping, .. } => damping,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(dampings, [0.1, 0.1]);
+}
+
 #[test]
 fn residual_flexibility_spares_modes() {
     let depth = StudyBudget {

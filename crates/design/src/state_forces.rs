@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use fea::{Effect, Model, Rail};
 use trains::{
     DeadLoads, Error, GirderResponse, Governing, MemberForces, PassedLoads, RailLoad, SectionSide,
-    Structure, TrainCase,
+    Structure, TrainCase, TrainPosition,
 };
 
 use crate::placed::{RailLines, with_twins};
@@ -16,6 +16,15 @@ const NEAR: f64 = 2e-9;
 /// The quantities of a section: normal force, torsion, shear and moment in both planes, in the order of
 /// [`GirderResponse::ALL`].
 pub(crate) type SectionForces = [f64; 6];
+
+/// The forces of a section on one side of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CarriedForces {
+    /// Index of the carrying member.
+    pub carrier: usize,
+    pub side: SectionSide,
+    pub forces: SectionForces,
+}
 
 /// A member that carries a rail.
 #[derive(Clone, Copy, Debug)]
@@ -104,22 +113,66 @@ impl StateForces {
             .map(|(index, _)| index)
     }
 
+    /// The forces at the section of a governing state and of all states that differ from it in the signs of forces alone, on
+    /// both sides of a wheel that stands there. Which of them governs one force may be a matter of rounding, and decides
+    /// about the others.
+    pub fn alike(
+        &mut self,
+        lines: &RailLines,
+        case: &TrainCase,
+        rail: usize,
+        governing: &Governing,
+    ) -> Result<Vec<(Governing, CarriedForces)>, Error> {
+        let at = |side| self.carrier_at(rail, governing.x, side);
+        let mut open = governing.clone();
+        if at(governing.side) == at(SectionSide::At) {
+            open.side = SectionSide::At;
+        }
+        let mut states = vec![Vec::new()];
+        for (train, at) in case.trains.iter().zip(&governing.trains) {
+            let own = train.stances().into_iter();
+            let turned: Vec<TrainPosition> = own
+                .filter(|stance| stance.turned == at.stance.turned)
+                .map(|stance| TrainPosition { stance, ..*at })
+                .collect();
+            let with = |state: &Vec<TrainPosition>| {
+                let each = turned
+                    .iter()
+                    .map(|own| [state.as_slice(), &[*own]].concat());
+                each.collect::<Vec<_>>()
+            };
+            states = states.iter().flat_map(with).collect();
+        }
+        let mut out = Vec::new();
+        for trains in states {
+            open.trains = trains;
+            for forces in self.at(lines, case, rail, &open)? {
+                let state = Governing {
+                    side: forces.side,
+                    ..open.clone()
+                };
+                out.push((state, forces));
+            }
+        }
+        Ok(out)
+    }
+
     /// The forces at the section of a governing state, on both sides of a wheel that stands there unless the state says on which
-    /// one, each with the index of the carrying member.
+    /// one.
     pub fn at(
         &mut self,
         lines: &RailLines,
         case: &TrainCase,
         rail: usize,
         governing: &Governing,
-    ) -> Result<Vec<(usize, SectionForces)>, Error> {
+    ) -> Result<Vec<CarriedForces>, Error> {
         let Some(carrier) = self.carrier_at(rail, governing.x, governing.side) else {
             return Ok(Vec::new());
         };
         let loads = lines.loads(case, &governing.trains);
         let place = self.members.place(carrier, governing.x);
         let mut out = Vec::new();
-        for mut forces in self.under(carrier, place, &loads, governing.side) {
+        for (side, mut forces) in self.under(carrier, place, &loads, governing.side) {
             if case.dead != 0.0 && !self.dead.is_empty() {
                 let dead = self.of_dead(carrier, place)?;
                 forces
@@ -127,19 +180,23 @@ impl StateForces {
                     .zip(dead)
                     .for_each(|(sum, part)| *sum += case.dead * part);
             }
-            out.push((carrier, forces));
+            out.push(CarriedForces {
+                carrier,
+                side,
+                forces,
+            });
         }
         Ok(out)
     }
 
-    /// The forces under loads alone.
+    /// The forces under loads alone, each with the side of the section.
     fn under(
         &self,
         carrier: usize,
         place: f64,
         loads: &[RailLoad],
         side: SectionSide,
-    ) -> Vec<SectionForces> {
+    ) -> Vec<(SectionSide, SectionForces)> {
         let mut passed = PassedLoads::default();
         self.members.load(carrier, loads, &mut passed);
         let [first, last] = self.carrying[carrier]
@@ -147,18 +204,20 @@ impl StateForces {
             .map(|x| self.members.place(carrier, x));
         let near = NEAR * (last - first).abs();
         if !passed.places().any(|(_, at)| (at - place).abs() <= near) {
-            return vec![passed.quantities(place, None)];
+            return vec![(side, passed.quantities(place, None))];
         }
         // At the end of a member the side of the state is that of the member, not that of the wheel.
         let is_inside = place > first + near && place < last - near;
-        let sides: &[f64] = match side {
-            SectionSide::Before if is_inside => &[-1.0],
-            SectionSide::Behind if is_inside => &[1.0],
-            _ => &[-1.0, 1.0],
-        };
-        let beside = |side: &f64| {
+        let both = [SectionSide::Before, SectionSide::Behind];
+        let sides = both
+            .into_iter()
+            .filter(|one| !is_inside || side == SectionSide::At || side == *one);
+        let beside = |one: SectionSide| {
             // Just beyond all loads at the section, and back along the slopes of the moments.
-            let step = 2.0 * side * near;
+            let step = match one {
+                SectionSide::Before => -2.0 * near,
+                _ => 2.0 * near,
+            };
             let mut forces = passed.quantities(place + step, None);
             for (moment, shear) in [
                 (
@@ -169,9 +228,9 @@ impl StateForces {
             ] {
                 forces[index(moment)] -= step * forces[index(shear)];
             }
-            forces
+            (if is_inside { one } else { side }, forces)
         };
-        sides.iter().map(beside).collect()
+        sides.map(beside).collect()
     }
 
     /// The forces under dead load: along a member they are polynomials of at most the second degree, given by three places.
@@ -301,7 +360,7 @@ mod tests {
                     |own: &SectionForces| (own[index(quantity)] - governing.value).abs() / size;
                 let nearest = all
                     .iter()
-                    .map(|(_, own)| error(own))
+                    .map(|own| error(&own.forces))
                     .fold(f64::INFINITY, f64::min);
                 assert!(
                     nearest < 1e-8,

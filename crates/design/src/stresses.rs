@@ -1,7 +1,8 @@
 //! Utilisation of the yield strength by direct stress and by shear stress in webs.
 //!
 //! The direct stress sigma = N/A + M_v z/I_v + M_l y/I_l of a fibre has no envelope of its own here: it is evaluated with the
-//! coincident forces of the states that govern normal force and moments over spans and at the places of envelopes. The largest
+//! coincident forces of the states that govern normal force and moments over spans and at the places of envelopes, with all
+//! signs of their horizontal forces and eccentricities. The largest
 //! is therefore a lower bound of the largest of all states; the sum of the extremes of the three forces over a span, whether
 //! or not they occur at once, is an upper bound; there is none over spans with tapered members, whose sections are those of the
 //! place.
@@ -14,7 +15,7 @@ use crate::fibres::Fibres;
 use crate::girder_sections::{GirderSections, by_reason};
 use crate::outcome::{SolvedCase, StressCheck};
 use crate::placed::RailLines;
-use crate::state_forces::{StateForces, index};
+use crate::state_forces::{CarriedForces, StateForces, index};
 
 /// Forces that cause direct stress.
 const DIRECT: [GirderResponse; 3] = [
@@ -22,6 +23,9 @@ const DIRECT: [GirderResponse; 3] = [
     GirderResponse::VerticalMoment,
     GirderResponse::LateralMoment,
 ];
+
+/// Relative difference of utilisations that counts as rounding.
+const EQUAL: f64 = 1e-9;
 
 /// What the stresses of a design follow from.
 pub(crate) struct StressBasis<'a> {
@@ -112,7 +116,16 @@ impl StressBasis<'_> {
     ) -> Result<Option<StressCheck>, Error> {
         let mut best: Option<StressCheck> = None;
         for (_, governing) in self.states(case, rail, &DIRECT) {
-            for (carrier, all) in forces.at(self.lines, &self.trains[case], rail, governing)? {
+            let alike = forces.alike(self.lines, &self.trains[case], rail, governing)?;
+            for (
+                state,
+                CarriedForces {
+                    carrier,
+                    forces: all,
+                    ..
+                },
+            ) in alike
+            {
                 let member = forces.carrying()[carrier].member;
                 let Some((fibres, strength)) = self.strong(rail, member) else {
                     continue;
@@ -125,10 +138,7 @@ impl StressBasis<'_> {
                 else {
                     continue;
                 };
-                if best
-                    .as_ref()
-                    .is_some_and(|best| best.utilisation() >= worst.value().abs() / strength)
-                {
+                if !is_more(&best, worst.value().abs() / strength) {
                     continue;
                 }
                 let [normal, vertical, lateral] = three;
@@ -145,7 +155,7 @@ impl StressBasis<'_> {
                         ("lateral moment", lateral),
                     ],
                     lateral_section: Some(self.design.practice.lateral_section),
-                    ..self.row("direct stress", (case, rail), fibres, strength, governing)
+                    ..self.row("direct stress", (case, rail), fibres, strength, &state)
                 });
             }
         }
@@ -221,10 +231,7 @@ impl StressBasis<'_> {
                 continue;
             };
             let (stress, strength) = (governing.value / area, fy / 3f64.sqrt());
-            if best
-                .as_ref()
-                .is_some_and(|best| best.utilisation() >= stress.abs() / strength)
-            {
+            if !is_more(&best, stress.abs() / strength) {
                 continue;
             }
             best = Some(StressCheck {
@@ -283,6 +290,12 @@ impl StressBasis<'_> {
             end(Some(span), f64::INFINITY),
         ]
     }
+}
+
+/// Whether a utilisation exceeds the best by more than rounding: of equal ones the first counts.
+fn is_more(best: &Option<StressCheck>, utilisation: f64) -> bool {
+    let exceeds = |best: &StressCheck| utilisation > best.utilisation() * (1.0 + EQUAL);
+    best.as_ref().is_none_or(exceeds)
 }
 
 /// A place between the ends of a member as a fraction of its length.

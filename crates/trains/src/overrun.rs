@@ -50,9 +50,8 @@ impl Overrun {
             .map(|stances| stances.iter().map(of).collect());
         let passages: Vec<Vec<Passage>> = passages.collect::<Result<_, _>>()?;
         let distinct = |k: usize| match k >= first {
-            true => passages
-                .iter()
-                .map(|stances| distinct_stances(stances, k))
+            true => (0..passages.len())
+                .map(|train| distinct_stances(plan, train, &passages[train], k))
                 .collect(),
             false => vec![Vec::new(); passages.len()],
         };
@@ -304,13 +303,16 @@ impl Overrun {
     }
 }
 
-/// Of the stances with equal response k the first.
-fn distinct_stances(stances: &[Passage], k: usize) -> Vec<usize> {
+/// Of the stances with equal response k, and beside other trains with equal extents as well, the first.
+fn distinct_stances(plan: &CasePlan, train: usize, stances: &[Passage], k: usize) -> Vec<usize> {
+    let placed = &plan.trains[train];
+    let fits_alike =
+        |a: usize, b: usize| plan.trains.len() == 1 || placed[a].extents == placed[b].extents;
     let mut out: Vec<usize> = Vec::new();
     for (stance, passage) in stances.iter().enumerate() {
         if !out
             .iter()
-            .any(|&known| stances[known].is_same(passage, k, EQUAL))
+            .any(|&known| fits_alike(known, stance) && stances[known].is_same(passage, k, EQUAL))
         {
             out.push(stance);
         }

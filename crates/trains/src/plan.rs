@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::pieces::ResponsePiece;
 use crate::running::{PiecewiseFunction, larger_of, running_maximum, sum_of};
 use crate::structure::Structure;
-use crate::train::{COMPONENTS, PlacedTrain, TrainCase};
+use crate::train::{COMPONENTS, PlacedTrain, Train, TrainCase};
 
 /// Values closer than this, relative to their size, count as equal.
 pub(crate) const TIE: f64 = 1e-12;
@@ -91,8 +91,7 @@ impl CasePlan {
     /// A train that is longer than its rails, trains that do not fit beside each other, a load that the structure does
     /// not resist.
     pub fn new(structure: &Structure, case: &TrainCase, index: usize) -> Result<CasePlan, Error> {
-        let mut trains = Vec::new();
-        let mut extents = Vec::new();
+        let mut trains: Vec<Vec<PlacedTrain>> = Vec::new();
         for (number, train) in case.trains.iter().enumerate() {
             let rails = structure.rail_count();
             for (wheel, given) in train.wheels.iter().enumerate() {
@@ -116,7 +115,6 @@ impl CasePlan {
             })?;
             let shifts = structure.shifts(first.rail);
             let mut placed = Vec::new();
-            let mut reach = Vec::new();
             for stance in train.stances() {
                 let wheels = train.placed(stance, &shifts);
                 for (wheel, of) in wheels.iter().enumerate() {
@@ -155,15 +153,14 @@ impl CasePlan {
                     range = [range[0] - margin, range[1] + margin];
                 }
                 range[1] = range[1].max(range[0]);
-                reach.push(train.extents(stance, &shifts));
                 placed.push(PlacedTrain {
                     stance,
                     wheels,
+                    extents: train.extents(stance, &shifts),
                     range,
                 });
             }
             trains.push(placed);
-            extents.push(reach);
         }
         let distance = |a: &[Option<[f64; 2]>], b: &[Option<[f64; 2]>]| {
             let shared = a
@@ -172,19 +169,21 @@ impl CasePlan {
                 .filter_map(|(a, b)| Some((*a)?[1] - (*b)?[0]));
             shared.fold(f64::NEG_INFINITY, f64::max) + case.gap
         };
-        let distances: Vec<Vec<Vec<Vec<f64>>>> = extents
+        let distances: Vec<Vec<Vec<Vec<f64>>>> = trains
             .iter()
             .map(|a| {
                 a.iter()
                     .map(|a| {
-                        extents
+                        let behind = |b: &PlacedTrain| distance(&a.extents, &b.extents);
+                        trains
                             .iter()
-                            .map(|b| b.iter().map(|b| distance(a, b)).collect())
+                            .map(|b| b.iter().map(behind).collect())
                             .collect()
                     })
                     .collect()
             })
             .collect();
+        make_way(&case.trains, &mut trains, &distances);
         let share = |a: usize, b: usize| distances[a][0][b][0] > f64::NEG_INFINITY;
         let equal = |a: usize, b: usize| case.trains[a] == case.trains[b];
         // Whether two trains cannot hinder each other while a third between them hinders neither.
@@ -578,6 +577,29 @@ impl Order {
             before,
             mirrored: true,
         })
+    }
+}
+
+/// Lets trains that enter stand so far beyond their rails that they hinder no other one: beyond all positions of the others
+/// by more than any row of trains takes.
+fn make_way(given: &[Train], trains: &mut [Vec<PlacedTrain>], distances: &[Vec<Vec<Vec<f64>>>]) {
+    if given.len() < 2 {
+        return;
+    }
+    let longest = |from: &Vec<Vec<Vec<f64>>>| {
+        let all = from.iter().flatten().flatten();
+        all.filter(|distance| distance.is_finite())
+            .fold(0.0, |most: f64, distance| most.max(distance.abs()))
+    };
+    let row: f64 = distances.iter().map(longest).sum();
+    let all = trains.iter().flatten().map(|train| train.range);
+    let [first, last] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| {
+        [low.min(a), high.max(b)]
+    });
+    for (_, stances) in given.iter().zip(trains).filter(|(train, _)| train.enters) {
+        for train in stances {
+            train.range = [first - row, last + row];
+        }
     }
 }
 

@@ -370,8 +370,8 @@ impl Passage {
     }
 
     /// Calls `each` with the parts of a piece for response k of the section at place s: it is divided where a wheel passes
-    /// the section. A wheel that stands at the section at an end of the train's range is counted on either side of it, by
-    /// a part of no length.
+    /// the section. A wheel that stands at the section where the train's range ends, or where it comes onto the member or
+    /// leaves it, is counted on either side of it, by a part of no length.
     pub fn parts(&self, piece: usize, k: usize, s: f64, mut each: impl FnMut(ResponsePiece)) {
         let base = self.base(piece, k, s);
         let wheels = &self.wheels[piece];
@@ -403,7 +403,19 @@ impl Passage {
             return;
         }
         let passages: SmallVec<[f64; FEW]> = wheels.iter().map(passage).collect();
-        let at_ends = [piece == 0, piece + 1 == self.pieces.list.len()];
+        let changes_member = |neighbour: usize, is_at: &dyn Fn(f64) -> bool| {
+            let others = &self.wheels[neighbour];
+            let mut at = wheels
+                .iter()
+                .zip(&passages)
+                .filter(|(_, passage)| is_at(**passage));
+            at.any(|(wheel, _)| others.iter().all(|other| other.wheel != wheel.wheel))
+        };
+        let at_ends = [
+            piece == 0 || changes_member(piece - 1, &|t| t.abs() <= slack),
+            piece + 1 == self.pieces.list.len()
+                || changes_member(piece + 1, &|t| (t - h).abs() <= slack),
+        ];
         for (index, ends) in cuts(&passages, h, slack, at_ends).windows(2).enumerate() {
             let side = match index {
                 _ if ends[1] > ends[0] => Side::Middle(0.5 * (ends[0] + ends[1])),
@@ -535,7 +547,7 @@ fn cuts(passages: &[f64], h: f64, slack: f64, at_ends: [bool; 2]) -> SmallVec<[f
     }
     within.sort_by(f64::total_cmp);
     within.dedup_by(|b, a| *b - *a <= slack);
-    // Within the range the neighbouring piece has the other limit.
+    // Elsewhere the neighbouring piece has the other limit.
     let [at_first, at_last] = at_ends.map(|at| if at { 2 } else { 1 });
     let mut out: SmallVec<[f64; FEW]> = SmallVec::new();
     out.extend(std::iter::repeat_n(0.0, ends[0].min(at_first)));

@@ -75,6 +75,8 @@ pub(crate) struct PlacedWheel {
 pub(crate) struct PlacedTrain {
     pub stance: Orientation,
     pub wheels: Vec<PlacedWheel>,
+    /// What it covers of each rail ([`Train::extents`]).
+    pub extents: Vec<Option<[f64; 2]>>,
     /// Positions from first to last.
     pub range: [f64; 2],
 }
@@ -82,7 +84,8 @@ pub(crate) struct PlacedTrain {
 impl Train {
     /// The stances to try: unturned first, all signs positive first. A sign is tried only where it changes a load, and
     /// a train is turned only where that changes it.
-    pub(crate) fn stances(&self) -> Vec<Orientation> {
+    #[must_use]
+    pub fn stances(&self) -> Vec<Orientation> {
         let any = |of: fn(&TrainWheel) -> f64| {
             self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0)
         };

@@ -49,8 +49,20 @@ impl FactoredFrame {
     /// # Errors
     /// As [`FactoredFrame::excited_modes`].
     pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
+        let in_groups = false;
+        self.lowest_of_all(m, Asked { count, in_groups })
+    }
+
+    /// [`FactoredFrame::modes`]; where the last of them has a frequency that further modes share, to a relative difference of
+    /// 1e-6 in its square, these are returned too.
+    pub(super) fn modes_in_groups(&self, m: &Model, count: usize) -> Result<Modes, Error> {
+        let in_groups = true;
+        self.lowest_of_all(m, Asked { count, in_groups })
+    }
+
+    fn lowest_of_all(&self, m: &Model, asked: Asked) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.lowest_of(&Part::whole(self, &mass), &mass, count, DOUBLES_SUFFICE[0])
+        self.lowest_of(&Part::whole(self, &mass), &mass, asked, DOUBLES_SUFFICE[0])
     }
 
     /// The `count` lowest modes among those of the unknowns that `forces` can move; `m` is the model that the frame
@@ -87,7 +99,11 @@ impl FactoredFrame {
     ) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
         let part = Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass);
-        self.lowest_of(&part, &mass, count, error.max(DOUBLES_SUFFICE[1]))
+        let asked = Asked {
+            count,
+            in_groups: false,
+        };
+        self.lowest_of(&part, &mass, asked, error.max(DOUBLES_SUFFICE[1]))
     }
 
     /// The lowest modes of `part`; its frequencies may have the relative error `error`.
@@ -95,18 +111,19 @@ impl FactoredFrame {
         &self,
         part: &Part,
         mass: &ScaledMass,
-        count: usize,
+        asked: Asked,
         error: f64,
     ) -> Result<Modes, Error> {
+        let Asked { count, .. } = asked;
         let norms = self.norms(mass)?;
         let suffices = self.certificate().condition * f64::EPSILON < error;
         let is_small = part.len() <= FEW_UNKNOWNS.max(DENSE_UNKNOWNS_PER_MODE * count);
         let pairs = if suffices && is_small && part.len() <= MOST_DENSE_UNKNOWNS {
-            dense(part, count)
+            dense(part, asked)
         } else {
-            match self.lanczos(part, count, suffices) {
+            match self.lanczos(part, asked, suffices) {
                 Err(error @ Error::Modes { .. }) if part.len() <= MOST_DENSE_UNKNOWNS => {
-                    dense(part, count).or(Err(error))
+                    dense(part, asked).or(Err(error))
                 }
                 found => found,
             }
@@ -121,7 +138,7 @@ impl FactoredFrame {
     fn lanczos(
         &self,
         part: &Part,
-        count: usize,
+        asked: Asked,
         doubles_suffice: bool,
     ) -> Result<(Pairs, Count), Error> {
         let double = if doubles_suffice {
@@ -138,8 +155,10 @@ impl FactoredFrame {
             mass: &part.mass,
             factor,
         });
-        let cut = search(&mut lanczos, count)?;
-        let found = count.min(lanczos.pairs.converged);
+        let cut = search(&mut lanczos, asked.count)?;
+        let found = asked
+            .listed(&lanczos.converged_values())
+            .min(lanczos.pairs.converged);
         let next = lanczos
             .converged_values()
             .get(found)
@@ -155,6 +174,29 @@ impl FactoredFrame {
     }
 }
 
+/// The modes that are asked for.
+#[derive(Clone, Copy)]
+struct Asked {
+    count: usize,
+    /// Whether those of equal frequency are all returned where one of them is.
+    in_groups: bool,
+}
+
+impl Asked {
+    /// How many of all eigenvalues, increasing, are returned.
+    fn listed(&self, all: &[f64]) -> usize {
+        let next = (self.count.max(1)..all.len())
+            .find(|&next| !self.in_groups || is_wide(all, next))
+            .unwrap_or(all.len());
+        if self.count == 0 { 0 } else { next }
+    }
+}
+
+/// Whether the eigenvalue with some index is not equal to the one before it.
+fn is_wide(all: &[f64], index: usize) -> bool {
+    all[index] - all[index - 1] > LEAST_GAP * all[index]
+}
+
 /// Eigenvalues lambda and their vectors.
 type Pairs = Vec<(f64, DVector<f64>)>;
 
@@ -162,12 +204,13 @@ type Pairs = Vec<(f64, DVector<f64>)>;
 ///
 /// # Errors
 /// [`Error::Modes`] if the matrices have no factor or no eigenvalues in doubles.
-fn dense(part: &Part, count: usize) -> Result<(Pairs, Count), Error> {
-    let mut pairs =
-        spectrum(&part.stiffness, &part.mass, count.saturating_add(1)).ok_or(Error::Modes {
-            asked: count,
-            found: 0,
-        })?;
+fn dense(part: &Part, asked: Asked) -> Result<(Pairs, Count), Error> {
+    let mut pairs = spectrum(&part.stiffness, &part.mass, usize::MAX).ok_or(Error::Modes {
+        asked: asked.count,
+        found: 0,
+    })?;
+    let all: Vec<f64> = pairs.iter().map(|pair| pair.0).collect();
+    let count = asked.listed(&all);
     let next = pairs.get(count).map(|pair| pair.0);
     pairs.truncate(count);
     let last = pairs.last().map_or(0.0, |pair| pair.0);
@@ -257,7 +300,7 @@ struct Gap {
 /// Gaps in which to count: those above the first `count` eigenvalues, the nearest first. If there is none
 /// within `MOST_EXTRA` further eigenvalues, those below.
 fn gaps(known: &[f64], count: usize, exhausted: bool) -> Vec<Gap> {
-    let wide = |&cut: &usize| known[cut] - known[cut - 1] > LEAST_GAP * known[cut];
+    let wide = |&cut: &usize| is_wide(known, cut);
     let between = |cut: usize| Gap {
         below: cut,
         low: known[cut - 1],

@@ -156,7 +156,8 @@ impl RefinedModes {
 /// bounds then. The first mesh is made for an estimate of the highest frequency asked
 /// for by Weyl's law; members are cut further until each term is below `accuracy` at the frequency found.
 /// Trusses and rods are not cut, nor are beams without an axial or bending stiffness that others have: their mass acts
-/// at their ends.
+/// at their ends. Where the last mode has a frequency that further modes share, to a relative difference of 1e-6 in its
+/// square, these are returned too.
 ///
 /// # Errors
 /// As [`FactoredFrame::modes`].
@@ -227,7 +228,7 @@ fn refine(
         let frame = FactoredFrame::with_accuracy(&model, &rails, MESH_ACCURACY)?;
         let found = match forces {
             Some(forces) => frame.lowest_excited(&model, forces, count, accuracy)?,
-            None => frame.modes(&model, count)?,
+            None => frame.modes_in_groups(&model, count)?,
         };
         let highest = found.modes.last().map_or(0.0, |mode| mode.omega);
         // If the coarse mesh has fewer modes than asked for, its highest says nothing about those.

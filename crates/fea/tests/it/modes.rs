@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use fea::{
     BeamTheory, CrossSection, Dof, DofSet, Error, GroundSpring, Member, MemberKind, Model, Modes,
-    PointMass, Rail, RailSegment, RigidLink, Support, modes,
+    PointMass, Rail, RailSegment, RigidLink, Support, modes, refined_modes,
 };
 use splines::{Axis, Probe};
 
@@ -761,6 +761,48 @@ fn long_chains_keep_their_lowest_frequencies() {
         for (k, mode) in solved.modes.iter().enumerate() {
             let error = mode.omega / bending((k + 1) as f64 * PI) - 1.0;
             assert!(error.abs() < room, "{count}, {k}: {error}");
+        }
+    }
+}
+
+/// Two equal beams beside each other have each frequency twice (symmetry): whatever the number that is asked for, both of a
+/// pair are listed, by dense matrices and by the search for large structures, and the next frequency is another one.
+#[test]
+fn modes_of_equal_frequency_are_listed_together() {
+    for members in [4, 60] {
+        let one = plane(members, BeamTheory::EulerBernoulli, [PINNED, PINNED]);
+        let mut two = one.clone();
+        let count = one.points.len();
+        two.points
+            .extend(one.points.iter().map(|[x, y, _]| [*x, *y, 20.0]));
+        two.members.extend(one.members.iter().map(|member| Member {
+            points: member.points.map(|point| point + count),
+            ..*member
+        }));
+        two.supports
+            .extend(one.supports.iter().map(|support| Support {
+                point: support.point + count,
+                ..*support
+            }));
+        let segments = (0..members).map(|member| RailSegment {
+            member,
+            offset: [0.0; 3],
+        });
+        let rail = Rail {
+            origin: [0.0; 3],
+            axis: [1.0, 0.0, 0.0],
+            segments: segments.collect(),
+            stations: vec![0.0, L],
+        };
+        for asked in 1..=5 {
+            let found = refined_modes(&two, std::slice::from_ref(&rail), asked, 1e-3);
+            let found = found.expect("sound").modes;
+            let listed = asked + asked % 2;
+            assert_eq!(found.modes.len(), listed, "{members}: {asked}");
+            assert_eq!(found.count_below_shift, listed, "{members}: {asked}");
+            let last = found.modes[listed - 1].omega;
+            let next = found.next.expect("there are more");
+            assert!(next > 1.01 * last, "{next} {last}");
         }
     }
 }

@@ -20,6 +20,7 @@ use super::surface_file::{RawSurface, WrittenSurface};
 use crate::spec::THEORIES;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults, number};
+use crate::text::names::check_free_name;
 use crate::text::place::Place;
 use crate::text::source::Source;
 use crate::units::{RawUnits, Units};
@@ -304,7 +305,9 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
     Some(StationGrid {
         name: raw
             .name
-            .clone()
+            .as_ref()
+            .inspect(|name| check_free_name(name, &root.key("name"), faults))
+            .cloned()
             .unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
         theory: raw.theory.clone(),
@@ -338,6 +341,7 @@ fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridR
             .cloned()
             .unwrap_or_default();
         faults.increasing(&stations, &at.key("stations"));
+        check_free_name(&name, &at.key("name"), faults);
         if rails.iter().any(|rail| rail.name == name) {
             faults.add(
                 Fault::new(&at.key("name"), "must differ from the other rails")

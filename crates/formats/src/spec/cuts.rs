@@ -7,6 +7,7 @@ use super::raw::{RawCut, RawSpec};
 use super::stress::StressPoint;
 use crate::check::Check;
 use crate::text::fault::{Fault, number};
+use crate::text::names::check_free_name;
 use crate::text::place::Place;
 use crate::units::Dimension;
 
@@ -159,6 +160,7 @@ fn each(
             .require(&raw.name, &at, "name")
             .map(String::as_str)
             .unwrap_or_default();
+        check_free_name(name, &at.key("name"), check.faults);
         if raw.name.is_some() && (name.is_empty() || names.contains(&name)) {
             let fault = Fault::new(&at.key("name"), "must differ from the other names")
                 .got(format!("\"{name}\""));

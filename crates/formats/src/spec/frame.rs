@@ -16,6 +16,7 @@ use super::words::DOF_WORDS;
 use super::{crane_rail, members, rails, sections};
 use crate::check::Check;
 use crate::text::fault::Fault;
+use crate::text::names::check_free_key;
 use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::length;
@@ -356,6 +357,7 @@ fn read_sets(
     let sets = raw.point_sets.iter().flat_map(|sets| &sets.0);
     for (name, set) in sets.clone() {
         let at = place.key(name);
+        check_free_key(name, &at, check.faults);
         for (index, point) in set.iter().enumerate() {
             index_below(
                 *point,

@@ -7,6 +7,7 @@ use super::raw::{RawRail, RawSpec};
 use crate::check::Check;
 use crate::limits::STATIONS;
 use crate::text::fault::{Fault, number};
+use crate::text::names::check_free_key;
 use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
@@ -34,6 +35,7 @@ pub(super) fn read(
     }
     for (name, raw) in given {
         let at = list.key(name);
+        check_free_key(name, &at, check.faults);
         if name.is_empty() || name.contains('.') {
             check.faults.add(
                 Fault::new(&at, "must be a name without dots")

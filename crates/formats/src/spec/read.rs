@@ -10,6 +10,7 @@ use super::{cuts, frame, girder, incomplete, notes, outline, preload, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
+use crate::text::names::check_free_name;
 use crate::text::place::Place;
 use crate::text::source::Source;
 use crate::units::{Scale, Units};
@@ -86,6 +87,9 @@ impl Spec {
                 return None;
             }
         };
+        if let Some(name) = &raw.name {
+            check_free_name(name, &root.key("name"), check.faults);
+        }
         let name = raw.name.clone().unwrap_or_else(|| stem(file));
         let outlines = match &raw.girder {
             Some(girder) => vec![outline::of_girder(girder, &root.key("girder"), &mut check)],

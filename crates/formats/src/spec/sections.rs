@@ -7,6 +7,7 @@ use fea::{BeamTheory, CrossSection, MemberKind, Model, Taper};
 use super::raw::{RawMaterial, RawSection, SectionTables};
 use crate::check::Check;
 use crate::text::fault::{Fault, nearest};
+use crate::text::names::check_free_name;
 use crate::text::place::Place;
 use crate::units::Dimension;
 
@@ -38,6 +39,7 @@ pub(super) fn read(
         let Some(name) = check.faults.require(&raw.name, &at, "name") else {
             continue;
         };
+        check_free_name(name, &at.key("name"), check.faults);
         if materials.insert(name.as_str(), material).is_some() {
             check.faults.add(
                 Fault::new(&at.key("name"), "must differ from the other materials")
@@ -60,6 +62,7 @@ pub(super) fn read(
             .require(&raw.name, &at, "name")
             .cloned()
             .unwrap_or_default();
+        check_free_name(&name, &at.key("name"), check.faults);
         if !name.is_empty() && names.contains(&name) {
             check.faults.add(
                 Fault::new(&at.key("name"), "must differ from the other sections")

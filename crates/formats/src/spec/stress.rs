@@ -7,6 +7,7 @@ use super::raw::{RawDetail, RawPoint, SectionTables};
 use super::words::COMPONENTS;
 use crate::check::Check;
 use crate::text::fault::{Fault, alternatives, number};
+use crate::text::names::check_free_name;
 use crate::text::place::Place;
 use crate::units::Dimension;
 
@@ -69,6 +70,7 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
             .require(&raw.name, &at, "name")
             .cloned()
             .unwrap_or_default();
+        check_free_name(&name, &at.key("name"), check.faults);
         let is_taken = points.iter().any(|other| other.name == name);
         if raw.name.is_some() && (name.is_empty() || is_taken || name.contains('.')) {
             let fault = Fault::new(

@@ -59,14 +59,18 @@ impl Excerpt {
         let (before, after) = text.split_at(char_boundary(text, offset));
         let before = &before[before.rfind('\n').map_or(0, |newline| newline + 1)..];
         let after = after.split('\n').next().unwrap_or_default();
-        let plain = |c: char| if c.is_control() { ' ' } else { c };
-        let mut near: Vec<char> = before.chars().rev().take(AROUND[0]).map(plain).collect();
+        let mut near: Vec<char> = before
+            .chars()
+            .rev()
+            .take(AROUND[0])
+            .map(plain_char)
+            .collect();
         if near.len() < before.chars().count() {
             near.extend(['.'; 3]);
         }
         let before = near.len();
         near.reverse();
-        let mut after = after.trim_end().chars().map(plain);
+        let mut after = after.trim_end().chars().map(plain_char);
         near.extend(after.by_ref().take(AROUND[1]));
         if after.next().is_some() {
             near.extend(['.'; 3]);
@@ -110,7 +114,7 @@ impl Diagnostic {
             .line
             .zip(self.column)
             .map_or(0, |(line, column)| format!(":{line}:{column}").len());
-        self.file.len() + place + 1
+        plain(&self.file).len() + place + 1
     }
 
     /// Adds a hint.
@@ -121,23 +125,47 @@ impl Diagnostic {
     }
 }
 
+/// A text without control characters, which a terminal would obey: a blank stands for each. Line feeds and tabs stay.
+///
+/// ```
+/// assert_eq!(formats::text::diagnostic::plain("rail \u{1b}[31m\n"), "rail  [31m\n");
+/// ```
+#[must_use]
+pub fn plain(text: &str) -> String {
+    let stays = |c: char| matches!(c, '\n' | '\t');
+    text.chars()
+        .map(|c| if stays(c) { c } else { plain_char(c) })
+        .collect()
+}
+
+fn plain_char(c: char) -> char {
+    if c.is_control() { ' ' } else { c }
+}
+
+/// Writes the message without control characters.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file)?;
+        write!(f, "{}", plain(&self.message()))
+    }
+}
+
+impl Diagnostic {
+    fn message(&self) -> String {
+        let mut text = self.file.clone();
         if let (Some(line), Some(column)) = (self.line, self.column) {
-            write!(f, ":{line}:{column}")?;
+            text += &format!(":{line}:{column}");
         }
-        write!(f, ": ")?;
+        text += ": ";
         if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
+            text += &format!("{}: ", self.path);
         }
-        write!(f, "{}", self.expected)?;
+        text += &self.expected;
         if let Some(found) = &self.found {
-            write!(f, ", got {found}")?;
+            text += &format!(", got {found}");
         }
         if let Some(hint) = &self.hint {
-            write!(f, "  hint: {hint}")?;
+            text += &format!("  hint: {hint}");
         }
-        Ok(())
+        text
     }
 }

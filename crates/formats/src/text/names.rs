@@ -60,3 +60,30 @@ pub fn check_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
         faults.add(fault.hint("names become parts of column and file names"));
     }
 }
+
+/// Checks that a name that may have any other characters has no control characters, which a terminal would obey, and does
+/// not begin with a character by which a spreadsheet takes a cell of a table for a formula.
+pub fn check_free_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
+    if let Some(fault) = fault_of_free_name(name, place) {
+        faults.add(fault);
+    }
+}
+
+/// [`check_free_name`] of the key of an object.
+pub fn check_free_key(name: &str, place: &Place<'_>, faults: &mut Faults) {
+    if let Some(fault) = fault_of_free_name(name, place) {
+        faults.add(fault.at_key());
+    }
+}
+
+fn fault_of_free_name(name: &str, place: &Place<'_>) -> Option<Fault> {
+    if !name.contains(char::is_control) && !name.starts_with(['=', '+', '-', '@']) {
+        return None;
+    }
+    let expected =
+        "must be a name without control characters that does not begin with `=`, `+`, `-` or `@`";
+    let fault = Fault::new(place, expected)
+        .got(format!("{name:?}"))
+        .of_value();
+    Some(fault.hint("names become cells of tables, which a spreadsheet would take for formulas"))
+}

@@ -4,6 +4,9 @@ use super::values::SplineTable;
 use crate::error::Error;
 use crate::probe::{Axis, Probe};
 
+/// Distance beyond the stations, relative to the largest of their coordinates, that counts as rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// One table of influence coefficients with the direction of its deflections and that of its loads. A
 /// direction is a rail and an axis.
 ///
@@ -101,11 +104,11 @@ impl Directions {
         ))
     }
 
-    /// Number of the direction of a probe.
+    /// Number of the direction of a probe, and its place, which rounding may have moved beyond the stations.
     ///
     /// # Errors
     /// A rail or a direction without a table, or a place beyond its stations.
-    pub fn find(&self, p: Probe) -> Result<usize, Error> {
+    pub fn find(&self, p: Probe) -> Result<(usize, f64), Error> {
         let Ok(direction) = self.names.binary_search(&(p.rail, p.axis)) else {
             let known = self.names.iter().any(|name| name.0 == p.rail);
             return Err(if known {
@@ -119,8 +122,9 @@ impl Directions {
             });
         };
         let [first, last] = self.ranges[direction];
-        if p.x >= first && p.x <= last {
-            Ok(direction)
+        let slack = ROUNDING * first.abs().max(last.abs());
+        if p.x >= first - slack && p.x <= last + slack {
+            Ok((direction, p.x.max(first).min(last)))
         } else {
             Err(Error::OffRail {
                 rail: p.rail,

@@ -212,10 +212,10 @@ impl FactoredTable {
         let n = at.len();
         let (phi, slopes) = rows.split_at_mut(n * width);
         for (i, p) in at.iter().enumerate() {
-            let direction = self.directions.find(*p)?;
+            let (direction, x) = self.directions.find(*p)?;
             owners[i] = self.owner[direction];
             let splines = &self.splines[direction];
-            let at = Interval::find(&splines.stations, p.x);
+            let at = Interval::find(&splines.stations, x);
             splines.all(&at, &at.weights(), &mut phi[i * width..]);
             splines.all(&at, &at.slope_weights(), &mut slopes[i * width..]);
         }
@@ -455,7 +455,7 @@ impl Compliance for FactoredTable {
 impl Differentiable for FactoredTable {
     /// All derivatives up to the second are continuous.
     fn partials(&self, p: Probe, q: Probe) -> Result<Partials, Error> {
-        let (a, b) = (self.directions.find(p)?, self.directions.find(q)?);
+        let ((a, x), (b, z)) = (self.directions.find(p)?, self.directions.find(q)?);
         if self.owner[a] != self.owner[b] {
             return Ok(Partials::default());
         }
@@ -466,7 +466,7 @@ impl Differentiable for FactoredTable {
                 [at.weights(), at.slope_weights(), at.curvature_weights()],
             )
         };
-        let ((at, own), (to, load)) = (three(a, p.x), three(b, q.x));
+        let ((at, own), (to, load)) = (three(a, x), three(b, z));
         let mut out = Partials::default();
         for k in 0..self.splines[a].rank {
             let [p0, p1, p2] = own.map(|w| self.splines[a].one(&at, &w, k));

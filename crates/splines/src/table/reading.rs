@@ -107,9 +107,10 @@ impl TableReading {
     /// The probe with the number of its direction in place of the rail.
     #[inline]
     fn numbered(&self, p: Probe) -> Result<Probe, Error> {
+        let (rail, x) = self.directions.find(p)?;
         Ok(Probe {
-            rail: self.directions.find(p)?,
-            x: p.x,
+            rail,
+            x,
             axis: Axis::Vertical,
         })
     }

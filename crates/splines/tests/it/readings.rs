@@ -389,3 +389,33 @@ fn unusable_tables_are_refused() {
         Err(Error::PointCount { x: 4, y: 3 })
     );
 }
+
+/// Rounding may place a probe just beyond the first or the last station, where the table has its end (analytic); a probe
+/// that is further beyond is refused.
+#[test]
+fn rounding_leads_no_probe_off_its_table() {
+    let stations: Vec<f64> = [0.15, 2.0, 3.0, 4.0, 5.6].to_vec();
+    let beam = Beam::paper();
+    for kind in [
+        ReadingMethod::Natural,
+        ReadingMethod::Akispl,
+        ReadingMethod::Symmetrised,
+        ReadingMethod::Cubspl,
+    ] {
+        let reading = read(kind, tabulate(&beam, &stations));
+        for (end, beyond) in [
+            (0.15, 0.15_f64.next_down()),
+            (5.6, 5.6_f64.next_up()),
+            (0.15, 0.15 - 4e-16),
+        ] {
+            let near = value(&reading, beyond, beyond);
+            assert_eq!(near, value(&reading, end, end), "{kind:?} {beyond}");
+        }
+        let far = [probe(Axis::Vertical, 0.15 - 1e-9)];
+        let mut out = Influence::zeros(1);
+        assert!(matches!(
+            reading.fill(&far, &mut out),
+            Err(Error::OffRail { .. })
+        ));
+    }
+}

@@ -194,10 +194,10 @@ impl List<'_> {
         if kinds.is_girder {
             for &count in &self.budget.parts {
                 let handover = Handover::Blend { length: None };
-                let scene = with(&fine, |_| Foundation::Parts {
+                let scene = with(&fine, |own| Foundation::Parts {
                     count,
                     handover,
-                    damping: 0.0,
+                    damping: own.damping,
                 });
                 self.add(SettingFamily::Parts, "parts", count as f64, scene);
             }

@@ -293,3 +293,108 @@ fn classical_trains_on_a_simple_beam() {
         }
     }
 }
+
+/// The extremes of trains of single wheels on a simple beam of 10 m, in any order with a gap.
+fn single_wheels(trains: Vec<Train>, gap: f64, ordered: bool) -> CaseEnvelopes {
+    let (structure, request) = beam(10.0, 0.0);
+    let case = TrainCase {
+        trains,
+        gap,
+        ordered,
+        ..TrainCase::default()
+    };
+    envelopes(&structure, &DeadLoads::default(), &[case], &request)
+        .expect("the trains fit")
+        .remove(0)
+}
+
+/// A simple beam with an overhang behind it, and a request for its ends, its span and its reactions.
+fn beam(span: f64, overhang: f64) -> (Structure, Request) {
+    let girder = Girder {
+        spans: vec![span],
+        overhangs: [0.0, overhang],
+        e: 2.1e8,
+        i_vertical: 1e-3,
+        ..Girder::default()
+    };
+    let (model, rail) = girder.model_and_rail().expect("the girder is valid");
+    let structure = Structure::new(&model, &[rail], false).expect("the girder is stable");
+    let up = |hold: &fea::Restraint| hold.dof == fea::Dof::Uy;
+    let holds = structure.frame().restraints(&model).into_iter().filter(up);
+    let request = Request {
+        spans: vec![vec![0.0, span]],
+        places: vec![vec![0.0, span, span + overhang]],
+        effects: holds.map(|hold| vec![Effect::Reaction(hold)]).collect(),
+        ..Request::default()
+    };
+    (structure, request)
+}
+
+/// Statics: two wheels of 100 kN with a metre of train behind each meet back to back, as only one of them is turned:
+/// M = 200 L/4 = 500 kN m, and V = 200 kN with both over a support. A response to a single wheel does not tell its turns.
+#[test]
+fn trains_that_differ_by_their_ends_alone_are_turned() {
+    let of = || Train {
+        ends: [0.0, 1.0],
+        ..train(&[(0.0, 100.0)])
+    };
+    let found = single_wheels(vec![of(), of()], 0.0, false);
+    let value = |quantity| extreme(&found, 1, quantity, true).governing.value;
+    assert!((value(GirderResponse::VerticalMoment) - 500.0).abs() < 1e-9);
+    assert!((value(GirderResponse::VerticalShear) - 200.0).abs() < 1e-9);
+}
+
+/// Statics: a second train that enters stays off the rail as long as the first needs all of it, so that the first alone
+/// governs: the reaction at either end is its 100 kN. Without room to leave, it was 81 kN at the far end.
+#[test]
+fn trains_that_enter_lower_no_extreme() {
+    let heavy = Train {
+        enters: true,
+        ..train(&[(0.0, 100.0)])
+    };
+    let light = Train {
+        enters: true,
+        ..train(&[(0.0, 1.0)])
+    };
+    let found = single_wheels(vec![heavy.clone(), light.clone()], 2.0, true);
+    assert_eq!(found.effects.len(), 2);
+    // behind the first by two metres, the second adds to the reaction ahead of it alone: 1 (10 - 2)/10
+    for (effect, known) in found.effects.iter().zip([100.8, 100.0]) {
+        assert!((effect[0].value - known).abs() < 1e-9, "{effect:?}");
+        assert!(effect[1].value.abs() < 1e-9, "{effect:?}");
+    }
+    // a train as long as the rail leaves the other one no place on it
+    let long = train(&[(0.0, 100.0), (10.0, 100.0)]);
+    for order in [[&long, &light], [&light, &long]] {
+        let found = single_wheels(order.map(Clone::clone).to_vec(), 2.0, false);
+        for effect in &found.effects {
+            assert!((effect[0].value - 100.0).abs() < 1e-9, "{effect:?}");
+        }
+    }
+}
+
+/// Statics: a wheel at the tip of an overhang has its load as the shear just before it, whether or not the train may go
+/// on beyond the rail; and at the first support its reaction just behind it.
+#[test]
+fn a_wheel_that_enters_counts_at_the_ends_of_its_rail() {
+    let (structure, request) = beam(6.0, 2.0);
+    for enters in [true, false] {
+        let case = TrainCase {
+            trains: vec![Train {
+                enters,
+                ..train(&[(0.0, 100.0)])
+            }],
+            ..TrainCase::default()
+        };
+        let found = envelopes(&structure, &DeadLoads::default(), &[case], &request)
+            .expect("the train fits")
+            .remove(0);
+        for x in [0.0, 8.0] {
+            let own = found.envelopes.iter().find(|e| {
+                e.is_max && e.quantity == GirderResponse::VerticalShear && e.governing.x == x
+            });
+            let value = own.expect("the end is a place").governing.value;
+            assert!((value - 100.0).abs() < 1e-9, "{enters} {x}: {value}");
+        }
+    }
+}

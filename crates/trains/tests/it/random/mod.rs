@@ -7,12 +7,16 @@ mod reference;
 mod scene;
 mod search;
 
+use std::collections::BTreeMap;
+
 use fastrand::Rng;
 use fea::Effect;
 use reference::{Load, Place, Reference};
 use scene::Scene;
 use search::{Draw, State};
-use trains::{CaseEnvelopes, Error, GirderResponse, Governing, Request, Structure, envelopes};
+use trains::{
+    CaseEnvelopes, Error, GirderResponse, Governing, Request, Structure, TrainCase, envelopes,
+};
 
 /// By how much values of states exceed what is said to bound them, relative to the largest of their kind.
 #[derive(Debug, Default)]
@@ -362,8 +366,11 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
         }
         out
     };
-    let asked = draw(6);
+    let mut asked = draw(6);
     let further = draw(20);
+    for (rail, ends) in reference.ranges.iter().enumerate() {
+        asked.extend(ends.iter().flat_map(|x| reference.places(rail, *x)));
+    }
     let mut places = vec![Vec::new(); scene.rails.len()];
     asked
         .iter()
@@ -460,8 +467,132 @@ fn check(worst: &Worst) {
 #[test]
 fn no_state_exceeds_an_envelope() {
     let mut worst = Worst::default();
-    (0..12).for_each(|seed| run(seed, 500, &mut worst));
+    (0..40).for_each(|seed| run(seed, 150, &mut worst));
     check(&worst);
+}
+
+/// The extremes of a case over spans and of reactions: values and bounds, by what they are of. `None` where it is refused.
+fn extremes_of(scene: &Scene, case: &TrainCase) -> Option<BTreeMap<String, [f64; 2]>> {
+    let eccentric = case.trains.iter().flat_map(|train| &train.wheels);
+    let eccentric = eccentric.into_iter().any(|w| w.eccentricity != 0.0);
+    let structure =
+        Structure::new(&scene.model, &scene.rails, eccentric).expect("the structure is stable");
+    let holds = structure.frame().restraints(&scene.model).into_iter();
+    let request = Request {
+        spans: scene.spans.clone(),
+        effects: holds.map(|hold| vec![Effect::Reaction(hold)]).collect(),
+        ..Request::default()
+    };
+    let found = match envelopes(
+        &structure,
+        &scene.dead,
+        std::slice::from_ref(case),
+        &request,
+    ) {
+        Ok(mut found) => found.remove(0),
+        Err(Error::NoRoom { .. } | Error::TooLong { .. } | Error::NoStiffness { .. }) => {
+            return None;
+        }
+        Err(Error::Ring { .. }) => return None,
+        Err(error) => panic!("{error}"),
+    };
+    let mut out = BTreeMap::new();
+    for e in &found.extremes {
+        let sign = if e.is_max { 1.0 } else { -1.0 };
+        let name = format!("{:?} {} {} {}", e.quantity, e.rail, e.span, e.is_max);
+        out.insert(name, [sign * e.governing.value, sign * e.bound]);
+    }
+    for (index, [most, least]) in found.effects.iter().enumerate() {
+        out.insert(format!("reaction {index} true"), [most.value; 2]);
+        out.insert(format!("reaction {index} false"), [-least.value; 2]);
+    }
+    Some(out)
+}
+
+/// The largest size of the values of each kind.
+fn sizes_of(all: &BTreeMap<String, [f64; 2]>) -> BTreeMap<String, f64> {
+    let mut sizes = BTreeMap::new();
+    for (name, [value, _]) in all {
+        let kind = name.split(' ').next().expect("a word").to_owned();
+        let kind = kind.replace("Lateral", "").replace("Vertical", "");
+        let size: &mut f64 = sizes.entry(kind).or_insert(1e-6);
+        *size = size.max(value.abs());
+    }
+    sizes
+}
+
+/// No value of `less` exceeds the bound of the same in `more`.
+fn assert_not_lowered([more, less]: [&BTreeMap<String, [f64; 2]>; 2], what: &str) {
+    let sizes = sizes_of(less);
+    for (name, [value, _]) in less {
+        let kind = name.split(' ').next().expect("a word");
+        let size = sizes[&kind.replace("Lateral", "").replace("Vertical", "")];
+        let bound = more[name][1];
+        assert!(
+            bound >= value - 1e-9 * size,
+            "{what}: {name} is {value}, then at most {bound}"
+        );
+    }
+}
+
+/// Statics: a further train that may leave the rails, and turns and signs that are allowed, lower no extreme; the order in
+/// which the file lists trains that may stand in any order changes nothing, and loads of twice the size double all that is
+/// not due to dead load.
+#[test]
+fn what_is_allowed_lowers_no_extreme() {
+    let mut compared = 0;
+    for seed in 100..140 {
+        let mut scene = scene::scene(seed);
+        scene.dead = trains::DeadLoads::default();
+        let mut case = scene.case.clone();
+        if let [train] = &case.trains[..] {
+            case.trains.push(train.clone());
+        }
+        let count = case.trains.len();
+        case.trains[count - 1].enters = true;
+        let Some(all) = extremes_of(&scene, &case) else {
+            continue;
+        };
+        compared += 1;
+        let mut fewer = case.clone();
+        fewer.trains.pop();
+        let without = extremes_of(&scene, &fewer).expect("one train less has room");
+        assert_not_lowered([&all, &without], &format!("seed {seed}, a train less"));
+        let mut held = case.clone();
+        held.trains.iter_mut().for_each(|train| {
+            train.turned = false;
+            train.reverses = false;
+        });
+        if let Some(held) = extremes_of(&scene, &held) {
+            assert_not_lowered([&all, &held], &format!("seed {seed}, given stances"));
+        }
+        let mut doubled = case.clone();
+        for wheel in doubled
+            .trains
+            .iter_mut()
+            .flat_map(|train| &mut train.wheels)
+        {
+            wheel.vertical *= 2.0;
+            wheel.lateral *= 2.0;
+            wheel.longitudinal *= 2.0;
+        }
+        let doubled = extremes_of(&scene, &doubled).expect("loads take no room");
+        let half: BTreeMap<_, _> = doubled
+            .into_iter()
+            .map(|(name, both)| (name, both.map(|value| 0.5 * value)))
+            .collect();
+        let mut turned = case.clone();
+        turned.ordered = false;
+        let any = extremes_of(&scene, &turned).expect("any order has more room");
+        assert_not_lowered([&any, &all], &format!("seed {seed}, the given order"));
+        turned.trains.reverse();
+        let other = extremes_of(&scene, &turned).expect("any order has more room");
+        for (one, two) in [(&all, &half), (&any, &other)] {
+            assert_not_lowered([one, two], &format!("seed {seed}, the same"));
+            assert_not_lowered([two, one], &format!("seed {seed}, the same"));
+        }
+    }
+    assert!(compared > 25, "{compared}");
 }
 
 /// Two hundred structures, a hundred thousand states each.

@@ -337,6 +337,9 @@ fn train(dice: &mut Rng, rails: usize, room: f64) -> Train {
         })
         .collect();
     wheels.sort_by(|a, b| a.x.total_cmp(&b.x));
+    // the position of a train is that of its first wheel
+    let start = wheels[0].x;
+    wheels.iter_mut().for_each(|wheel| wheel.x -= start);
     Train {
         wheels,
         ends: [0, 1].map(|_| {
@@ -348,6 +351,6 @@ fn train(dice: &mut Rng, rails: usize, room: f64) -> Train {
         }),
         turned: dice.bool(),
         reverses: dice.u8(..3) > 0,
-        enters: dice.u8(..4) == 0,
+        enters: dice.u8(..3) == 0,
     }
 }

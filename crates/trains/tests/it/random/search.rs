@@ -6,6 +6,9 @@ use trains::Orientation;
 use super::reference::Reference;
 use super::scene::Scene;
 
+/// How far beyond its rails a train that enters is tried, length: more than trains take in a row.
+const BEYOND: f64 = 150.0;
+
 /// How each train stands.
 pub type State = Vec<(f64, Orientation)>;
 
@@ -80,6 +83,8 @@ impl<'a> Draw<'a> {
             if first > last {
                 return None;
             }
+            let near = |x: f64| x.clamp(first, last);
+            let [first_on, last_on] = [first, last].map(|x| self.near_rails(train, x)).map(near);
             positions[train] = match dice.u8(..8) {
                 0 => first,
                 1 => last,
@@ -100,10 +105,23 @@ impl<'a> Draw<'a> {
                         first
                     }
                 }
-                _ => first + (last - first) * dice.f64(),
+                _ => first_on + (last_on - first_on) * dice.f64(),
             };
         }
         Some(positions.into_iter().zip(stances).collect())
+    }
+
+    /// The position nearest to one from which a train may reach its rails.
+    fn near_rails(&self, train: usize, position: f64) -> f64 {
+        let ranges = self.scene.case.trains[train].wheels.iter().map(|wheel| {
+            let offset = wheel.x.abs();
+            let [low, high] = self.ranges[wheel.rail].map(|x| x - self.shift(train, wheel.rail));
+            [low - offset, high + offset]
+        });
+        let [low, high] = ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |r, e| {
+            [r[0].min(e[0]), r[1].max(e[1])]
+        });
+        position.clamp(low, high)
     }
 
     /// Rail coordinate less position of the train for a wheel of offset 0 on a rail.
@@ -121,9 +139,15 @@ impl<'a> Draw<'a> {
             self.ranges[wheel.rail].map(|end| end - offset)
         });
         if of.enters {
-            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |r, e| {
+            let [first, last] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |r, e| {
                 [r[0].min(e[0]), r[1].max(e[1])]
-            })
+            });
+            // beyond its rails it may leave any room to others
+            if self.scene.case.trains.len() > 1 {
+                [first - BEYOND, last + BEYOND]
+            } else {
+                [first, last]
+            }
         } else {
             ends.fold([f64::NEG_INFINITY, f64::INFINITY], |r, e| {
                 [r[0].max(e[0]), r[1].min(e[1])]
