@@ -12,6 +12,9 @@ pub struct GivenValues {
     pub variables: BTreeMap<u32, f64>,
     /// Values DIF1, by identifier of the DIFF; zero where there is none.
     pub rates: BTreeMap<u32, f64>,
+    /// Freedoms of parts that statics leaves where they are, by identifier of the PART: 0 to 2 translations along x, y
+    /// and z of ground, 3 to 5 rotations about them.
+    pub held: BTreeSet<(u32, usize)>,
 }
 
 /// What the expressions give after given values were put into them.

@@ -6,11 +6,10 @@
 //! the moment m g h theta of the weight, which the simulator leaves out. It is estimated by the first Newton step, and
 //! must not exceed the estimate by more than a factor.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use adams::{
-    AdamsModel, ArgumentValue, DataSet, Equilibrium, GivenValues, RotationMeasure, StatementId,
-};
+use adams::{AdamsModel, DataSet, Equilibrium, GivenValues, RotationMeasure, StatementId};
 use nalgebra::Vector3;
 use sim::{Analysis, BodyDof, Channel, ContactForces, Foundation, Instant, Status};
 
@@ -201,7 +200,8 @@ pub fn path(
     foundations: &[Foundation],
     sweep: &Sweep,
 ) -> Result<SweepDifference, Error> {
-    let model = AdamsModel::new(&with_fixed_axles(plan, set))?;
+    let model = AdamsModel::new(set)?;
+    let held = held(plan);
     let scales = Scales::of(plan, &sweep.cases);
     let mut out = SweepDifference {
         places: 0,
@@ -213,7 +213,8 @@ pub fn path(
         causes: sweep.failed.iter().cloned().collect(),
     };
     for case in &sweep.cases {
-        let given = expected_values(plan, foundations, case, 0.0)?.given;
+        let mut given = expected_values(plan, foundations, case, 0.0)?.given;
+        given.held.clone_from(&held);
         let guess = state(plan, case, None);
         out.places += 1;
         let time = case.instant.time;
@@ -237,7 +238,7 @@ pub fn path(
         }
         let given = GivenValues {
             variables: small.solution.variables.clone(),
-            rates: given.rates,
+            ..given
         };
         let finite = model
             .imbalance(&small.state, &given, RotationMeasure::Finite)
@@ -290,31 +291,40 @@ fn causes(
         .collect()
 }
 
-/// The data set with the axles of spinning wheels fixed: their angles have no equation of statics.
-fn with_fixed_axles(plan: &DeckPlan<'_>, set: &DataSet) -> DataSet {
-    let mut set = set.clone();
-    let is_axle = |id: u32| {
-        plan.wheels
-            .iter()
-            .enumerate()
-            .any(|(w, wheel)| wheel.spin.is_some() && number(w) == id)
-    };
-    for joint in set
-        .statements
-        .iter_mut()
-        .filter(|one| one.keyword == "JOINT" && one.id.is_some_and(is_axle))
-    {
-        for argument in joint
-            .arguments
-            .iter_mut()
-            .filter(|argument| argument.value == ArgumentValue::Flag)
-        {
-            if argument.name == "REVOLUTE" {
-                argument.name = "FIXED".to_owned();
+/// The freedoms of parts that the statics of the simulator leaves where they are: z, yaw and the spins of wheels, and roll
+/// and pitch where no wheel resists them. Between flanges nothing determines z and yaw.
+fn held(plan: &DeckPlan<'_>) -> BTreeSet<(u32, usize)> {
+    let mut out = BTreeSet::new();
+    for (b, body) in plan.bodies.iter().enumerate() {
+        let arms = |axis: usize| {
+            plan.contacts
+                .iter()
+                .filter(|contact| plan.wheels[contact.wheels.start].body == b)
+                .map(|contact| {
+                    let hubs = contact.wheels.clone().map(|w| plan.wheels[w].hub[axis]);
+                    hubs.sum::<f64>()
+                })
+                .fold(0.0_f64, |most, arm| most.max(arm.abs()))
+        };
+        let free = plan.scene.bodies[b].free;
+        out.extend(
+            [2, 4]
+                .into_iter()
+                .filter(|&k| free[k])
+                .map(|k| (body.part, k)),
+        );
+        for (rotation, axis) in [(3, 2), (5, 0)] {
+            if free[rotation] && arms(axis) == 0.0 {
+                out.insert((body.part, rotation));
             }
         }
     }
-    set
+    for wheel in &plan.wheels {
+        if let Some((part, _)) = wheel.spin {
+            out.insert((part, 5));
+        }
+    }
+    out
 }
 
 /// Positions of bodies and wheels in ground, and forces of wheels.

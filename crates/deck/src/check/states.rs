@@ -153,7 +153,14 @@ fn penetrations(
     random: &mut Random,
 ) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
-    let approach = |c: usize| open.penetration[c];
+    // a bilateral contact is closed already: its penetration is not its approach
+    let approach = |c: usize| {
+        if law(c).bilateral {
+            open.approach[c]
+        } else {
+            open.penetration[c]
+        }
+    };
     let mut active: Vec<usize> = (0..plan.contacts.len())
         .filter(|&c| plan.contacts[c].diff.is_some() && (law(c).bilateral || approach(c) > 0.0))
         .collect();

@@ -12,6 +12,7 @@ use super::search::{ROUNDING, STALLED, Search, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
+use std::collections::BTreeSet;
 
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
@@ -55,7 +56,7 @@ impl AdamsModel {
         measure: RotationMeasure,
     ) -> Result<Imbalance, Error> {
         let at = self.iterate_near(guess, given, measure)?;
-        let search = Search::new(self, &at);
+        let search = Search::new(self, &at).holding(&given.held);
         let (residual, matrix) = search.linearize(&at, &search.unknowns)?;
         let rows = search.residual_scales(&at);
         let left = without_reactions(&search, &residual, &matrix, &rows);
@@ -92,7 +93,8 @@ impl AdamsModel {
         Ok(Imbalance { equations, after })
     }
 
-    /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there.
+    /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there. Freedoms that are held
+    /// stay where they are.
     ///
     /// # Errors
     /// The errors of [`AdamsModel::equilibrium`].
@@ -103,7 +105,7 @@ impl AdamsModel {
         measure: RotationMeasure,
     ) -> Result<Equilibrium, Error> {
         let start = self.iterate_near(guess, given, measure)?;
-        let search = Search::new(self, &start);
+        let search = Search::new(self, &start).holding(&given.held);
         if search.unknowns.is_empty() {
             return search.report(&start, 0, 0);
         }
@@ -133,6 +135,17 @@ impl AdamsModel {
 }
 
 impl Search<'_> {
+    /// The search without some freedoms of parts, by identifier, and without their equations.
+    fn holding(mut self, held: &BTreeSet<(u32, usize)>) -> Self {
+        let id = |part: usize| self.model.parts[part].id;
+        self.unknowns.retain(|unknown| match *unknown {
+            Unknown::Translation(part, axis) => !held.contains(&(id(part), axis)),
+            Unknown::Rotation(part, axis) => !held.contains(&(id(part), 3 + axis)),
+            _ => true,
+        });
+        self
+    }
+
     /// The equilibrium by full Newton steps; `None` if they do not converge.
     fn full_steps(&self, mut at: Iterate) -> Result<Option<Equilibrium>, Error> {
         let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);

@@ -59,7 +59,7 @@ pub(super) fn search(
 const SOLVED: f64 = 1e-6;
 /// A search and the scales of its quantities.
 pub(super) struct Search<'a> {
-    model: &'a AdamsModel,
+    pub model: &'a AdamsModel,
     pub unknowns: Vec<Unknown>,
     /// The unknowns of algebraic loops and of differential equations.
     pub inner: Vec<Unknown>,
