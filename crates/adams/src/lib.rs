@@ -71,5 +71,8 @@ pub use language::{
     StatementArgument,
 };
 pub use model::AdamsModel;
-pub use solve::{ConstraintReaction, Equilibrium, Load, SolvedModelState};
+pub use solve::{
+    ConstraintReaction, EquationResidual, Equilibrium, GivenValues, Imbalance, Load,
+    RotationMeasure, SolvedModelState, SubstitutedValues, Substitution,
+};
 pub use tables::{Spline, SplineFunction, SplineMethod, SplineReading, SplineValues, Tables};

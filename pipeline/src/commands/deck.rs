@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::{DeckArgs as Arguments, Global};
 use crate::exit::{Exit, Failure};
+use crate::interrupt;
 use crate::output;
 use crate::progress::Progress;
 use deck::{self, DeckForm, check};
@@ -76,7 +77,11 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         None => output::print(&text)?,
         Some(path) => {
             let beside = command_file(path);
-            files::write_together(&[(path, text.as_bytes()), (&beside, deck.commands.as_bytes())])?;
+            let both = [
+                (path.as_path(), text.as_bytes()),
+                (&beside, deck.commands.as_bytes()),
+            ];
+            interrupt::writing(&[path, &beside], || files::write_together(&both))?;
             progress.say(&format!("wrote {}", path.display()));
             progress.say(&format!("wrote {}", beside.display()));
         }

@@ -9,6 +9,7 @@ use super::part::{Marker, Part};
 use crate::kinematics::vector::Vector;
 use crate::tables::SplineFunction;
 use crate::{AdamsFault, Expression, ModelState};
+use std::collections::BTreeSet;
 
 /// A data set with every reference resolved, which can be executed.
 ///
@@ -40,6 +41,8 @@ pub struct AdamsModel {
     pub(crate) gravity: Vector<f64>,
     /// The order in which the slots are evaluated.
     pub(crate) order: Vec<Block>,
+    /// The slots that the expression of each slot reads.
+    pub(crate) needs: Vec<BTreeSet<usize>>,
     pub(super) symbols: Symbols,
 }
 

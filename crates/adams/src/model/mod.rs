@@ -22,4 +22,4 @@ pub(crate) use constraint::{Constraint, Equation};
 pub use data::AdamsModel;
 pub(crate) use data::Owner;
 pub(crate) use formula::Evaluation;
-pub(crate) use order::Block;
+pub(crate) use order::{Block, order};

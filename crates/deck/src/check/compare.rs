@@ -1,89 +1,248 @@
-//! Comparison of the components of every GFORCE of the deck with those of the simulator.
+//! Comparison of the equations of the deck with the values of the simulator.
+//!
+//! At each state the VARIABLEs and rates of the simulator are put into the expressions of the deck, and each expression
+//! must give the value of the simulator. A loop in which every equation holds is solved, so that no loop is solved
+//! here: wheels may be as stiff and as close together as they like. A difference belongs to one statement.
 
-use adams::{AdamsModel, ArgumentValue, DataSet, ModelState, SolvedModelState, StatementArgument};
+use adams::{AdamsModel, DataSet, GivenValues, ModelState};
 use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
 
 use super::states::CheckCase;
-use super::step;
 use crate::Error;
 use crate::words::ids::{VariableSlot, number, variable};
 use crate::{DeckForm, DeckPlan};
 
-/// Components of a wheel's force, in the order of GFORCE.
-pub const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "TX", "TY", "TZ"];
+/// Quantities that are compared: VARIABLEs and DIFFs of wheels, and the components of their GFORCEs.
+pub const QUANTITIES: [&str; 15] = [
+    "place", "rise", "shift", "penetr", "gap", "sideways", "down", "flange", "traction", "FX",
+    "FY", "FZ", "TX", "TY", "TZ",
+];
+/// The first quantities are lengths, the others forces, and the last three moments.
+const LENGTHS: usize = 6;
+/// The first component of a GFORCE.
+const FORCE: usize = 9;
+/// The first moment.
+const MOMENT: usize = 12;
+/// Rounding errors of a length are at most this times the coordinates that it is computed from.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Largest number of statements that are named in a report.
+const NAMED: usize = 3;
 
-/// Differences of forces over many states.
+/// A statement whose value in the deck is not that of the simulator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrongStatement {
+    /// Keyword, identifier and name, such as `VARIABLE/105 (t_wheel1_press)`.
+    pub statement: String,
+    /// The quantity, one of [`QUANTITIES`].
+    pub quantity: &'static str,
+    /// The value that the deck gives.
+    pub deck: f64,
+    /// The value of the simulator.
+    pub simulator: f64,
+    /// Time of the state, s.
+    pub time: f64,
+    /// Difference relative to the largest value of the quantity.
+    pub relative: f64,
+}
+
+/// Differences of values over many states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckDifference {
     /// Description of the comparison.
     pub what: &'static str,
     /// Number of states.
     pub states: usize,
-    /// Limit of the difference, relative to the largest force of all states (moments are divided by the radius of the
-    /// largest wheel); `None` if the difference is reported without a limit.
-    pub limit: Option<f64>,
-    /// Largest difference of each component, relative to the same force.
-    pub worst: [f64; 6],
+    /// Limit of the difference, relative to the largest value: of all forces for forces (moments are divided by the
+    /// radius of the largest wheel), of the same quantity for lengths. To it come the rounding errors of coordinates,
+    /// and what stiff wheels make of them.
+    pub limit: f64,
+    /// Largest difference of each of [`QUANTITIES`], relative to the same value.
+    pub worst: [f64; QUANTITIES.len()],
     /// Largest force of all states.
     pub largest: f64,
-    /// Number of states at which the deck could not be solved, with the error at the first of them.
+    /// The statements that differ most, if any differ by more than the limit.
+    pub wrong: Vec<WrongStatement>,
+    /// Number of states at which the deck could not be evaluated, with the error at the first of them.
     pub failed: Option<(String, usize)>,
 }
 
 impl CheckDifference {
-    /// Largest of the components.
+    /// Largest of the differences.
     #[must_use]
     pub fn largest_of_all(&self) -> f64 {
         self.worst.iter().fold(0.0, |most, value| most.max(*value))
     }
 
-    /// Whether the difference is within its limit and the deck was solved at every state.
+    /// Whether the differences are within the limit and the deck was evaluated at every state.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.limit
-            .is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
+        self.failed.is_none() && self.wrong.is_empty()
     }
 }
 
-/// Expected forces of the deck at one state, computed by the simulator.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExpectedForces {
-    /// GFORCE of each wheel: components on the wheel, in the frame of its rail.
-    pub forces: Vec<[f64; 6]>,
-    /// Values of VARIABLEs by identifier, used as a first guess where the initial values of the deck do not lead to a
-    /// solution.
-    pub variables: Vec<(u32, f64)>,
+/// A value of the simulator that a statement of the deck must give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ExpectedValue {
+    /// Index in [`QUANTITIES`].
+    quantity: usize,
+    keyword: &'static str,
+    id: u32,
+    value: f64,
+    /// The rounding error of the expression.
+    rounding: f64,
 }
 
-/// The expected forces of the deck at `case`.
+/// The values of the simulator at one state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpectedValues {
+    /// VARIABLEs and rates, which are put into the expressions of the deck.
+    pub given: GivenValues,
+    values: Vec<ExpectedValue>,
+}
+
+/// The values that the deck must give at `case`; `size` is the size of the coordinates that come to those of the scene
+/// where the rails are on a moving part.
 ///
 /// Contact forces are those of the simulator. Displacements of rails, and the forces F du/dx along them, are computed
 /// from values and derivatives of the tables.
 ///
 /// # Errors
 /// [`Error::Compliance`] for a wheel beyond its rail.
-pub fn expected_forces(
+pub fn expected_values(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
     case: &CheckCase,
-) -> Result<ExpectedForces, Error> {
-    let forces = &case.forces;
-    let (mut out, mut variables) = (Vec::with_capacity(plan.wheels.len()), Vec::new());
-    for (w, wheel) in plan.wheels.iter().enumerate() {
-        let penetration = forces.penetration[wheel.contact];
-        let arm = plan.kind(w).radius - penetration;
-        let (down, side, along) = (forces.vertical[w], forces.lateral[w], forces.traction[w]);
-        out.push([-along, down, -side, arm * side, 0.0, -arm * along]);
-        variables.push((variable(w, VariableSlot::Penetration), penetration));
-        variables.push((variable(w, VariableSlot::Press), down));
-        variables.push((variable(w, VariableSlot::Flange), side));
-        variables.push((variable(w, VariableSlot::Traction), along));
-        if let Some(id) = plan.contacts[wheel.contact].diff {
-            variables.push((step::variable(id), penetration));
+    size: f64,
+) -> Result<ExpectedValues, Error> {
+    let rails = displacements(plan, foundations, case)?;
+    let mut out = ExpectedValues {
+        given: GivenValues::default(),
+        values: Vec::new(),
+    };
+    for w in 0..plan.wheels.len() {
+        wheel(plan, case, w, &rails[w], size, &mut out);
+    }
+    for (c, contact) in plan.contacts.iter().enumerate() {
+        let Some(id) = contact.diff else { continue };
+        out.given.rates.insert(id, case.rate[c]);
+        if plan.form != DeckForm::Paper {
+            let rounding = ROUNDING * (size + plan.kind(contact.wheels.start).radius);
+            out.values.push(ExpectedValue {
+                quantity: 4,
+                keyword: "DIFF",
+                id,
+                value: 0.0,
+                rounding,
+            });
         }
     }
+    Ok(out)
+}
+
+/// The values of wheel `w`.
+fn wheel(
+    plan: &DeckPlan<'_>,
+    case: &CheckCase,
+    w: usize,
+    rail: &RailDisplacement,
+    size: f64,
+    out: &mut ExpectedValues,
+) {
+    let (own, kind, forces) = (&plan.wheels[w], plan.kind(w), &case.forces);
+    let contact = &plan.contacts[own.contact];
+    let penetration = forces.penetration[own.contact];
+    let (down, side, along) = (forces.vertical[w], forces.lateral[w], forces.traction[w]);
+    let arm = kind.radius - penetration;
+    let [x, y, z, roll, yaw, pitch] = case.instant.displacement[own.body];
+    let [hx, hy, hz] = own.hub;
+    let [height, lateral] = plan.bodies[own.body].position;
+    let turned =
+        (roll.abs() + yaw.abs() + pitch.abs()) * (hx.abs() + hy.abs() + hz.abs() + kind.radius);
+    let by_place = ROUNDING * (size + x.abs() + hx.abs() + turned);
+    let by_height = ROUNDING
+        * (size + height.abs() + y.abs() + hy.abs() + kind.radius + turned + rail.rise.abs());
+    let by_side =
+        ROUNDING * (size + lateral.abs() + z.abs() + hz.abs() + turned + rail.shift.abs());
+    let law = kind.normal.at(penetration, case.rate[own.contact]);
+    let by_press = law.by_penetration.abs() * by_height;
+    let by_flange = kind
+        .flange
+        .as_ref()
+        .map_or(0.0, |flange| flange.stiffness * by_side);
+    let mut add = |quantity: usize, slot: VariableSlot, value: f64, rounding: f64| {
+        let id = variable(w, slot);
+        out.given.variables.insert(id, value);
+        out.values.push(ExpectedValue {
+            quantity,
+            keyword: "VARIABLE",
+            id,
+            value,
+            rounding,
+        });
+    };
+    add(
+        0,
+        VariableSlot::Place,
+        place(case, own.body, own.hub),
+        by_place,
+    );
+    let is_flexible = plan.compliances[own.structure].is_flexible();
+    if is_flexible {
+        add(1, VariableSlot::Rise, rail.rise, 0.0);
+    }
+    if contact.wheels.start == w {
+        add(3, VariableSlot::Penetration, penetration, by_height);
+        add(6, VariableSlot::Press, down, by_press);
+    }
+    if kind.flange.is_some() {
+        if is_flexible {
+            add(2, VariableSlot::Shift, rail.shift, 0.0);
+        }
+        let from_rail = z + roll * (hy - arm) - yaw * hx - rail.shift;
+        add(5, VariableSlot::Sideways, from_rail, by_side);
+        add(7, VariableSlot::Flange, side, by_flange);
+    }
+    if own.spin.is_some() && kind.friction.is_some() {
+        add(8, VariableSlot::Traction, along, 0.0);
+    }
+    let slope = if plan.form == DeckForm::Factored {
+        rail.along
+    } else {
+        0.0
+    };
+    let components = [slope - along, down, -side, arm * side, 0.0, -arm * along];
+    for (k, value) in components.into_iter().enumerate() {
+        out.values.push(ExpectedValue {
+            quantity: FORCE + k,
+            keyword: "GFORCE",
+            id: number(w),
+            value,
+            rounding: 0.0,
+        });
+    }
+}
+
+/// Displacements of the rail under a wheel.
+#[derive(Clone, Copy, Debug, Default)]
+struct RailDisplacement {
+    /// Upwards.
+    rise: f64,
+    /// Lateral.
+    shift: f64,
+    /// Force along the rail due to its slopes.
+    along: f64,
+}
+
+/// The displacements of the rails under all wheels.
+fn displacements(
+    plan: &DeckPlan<'_>,
+    foundations: &[Foundation],
+    case: &CheckCase,
+) -> Result<Vec<RailDisplacement>, Error> {
+    let forces = &case.forces;
+    let mut out = vec![RailDisplacement::default(); plan.wheels.len()];
     for (s, foundation) in foundations.iter().enumerate() {
         let Some(compliance) = &foundation.compliance else {
             continue;
@@ -95,145 +254,203 @@ pub fn expected_forces(
             .enumerate()
             .filter(|(_, wheel)| wheel.structure == s)
         {
-            let x = position(case, wheel.body, wheel.hub);
-            let mut add = |axis: Axis, load: f64, slot: VariableSlot| {
+            let x = place(case, wheel.body, wheel.hub);
+            let mut add = |axis: Axis, load: f64| {
                 probes.push(Probe {
                     rail: wheel.rail,
                     x,
                     axis,
                 });
-                loads.push((w, load, slot));
+                loads.push((w, axis, load));
             };
-            add(Axis::Vertical, -forces.vertical[w], VariableSlot::Rise);
+            add(Axis::Vertical, -forces.vertical[w]);
             if plan.kind(w).flange.is_some() {
-                add(Axis::Lateral, forces.lateral[w], VariableSlot::Shift);
+                add(Axis::Lateral, forces.lateral[w]);
             }
         }
         let mut influence = Influence::zeros(probes.len());
         compliance.fill(&probes, &mut influence)?;
-        for (i, &(w, own, slot)) in loads.iter().enumerate() {
+        for (i, &(w, axis, own)) in loads.iter().enumerate() {
             let of = |matrix: &DMatrix<f64>| -> f64 {
                 loads
                     .iter()
                     .enumerate()
-                    .map(|(j, (_, load, _))| matrix[(i, j)] * load)
+                    .map(|(j, (_, _, load))| matrix[(i, j)] * load)
                     .sum()
             };
             let moved = of(&influence.value);
-            variables.push((variable(w, slot), moved));
-            if slot == VariableSlot::Shift {
-                variables.push((
-                    variable(w, VariableSlot::Sideways),
-                    side(plan, case, w) - moved,
-                ));
+            match axis {
+                Axis::Lateral => out[w].shift = moved,
+                _ => out[w].rise = moved,
             }
-            if plan.form == DeckForm::Factored {
-                out[w][0] += own * of(&influence.slope);
-            }
+            out[w].along += own * of(&influence.slope);
         }
     }
-    Ok(ExpectedForces {
-        forces: out,
-        variables,
-    })
+    Ok(out)
 }
 
 /// Rail coordinate of a wheel.
-fn position(case: &CheckCase, body: usize, hub: [f64; 3]) -> f64 {
+fn place(case: &CheckCase, body: usize, hub: [f64; 3]) -> f64 {
     let [x, _, _, _, yaw, pitch] = case.instant.displacement[body];
     x + hub[0] + yaw * hub[2] - pitch * hub[1]
 }
 
-/// Lateral displacement of a wheel at its contact with the rail.
-fn side(plan: &DeckPlan<'_>, case: &CheckCase, w: usize) -> f64 {
-    let wheel = &plan.wheels[w];
-    let [_, _, z, roll, yaw, _] = case.instant.displacement[wheel.body];
-    let arm = plan.kind(w).radius - case.forces.penetration[wheel.contact];
-    z + roll * (wheel.hub[1] - arm) - yaw * wheel.hub[0]
-}
-
-/// Solves the data set at `state` from its own initial values or, if that fails, from the values of the simulator.
-///
-/// The initial values affect only the convergence of Newton's method and not the equations, so that a wrong deck
-/// still has a different solution.
-fn solve(
-    set: &DataSet,
-    model: &AdamsModel,
-    state: &ModelState,
-    expected: &ExpectedForces,
-) -> Result<SolvedModelState, adams::Error> {
-    model.solve(state).or_else(|error| {
-        let mut set = set.clone();
-        for statement in set
-            .statements
-            .iter_mut()
-            .filter(|one| one.keyword == "VARIABLE")
-        {
-            let known = expected
-                .variables
-                .iter()
-                .find(|(id, _)| statement.id == Some(*id));
-            let Some((_, value)) = known else { continue };
-            statement.arguments.retain(|argument| argument.name != "IC");
-            let argument = StatementArgument {
-                name: "IC".to_owned(),
-                value: ArgumentValue::Numbers(vec![*value]),
-            };
-            statement.arguments.push(argument);
-        }
-        AdamsModel::new(&set)
-            .and_then(|model| model.solve(state))
-            .map_err(|_| error)
-    })
-}
-
-/// Compares the forces of the data set at `states` with the expected ones.
+/// Compares the values that the data set gives at `states` with the expected ones.
 ///
 /// # Errors
 /// A data set that cannot be executed.
 pub fn compare(
     plan: &DeckPlan<'_>,
     set: &DataSet,
-    (what, asked): (&'static str, Option<f64>),
-    expected: &[ExpectedForces],
-    states: impl Iterator<Item = ModelState>,
+    (what, limit): (&'static str, f64),
+    states: impl Iterator<Item = Result<(ModelState, ExpectedValues), Error>>,
 ) -> Result<CheckDifference, Error> {
     let model = AdamsModel::new(set)?;
     let mut out = CheckDifference {
         what,
         states: 0,
-        limit: asked,
-        worst: [0.0; 6],
+        limit,
+        worst: [0.0; QUANTITIES.len()],
         largest: 0.0,
+        wrong: Vec::new(),
         failed: None,
     };
-    let radius = (0..plan.wheels.len())
-        .map(|w| plan.kind(w).radius)
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
-    for (state, expected) in states.zip(expected) {
+    let mut tally = Tally::new(plan);
+    let mut substitution = None;
+    for one in states {
+        let (state, expected) = one?;
         out.states += 1;
-        let solution = match solve(set, &model, &state, expected) {
-            Ok(solution) => solution,
+        if substitution.is_none() {
+            let given = &expected.given.variables;
+            substitution = Some(model.substitution(|id| given.contains_key(&id))?);
+        }
+        let found = substitution
+            .as_ref()
+            .expect("set before")
+            .at(&state, &expected.given);
+        let found = match found {
+            Ok(found) => found,
             Err(error) => {
                 let (_, count) = out.failed.get_or_insert_with(|| (error.to_string(), 0));
                 *count += 1;
                 continue;
             }
         };
-        for (w, expected) in expected.forces.iter().enumerate() {
-            let found = solution
-                .loads
-                .get(&("GFORCE", number(w)))
-                .map(|load| load.components);
-            for (k, expected) in expected.iter().enumerate() {
-                let found = found.map_or(f64::MAX, |components| components[k]);
-                out.worst[k] = out.worst[k].max(scaled(k, (found - expected).abs()));
-                out.largest = out.largest.max(scaled(k, expected.abs()));
-            }
+        for expected in &expected.values {
+            let value = match expected.keyword {
+                "GFORCE" => found
+                    .loads
+                    .get(&("GFORCE", expected.id))
+                    .map(|load| load.components[expected.quantity - FORCE]),
+                "DIFF" => found.differentials.get(&expected.id).copied(),
+                _ => found.variables.get(&expected.id).copied(),
+            };
+            tally.add(expected, value, state.time);
+        }
+        let known = |id: u32| (1..=number(plan.wheels.len() - 1)).contains(&id);
+        let more = found
+            .loads
+            .keys()
+            .find(|(keyword, id)| *keyword != "GFORCE" || !known(*id));
+        if let Some((keyword, id)) = more {
+            let why = format!("{keyword}/{id} is in the deck alone: the scene has no such force");
+            out.failed.get_or_insert((why, 0)).1 += 1;
         }
     }
-    let scale = out.largest.max(f64::MIN_POSITIVE);
-    out.worst = out.worst.map(|worst| worst / scale);
+    tally.close(set, &mut out);
     Ok(out)
+}
+
+/// The largest differences so far.
+struct Tally {
+    /// Largest magnitude of each quantity; moments are divided by the radius.
+    largest: [f64; QUANTITIES.len()],
+    /// Largest difference of each quantity, without rounding errors.
+    worst: [f64; QUANTITIES.len()],
+    /// Largest difference of each statement in each quantity beyond its rounding error.
+    statements: std::collections::BTreeMap<(&'static str, u32, usize), (f64, WrongStatement)>,
+    radius: f64,
+}
+
+impl Tally {
+    fn new(plan: &DeckPlan<'_>) -> Tally {
+        let radius = (0..plan.wheels.len())
+            .map(|w| plan.kind(w).radius)
+            .fold(f64::MIN_POSITIVE, f64::max);
+        Tally {
+            largest: [0.0; QUANTITIES.len()],
+            worst: [0.0; QUANTITIES.len()],
+            statements: std::collections::BTreeMap::new(),
+            radius,
+        }
+    }
+
+    fn add(&mut self, expected: &ExpectedValue, found: Option<f64>, time: f64) {
+        let k = expected.quantity;
+        let scale = if k < MOMENT { 1.0 } else { 1.0 / self.radius };
+        self.largest[k] = self.largest[k].max(expected.value.abs() * scale);
+        let found = found.unwrap_or(f64::MAX);
+        let difference = (found - expected.value).abs() * scale;
+        self.worst[k] = self.worst[k].max(difference);
+        let beyond = difference - expected.rounding;
+        if !(beyond > 0.0) {
+            return;
+        }
+        let key = (expected.keyword, expected.id, k);
+        let known = self.statements.get(&key).map_or(0.0, |(beyond, _)| *beyond);
+        if beyond > known {
+            let wrong = WrongStatement {
+                statement: String::new(),
+                quantity: QUANTITIES[k],
+                deck: found,
+                simulator: expected.value,
+                time,
+                relative: 0.0,
+            };
+            self.statements.insert(key, (beyond, wrong));
+        }
+    }
+
+    /// Sets the relative differences and the statements that differ by more than the limit.
+    fn close(self, set: &DataSet, out: &mut CheckDifference) {
+        let forces = &self.largest[LENGTHS..];
+        out.largest = forces.iter().copied().fold(0.0, f64::max);
+        let scale = |k: usize| {
+            let own = match k {
+                // The gap of a DIFF is zero where its equation holds; it is measured by penetrations.
+                4 => self.largest[3],
+                k if k < LENGTHS => self.largest[k],
+                _ => out.largest,
+            };
+            own.max(f64::MIN_POSITIVE)
+        };
+        for (k, worst) in self.worst.iter().enumerate() {
+            out.worst[k] = (worst / scale(k)).min(f64::MAX);
+        }
+        for ((keyword, id, k), (beyond, wrong)) in self.statements {
+            let relative = (beyond / scale(k)).min(f64::MAX);
+            if relative > out.limit {
+                out.wrong.push(WrongStatement {
+                    statement: statement(set, keyword, id),
+                    relative,
+                    ..wrong
+                });
+            }
+        }
+        out.wrong.sort_by(|a, b| b.relative.total_cmp(&a.relative));
+        out.wrong.truncate(NAMED);
+    }
+}
+
+/// Keyword, identifier and name of a statement of the data set.
+pub fn statement(set: &DataSet, keyword: &str, id: u32) -> String {
+    let own = set
+        .statements
+        .iter()
+        .find(|one| one.keyword == keyword && one.id == Some(id));
+    match own.map(|one| &one.name) {
+        Some(Some(name)) => format!("{keyword}/{id} ({name})"),
+        Some(None) => format!("{keyword}/{id}"),
+        None => format!("{keyword}/{id}, which the deck does not have"),
+    }
 }

@@ -1,28 +1,27 @@
 //! Comparison of the deck, executed by our own interpreter of the ADAMS language, with the simulator.
 //!
-//! 1. Random states of the scene are drawn, with the contact forces of the simulator at each (`states`).
-//! 2. The expected forces of the deck at these states are computed ([`compare::expected_forces`]) on foundations that
+//! 1. The static equilibria of the simulator along the prescribed motion are computed ([`path::sweep`]), and random
+//!    states of the scene are drawn, with the contact forces of the simulator at each (`states`), on foundations that
 //!    interpolate the tables of the deck, so that equations are compared and not interpolations.
-//! 3. The deck is executed at each state, with its differential equations replaced by one backward Euler step
-//!    (`step`), and the six components of every GFORCE are compared. This is repeated with all rails on a moving
-//!    part, which must not change the forces, and with finite rotations, whose differences are reported without a
-//!    limit.
-//! 4. If no body is free along its rail, static equilibria of both are compared along the prescribed motion (`path`).
+//! 2. The values of the simulator are put into the expressions of the deck, each of which must give the value of the
+//!    simulator ([`compare`]). This is repeated with all rails on a moving part, which must not change the forces.
+//! 3. The static equations of the deck are solved from the equilibria of the simulator ([`path`]), with the small
+//!    rotations of the simulator and with finite ones.
 
 pub mod compare;
-mod path;
+pub mod path;
 mod poses;
 mod random;
 mod report;
 mod states;
-mod step;
 
 use adams::{AdamsModel, DataSet};
 
-pub use compare::{COMPONENTS, CheckDifference, ExpectedForces};
-pub use path::SweepDifference;
+pub use compare::{CheckDifference, QUANTITIES, WrongStatement};
+pub use path::{EquilibriumDifference, SweepDifference};
 
-use self::poses::{CarrierPose, Turns, state};
+use self::compare::expected_values;
+use self::poses::{CARRIER, state};
 use sim::ContactForces;
 
 use self::random::Random;
@@ -30,12 +29,12 @@ use self::states::CheckCase;
 use super::DeckPlan;
 use crate::Error;
 
-/// Limit of the difference of forces, relative to the largest force.
+/// Limit of the differences, relative to the largest value.
 pub const FORCE_LIMIT: f64 = 1e-12;
-/// Limit of the difference of forces with the rails on a moving part, where large coordinates cause larger rounding
+/// Limit of the differences with the rails on a moving part, where large coordinates cause larger rounding
 /// errors.
 pub const CARRIED_FORCE_LIMIT: f64 = 1e-9;
-/// Largest number of states in the comparisons on a moving part and with finite rotations.
+/// Largest number of states in the comparison on a moving part.
 const SAMPLE: usize = 1000;
 
 /// Numbers of random states, by the forces that act in them.
@@ -73,7 +72,7 @@ impl StateCounts {
 pub struct CheckReport {
     /// Numbers of the random states.
     pub states: StateCounts,
-    /// Differences of forces at random states.
+    /// Differences of values at random states and at equilibria.
     pub forces: Vec<CheckDifference>,
     /// Differences along the quasi-static path; `None` if a body is free along its rail.
     pub path: Option<SweepDifference>,
@@ -96,60 +95,41 @@ impl CheckReport {
 /// found.
 pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckReport, Error> {
     let set = DataSet::read(text)?;
-    let model = AdamsModel::new(&set)?;
-    let mut stepped = set.clone();
-    step::discretise(plan, &mut stepped);
+    AdamsModel::new(&set)?;
     let foundations = plan.foundations()?;
-    let cases = states::states(plan, &foundations, count)?;
-    let expected: Vec<ExpectedForces> = cases
-        .iter()
-        .map(|case| compare::expected_forces(plan, &foundations, case))
-        .collect::<Result<_, _>>()?;
-    let sample = count.min(SAMPLE);
-    let mut forces = Vec::new();
-    let small = cases
-        .iter()
-        .map(|case| state(plan, case, Turns::Small, None));
-    let what = ("forces at random states", Some(FORCE_LIMIT));
-    forces.push(compare::compare(plan, &stepped, what, &expected, small)?);
+    let sweep = path::sweep(plan, &foundations);
+    let equilibria = sweep.as_ref().map_or(&[][..], |sweep| &sweep.cases);
+    let cases = states::states(plan, &foundations, equilibria, count)?;
+    let still = cases.iter().chain(equilibria).map(|case| {
+        let expected = expected_values(plan, &foundations, case, 0.0)?;
+        Ok((state(plan, case, None), expected))
+    });
+    let what = ("forces at random states", FORCE_LIMIT);
+    let mut forces = vec![compare::compare(plan, &set, what, still)?];
 
-    let mut carried = stepped.clone();
+    let mut carried = set.clone();
     let part = poses::mount_rails(&mut carried);
     let mut random = Random::new(2);
-    let carriers: Vec<CarrierPose> = (0..sample)
-        .map(|_| poses::random_carrier(part, &mut random))
-        .collect();
-    let moving = cases
-        .iter()
-        .zip(&carriers)
-        .map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
-    let what = (
-        "the same, rails on a moving part",
-        Some(CARRIED_FORCE_LIMIT),
-    );
-    forces.push(compare::compare(
-        plan,
-        &carried,
-        what,
-        &expected[..sample],
-        moving,
-    )?);
-
-    let finite = cases[..sample]
-        .iter()
-        .map(|case| state(plan, case, Turns::Finite, None));
-    let what = ("the same, finite rotations", None);
-    forces.push(compare::compare(
-        plan,
-        &stepped,
-        what,
-        &expected[..sample],
-        finite,
-    )?);
-    let path = path::path(plan, &model, &foundations)?;
+    let moving = cases[..count.min(SAMPLE)].iter().map(|case| {
+        let by = poses::random_carrier(part, &mut random);
+        let expected = expected_values(plan, &foundations, case, CARRIER + reach(case))?;
+        Ok((state(plan, case, Some(by)), expected))
+    });
+    let what = ("the same, rails on a moving part", CARRIED_FORCE_LIMIT);
+    forces.push(compare::compare(plan, &carried, what, moving)?);
+    let path = match &sweep {
+        Some(sweep) => Some(path::path(plan, &set, &foundations, sweep)?),
+        None => None,
+    };
     Ok(CheckReport {
         states: StateCounts::of(&cases),
         forces,
         path,
     })
+}
+
+/// Largest coordinate along the rails.
+fn reach(case: &CheckCase) -> f64 {
+    let places = case.instant.displacement.iter().map(|own| own[0].abs());
+    places.fold(0.0, f64::max)
 }

@@ -1,123 +1,465 @@
-//! Comparison of the quasi-static path of the deck with the sweep of the simulator.
+//! Comparison of static equilibria of the deck with the quasi-static sweep of the simulator.
+//!
+//! At each equilibrium of the simulator the static equations of the deck are solved by Newton's method from there, with
+//! the small rotations of the simulator: both programs then solve the same problem, and must agree within rounding. They
+//! are solved again with finite rotations, as in ADAMS. What that changes is of second order in the rotations theta, and
+//! the moment m g h theta of the weight, which the simulator leaves out. It is estimated by the first Newton step, and
+//! must not exceed the estimate by more than a factor.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use adams::AdamsModel;
-use sim::{Analysis, BodyDof, Channel, Foundation, Status};
+use adams::{AdamsModel, DataSet, Equilibrium, GivenValues, RotationMeasure, StatementId};
+use nalgebra::Vector3;
+use sim::{Analysis, BodyDof, Channel, ContactForces, Foundation, Instant, Status};
 
+use super::compare::{self, expected_values};
+use super::poses::state;
+use super::states::CheckCase;
 use crate::DeckPlan;
 use crate::Error;
 use crate::words::ids::number;
 
 /// Number of time intervals between the equilibria that are compared.
 const INTERVALS: u32 = 40;
-/// Limit of the relative differences of heights and forces. They are not zero because parts of ADAMS have finite
-/// rotations and bodies of the simulator small ones.
-const LIMIT: f64 = 1e-4;
+/// Limit of the relative differences of displacements and forces with the rotations of the simulator.
+pub const LIMIT: f64 = 1e-8;
+/// Rounding errors of coordinates, relative to their size.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Largest ratio of the effect of finite rotations to its estimate.
+pub const KNOWN: f64 = 2.0;
+/// Scaled residuals up to which an equation holds.
+const HOLDS: f64 = 1e-9;
+/// Largest number of equations that are named in a report.
+const NAMED: usize = 3;
+
+/// The equilibria of the simulator along the prescribed motion.
+pub struct Sweep {
+    /// The equilibria.
+    pub cases: Vec<CheckCase>,
+    /// The reason why the simulator did not compute all of them.
+    pub failed: Option<String>,
+}
+
+/// Differences of equilibria.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EquilibriumDifference {
+    /// Largest difference of the position of a body or wheel along its rail, relative to the largest coordinate.
+    pub place: f64,
+    /// Largest vertical or lateral difference of a body or wheel, relative to the largest displacement.
+    pub height: f64,
+    /// Largest difference of a wheel's vertical or lateral force, relative to the largest force.
+    pub force: f64,
+}
+
+impl EquilibriumDifference {
+    /// The largest of the differences.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.place.max(self.height).max(self.force)
+    }
+
+    fn include(&mut self, other: EquilibriumDifference) {
+        self.place = self.place.max(other.place);
+        self.height = self.height.max(other.height);
+        self.force = self.force.max(other.force);
+    }
+}
 
 /// Differences between the two paths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDifference {
     /// Number of equilibria compared.
     pub places: usize,
-    /// Largest difference of the height of a body's origin.
-    pub height: f64,
-    /// Largest vertical displacement of a body.
-    pub deepest: f64,
-    /// Largest difference of a wheel's vertical force.
-    pub force: f64,
-    /// Largest vertical force.
-    pub largest: f64,
-    /// The reason why one of the two paths could not be computed; `None` if both were.
-    pub failed: Option<String>,
+    /// Differences with the small rotations of the simulator.
+    pub small: EquilibriumDifference,
+    /// Their limits: 1e-8, and the rounding errors of coordinates.
+    pub limit: EquilibriumDifference,
+    /// What finite rotations change.
+    pub finite: EquilibriumDifference,
+    /// Its estimate, to first order.
+    pub estimate: EquilibriumDifference,
+    /// Largest rotation of a body, rad.
+    pub rotation: f64,
+    /// What does not agree, and on which side, for the first equilibrium at which something does not.
+    pub causes: Vec<String>,
 }
 
 impl SweepDifference {
-    /// Limit of the differences, relative to the largest displacement and force.
+    /// Limits of what finite rotations change.
     #[must_use]
-    pub fn limit(&self) -> f64 {
-        LIMIT
+    pub fn known(&self) -> EquilibriumDifference {
+        EquilibriumDifference {
+            place: KNOWN * self.estimate.place + self.limit.place,
+            height: KNOWN * self.estimate.height + self.limit.height,
+            force: KNOWN * self.estimate.force + self.limit.force,
+        }
     }
 
-    /// Relative differences of heights and forces.
-    #[must_use]
-    pub fn relative(&self) -> [f64; 2] {
-        let of = |difference: f64, most: f64| {
-            if difference == 0.0 {
-                0.0
-            } else {
-                difference / most
-            }
-        };
-        [of(self.height, self.deepest), of(self.force, self.largest)]
-    }
-
-    /// Whether both paths were computed and their differences are within the limit.
+    /// Whether both paths were computed and their differences are within the limits.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.failed.is_none() && self.relative().iter().all(|value| *value <= LIMIT)
+        self.causes.is_empty()
+            && within(&self.small, &self.limit)
+            && within(&self.finite, &self.known())
     }
 }
 
-/// Compares static equilibria along the prescribed motion; `None` if a body is free along its rail and therefore has
-/// no static equilibrium.
-///
-/// # Errors
-/// A scene that the simulator cannot run.
-pub(super) fn path(
-    plan: &DeckPlan<'_>,
-    model: &AdamsModel,
-    foundations: &[Foundation],
-) -> Result<Option<SweepDifference>, Error> {
+/// Whether no difference exceeds its limit.
+fn within(found: &EquilibriumDifference, limit: &EquilibriumDifference) -> bool {
+    found.place <= limit.place && found.height <= limit.height && found.force <= limit.force
+}
+
+/// The equilibria of the simulator along the prescribed motion; `None` if a body is free along its rail and therefore
+/// has no static equilibrium.
+pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Sweep> {
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
-        return Ok(None);
+        return None;
     }
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / f64::from(INTERVALS);
-    let run =
-        sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
-    let mut out = SweepDifference {
-        places: 0,
-        height: 0.0,
-        deepest: 0.0,
-        force: 0.0,
-        largest: 0.0,
+    let mut out = Sweep {
+        cases: Vec::new(),
         failed: None,
     };
-    if let Status::StepTooSmall(t) | Status::Failed(t, _) = run.status {
-        out.failed = Some(format!("the simulator stopped at t = {t}"));
-        return Ok(Some(out));
-    }
-    let times = run.history.column(Channel::Time);
-    let found = match model.quasi_static_path(&times) {
-        Ok(found) => found,
+    let run = match sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())) {
+        Ok(run) => run,
         Err(error) => {
-            out.failed = Some(error.to_string());
-            return Ok(Some(out));
+            out.failed = Some(format!("simulator: {error}"));
+            return Some(out);
         }
     };
-    out.places = times.len();
+    if let Status::StepTooSmall(t) | Status::Failed(t, _) = run.status {
+        out.failed = Some(format!(
+            "simulator: its quasi-static sweep stopped at t = {t} s"
+        ));
+    }
+    let times = run.history.column(Channel::Time);
+    let column = |channel: Channel| run.history.column(channel);
+    let wheels = plan.wheels.len();
+    let of_wheels = |channel: fn(usize) -> Channel| -> Vec<Vec<f64>> {
+        (0..wheels).map(|w| column(channel(w))).collect()
+    };
+    let displacements: Vec<[Vec<f64>; 6]> = (0..plan.bodies.len())
+        .map(|b| BodyDof::ALL.map(|dof| column(Channel::Displacement(b, dof))))
+        .collect();
+    let [vertical, lateral, traction, penetration] = [
+        of_wheels(Channel::Vertical),
+        of_wheels(Channel::Lateral),
+        of_wheels(Channel::Traction),
+        of_wheels(Channel::Penetration),
+    ];
+    for (i, time) in times.iter().enumerate() {
+        let at = |columns: &[Vec<f64>]| -> Vec<f64> {
+            columns
+                .iter()
+                .map(|column| column.get(i).copied().unwrap_or_default())
+                .collect()
+        };
+        let penetration: Vec<f64> = {
+            let all = at(&penetration);
+            let first = |contact: &crate::model::plan::ContactPlan| all[contact.wheels.start];
+            plan.contacts.iter().map(first).collect()
+        };
+        let instant = Instant {
+            time: *time,
+            displacement: displacements
+                .iter()
+                .map(|own| std::array::from_fn(|k| own[k].get(i).copied().unwrap_or_default()))
+                .collect(),
+            speed: vec![[0.0; 6]; plan.bodies.len()],
+            spin: vec![0.0; wheels],
+            penetration: penetration.iter().copied().map(Some).collect(),
+        };
+        let forces = ContactForces {
+            vertical: at(&vertical),
+            lateral: at(&lateral),
+            traction: at(&traction),
+            slope_force: Vec::new(),
+            approach: Vec::new(),
+            penetration,
+            compliance: nalgebra::DMatrix::zeros(0, 0),
+        };
+        out.cases.push(CheckCase {
+            instant,
+            forces,
+            rate: vec![0.0; plan.contacts.len()],
+        });
+    }
+    Some(out)
+}
+
+/// Compares the equilibria of the deck with those of the simulator.
+///
+/// # Errors
+/// A data set that cannot be executed.
+pub fn path(
+    plan: &DeckPlan<'_>,
+    set: &DataSet,
+    foundations: &[Foundation],
+    sweep: &Sweep,
+) -> Result<SweepDifference, Error> {
+    let model = AdamsModel::new(set)?;
+    let held = held(plan);
+    let scales = Scales::of(plan, &sweep.cases);
+    let mut out = SweepDifference {
+        places: 0,
+        small: EquilibriumDifference::default(),
+        limit: scales.limit(plan),
+        finite: EquilibriumDifference::default(),
+        estimate: EquilibriumDifference::default(),
+        rotation: scales.rotation,
+        causes: sweep.failed.iter().cloned().collect(),
+    };
+    for case in &sweep.cases {
+        let mut given = expected_values(plan, foundations, case, 0.0)?.given;
+        given.held.clone_from(&held);
+        let guess = state(plan, case, None);
+        out.places += 1;
+        let time = case.instant.time;
+        let small = match model.equilibrium_near(&guess, &given, RotationMeasure::Small) {
+            Ok(small) => small,
+            Err(error) => {
+                out.causes.push(format!("deck, at t = {time} s: {error}"));
+                out.causes.extend(causes(set, &model, &guess, &given));
+                return Ok(out);
+            }
+        };
+        let expected = Positions::of_case(plan, case);
+        let found = Positions::of_deck(plan, &small);
+        let difference = scales.difference(&found, &expected);
+        out.small.include(difference);
+        if !within(&difference, &out.limit) && out.causes.is_empty() {
+            out.causes.push(format!(
+                "at t = {time} s the equilibrium of the simulator is none of the deck:"
+            ));
+            out.causes.extend(causes(set, &model, &guess, &given));
+        }
+        let given = GivenValues {
+            variables: small.solution.variables.clone(),
+            ..given
+        };
+        let finite = model
+            .imbalance(&small.state, &given, RotationMeasure::Finite)
+            .and_then(|first| {
+                let last = model.equilibrium_near(&small.state, &given, RotationMeasure::Finite)?;
+                Ok((first.after, last))
+            });
+        match finite {
+            Ok((first, last)) => {
+                let [first, last] = [&first, &last].map(|one| Positions::of_deck(plan, one));
+                out.estimate.include(scales.difference(&first, &found));
+                out.finite.include(scales.difference(&last, &found));
+            }
+            Err(error) => {
+                out.causes.push(format!(
+                    "deck with finite rotations, at t = {time} s: {error}"
+                ));
+                return Ok(out);
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The equations of the deck that the equilibrium of the simulator does not satisfy.
+fn causes(
+    set: &DataSet,
+    model: &AdamsModel,
+    guess: &adams::ModelState,
+    given: &GivenValues,
+) -> Vec<String> {
+    let Ok(found) = model.imbalance(guess, given, RotationMeasure::Small) else {
+        return Vec::new();
+    };
+    let name = |id: &StatementId| compare::statement(set, &id.keyword.to_string(), id.id);
+    let named = found
+        .equations
+        .iter()
+        .filter(|one| one.scaled > HOLDS)
+        .take(NAMED);
+    named
+        .map(|one| {
+            format!(
+                "deck: {} has a {} that is off by {:.3e}",
+                name(&one.statement),
+                one.quantity,
+                one.residual
+            )
+        })
+        .collect()
+}
+
+/// The freedoms of parts that the statics of the simulator leaves where they are: z, yaw and the spins of wheels, and roll
+/// and pitch where no wheel resists them. Between flanges nothing determines z and yaw.
+fn held(plan: &DeckPlan<'_>) -> BTreeSet<(u32, usize)> {
+    let mut out = BTreeSet::new();
     for (b, body) in plan.bodies.iter().enumerate() {
-        let expected = run.history.column(Channel::Displacement(b, BodyDof::Y));
-        for (one, expected) in found.iter().zip(expected) {
-            let y = one
-                .state
-                .parts
-                .get(&body.part)
-                .map_or(f64::MAX, |pose| pose.origin[1]);
-            out.height = out.height.max((y - body.position[0] - expected).abs());
-            out.deepest = out.deepest.max(expected.abs());
+        let arms = |axis: usize| {
+            plan.contacts
+                .iter()
+                .filter(|contact| plan.wheels[contact.wheels.start].body == b)
+                .map(|contact| {
+                    let hubs = contact.wheels.clone().map(|w| plan.wheels[w].hub[axis]);
+                    hubs.sum::<f64>()
+                })
+                .fold(0.0_f64, |most, arm| most.max(arm.abs()))
+        };
+        let free = plan.scene.bodies[b].free;
+        out.extend(
+            [2, 4]
+                .into_iter()
+                .filter(|&k| free[k])
+                .map(|k| (body.part, k)),
+        );
+        for (rotation, axis) in [(3, 2), (5, 0)] {
+            if free[rotation] && arms(axis) == 0.0 {
+                out.insert((body.part, rotation));
+            }
         }
     }
-    for w in 0..plan.wheels.len() {
-        let expected = run.history.column(Channel::Vertical(w));
-        for (one, expected) in found.iter().zip(expected) {
-            let load = one.solution.loads.get(&("GFORCE", number(w)));
-            let down = load.map_or(f64::MAX, |load| load.components[1]);
-            out.force = out.force.max((down - expected).abs());
-            out.largest = out.largest.max(expected.abs());
+    for wheel in &plan.wheels {
+        if let Some((part, _)) = wheel.spin {
+            out.insert((part, 5));
         }
     }
-    Ok(Some(out))
+    out
+}
+
+/// Positions of bodies and wheels in ground, and forces of wheels.
+struct Positions {
+    points: Vec<Vector3<f64>>,
+    forces: Vec<[f64; 2]>,
+}
+
+impl Positions {
+    /// Those of the simulator.
+    fn of_case(plan: &DeckPlan<'_>, case: &CheckCase) -> Positions {
+        let pose = |b: usize| {
+            let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
+            let [height, side] = plan.bodies[b].position;
+            (
+                Vector3::new(x, height + y, side + z),
+                Vector3::new(roll, yaw, pitch),
+            )
+        };
+        let bodies = (0..plan.bodies.len()).map(|b| pose(b).0);
+        let hubs = plan.wheels.iter().map(|wheel| {
+            let (origin, turn) = pose(wheel.body);
+            let hub = Vector3::from(wheel.hub);
+            origin + hub + turn.cross(&hub)
+        });
+        Positions {
+            points: bodies.chain(hubs).collect(),
+            forces: (0..plan.wheels.len())
+                .map(|w| [case.forces.vertical[w], case.forces.lateral[w]])
+                .collect(),
+        }
+    }
+
+    /// Those of the deck; a part or force that is missing counts as far away.
+    fn of_deck(plan: &DeckPlan<'_>, found: &Equilibrium) -> Positions {
+        let far = || Vector3::repeat(f64::MAX.sqrt());
+        let pose = |b: usize| found.state.parts.get(&plan.bodies[b].part);
+        let bodies = (0..plan.bodies.len()).map(|b| pose(b).map_or_else(far, |pose| pose.origin));
+        let hubs = plan.wheels.iter().map(|wheel| {
+            pose(wheel.body).map_or_else(far, |pose| {
+                pose.origin + pose.rotation * Vector3::from(wheel.hub)
+            })
+        });
+        let force = |w: usize| {
+            let load = found.solution.loads.get(&("GFORCE", number(w)));
+            load.map_or([f64::MAX.sqrt(); 2], |load| {
+                [load.components[1], -load.components[2]]
+            })
+        };
+        Positions {
+            points: bodies.chain(hubs).collect(),
+            forces: (0..plan.wheels.len()).map(force).collect(),
+        }
+    }
+}
+
+/// Sizes relative to which differences are measured.
+struct Scales {
+    coordinate: f64,
+    displacement: f64,
+    force: f64,
+    rotation: f64,
+}
+
+impl Scales {
+    fn of(plan: &DeckPlan<'_>, cases: &[CheckCase]) -> Scales {
+        let mut out = Scales {
+            coordinate: f64::MIN_POSITIVE,
+            displacement: f64::MIN_POSITIVE,
+            force: f64::MIN_POSITIVE,
+            rotation: 0.0,
+        };
+        for case in cases {
+            let forces = [&case.forces.vertical, &case.forces.lateral];
+            for force in forces.into_iter().flatten() {
+                out.force = out.force.max(force.abs());
+            }
+            let mut moved = |hub: [f64; 3], b: usize| {
+                let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
+                let turn = Vector3::new(roll, yaw, pitch);
+                let by = turn.cross(&Vector3::from(hub));
+                out.coordinate = out.coordinate.max((x + hub[0]).abs());
+                out.displacement = out.displacement.max((y + by.y).abs()).max((z + by.z).abs());
+                out.rotation = out.rotation.max(turn.norm());
+            };
+            (0..plan.bodies.len()).for_each(|b| moved([0.0; 3], b));
+            plan.wheels
+                .iter()
+                .for_each(|wheel| moved(wheel.hub, wheel.body));
+        }
+        out
+    }
+
+    /// Limits of differences that both programs make by rounding.
+    fn limit(&self, plan: &DeckPlan<'_>) -> EquilibriumDifference {
+        // Heights and lateral coordinates are computed from those of bodies, hubs and radii.
+        let mut size = self.displacement;
+        for (w, wheel) in plan.wheels.iter().enumerate() {
+            let [height, side] = plan.bodies[wheel.body].position;
+            let [_, y, z] = wheel.hub.map(f64::abs);
+            size = size.max(height.abs() + y + plan.kind(w).radius);
+            size = size.max(side.abs() + z);
+        }
+        let rounding = ROUNDING * (size + self.rotation * self.coordinate);
+        let stiffness = (0..plan.wheels.len()).map(|w| {
+            let kind = plan.kind(w);
+            let side = kind.flange.as_ref().map_or(0.0, |flange| flange.stiffness);
+            let depth = kind.normal.penetration(self.force);
+            kind.normal.at(depth, 0.0).by_penetration.max(side)
+        });
+        let stiffest = stiffness.fold(0.0, f64::max);
+        EquilibriumDifference {
+            place: LIMIT,
+            height: LIMIT + rounding / self.displacement,
+            force: LIMIT + stiffest * rounding / self.force,
+        }
+    }
+
+    fn difference(&self, found: &Positions, expected: &Positions) -> EquilibriumDifference {
+        let mut out = EquilibriumDifference::default();
+        for (a, b) in found.points.iter().zip(&expected.points) {
+            let d = (a - b).abs();
+            out.include(EquilibriumDifference {
+                place: d.x / self.coordinate,
+                height: d.y.max(d.z) / self.displacement,
+                force: 0.0,
+            });
+        }
+        for (a, b) in found.forces.iter().zip(&expected.forces) {
+            let d = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+            out.include(EquilibriumDifference {
+                force: d / self.force,
+                ..EquilibriumDifference::default()
+            });
+        }
+        out
+    }
 }

@@ -8,19 +8,12 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::random::Random;
 use super::states::CheckCase;
-use super::step;
 use crate::DeckPlan;
 use crate::model::plan::GROUND;
 use crate::model::start::rotation;
 
-/// Conversion of the small rotations of the simulator to rotations of parts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turns {
-    /// I + theta x, with the rate theta' x, as in the simulator.
-    Small,
-    /// The finite rotation by the vector theta, as in ADAMS.
-    Finite,
-}
+/// Largest coordinate of the origin of a carrier.
+pub const CARRIER: f64 = 10.0;
 
 /// A moving part that carries all rails.
 #[derive(Clone, Copy, Debug)]
@@ -31,18 +24,14 @@ pub struct CarrierPose {
     pub pose: Pose,
 }
 
-/// The state of the parts of the deck at `case`; penetrations are those one time step earlier (see [`step`]).
+/// The state of the parts of the deck at `case`, with the small rotations of the simulator: I + theta x, and the rate
+/// theta' x.
 #[must_use]
-pub fn state(
-    plan: &DeckPlan<'_>,
-    case: &CheckCase,
-    turns: Turns,
-    carrier: Option<CarrierPose>,
-) -> ModelState {
+pub fn state(plan: &DeckPlan<'_>, case: &CheckCase, carrier: Option<CarrierPose>) -> ModelState {
     let mut parts = BTreeMap::new();
     let instant = &case.instant;
     let bodies: Vec<Pose> = (0..plan.bodies.len())
-        .map(|b| body(plan, case, b, turns))
+        .map(|b| body(plan, case, b))
         .collect();
     for (own, pose) in plan.bodies.iter().zip(&bodies) {
         parts.insert(own.part, *pose);
@@ -70,11 +59,10 @@ pub fn state(
         }
         parts.insert(carrier.part, carrier.pose);
     }
-    let lengths = step::lengths(plan);
     let mut differentials = BTreeMap::new();
     for (c, contact) in plan.contacts.iter().enumerate() {
         if let Some(id) = contact.diff {
-            differentials.insert(id, case.forces.penetration[c] - lengths[c] * case.rate[c]);
+            differentials.insert(id, case.forces.penetration[c]);
         }
     }
     ModelState {
@@ -84,7 +72,7 @@ pub fn state(
     }
 }
 
-fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
+fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize) -> Pose {
     let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
     let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[b];
     let [height, side] = plan.bodies[b].position;
@@ -94,18 +82,12 @@ fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
         Vector3::new(roll, yaw, pitch),
         Vector3::new(by_roll, by_yaw, by_pitch),
     );
-    match turns {
-        Turns::Small => Pose {
-            origin,
-            rotation: Matrix3::identity() + turn.cross_matrix(),
-            velocity,
-            rate: spin.cross_matrix(),
-            angular_velocity: spin,
-        },
-        Turns::Finite => {
-            let rows = rotation([roll, yaw, pitch]);
-            Pose::moving(origin, Matrix3::from_fn(|i, j| rows[i][j]), velocity, spin)
-        }
+    Pose {
+        origin,
+        rotation: Matrix3::identity() + turn.cross_matrix(),
+        velocity,
+        rate: spin.cross_matrix(),
+        angular_velocity: spin,
     }
 }
 
@@ -169,12 +151,12 @@ pub fn mount_rails(set: &mut DataSet) -> u32 {
     part
 }
 
-/// A random motion of the carrier with any orientation, components of its velocity up to 1 length/s and of its
+/// A random motion of the carrier with any orientation, coordinates up to [`CARRIER`], components of its velocity up to 1 length/s and of its
 /// angular velocity up to 1 rad/s.
 pub fn random_carrier(part: u32, random: &mut Random) -> CarrierPose {
     let mut vector = |size: f64| std::array::from_fn::<f64, 3, _>(|_| random.around(size));
     let rows = rotation(vector(2.0));
-    let [origin, velocity, spin] = [vector(10.0), vector(1.0), vector(1.0)].map(Vector3::from);
+    let [origin, velocity, spin] = [vector(CARRIER), vector(1.0), vector(1.0)].map(Vector3::from);
     let turn = Matrix3::from_fn(|i, j| rows[i][j]);
     CarrierPose {
         part,

@@ -1,6 +1,8 @@
 //! Random states of a scene with the contact forces of the simulator.
 //!
-//! Each state is generated in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene.
+//! Each state is generated in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene;
+//! in every other state the positions are those of a static equilibrium, displaced by about a penetration, so that
+//! stiff wheels on stiff rails touch them together.
 //! The simulator computes the contact forces with all springs and dampers in equilibrium. For contacts whose
 //! penetration is a state variable (a damper on a flexible rail), the penetrations are then solved from p + G F(p,
 //! p') = e with random rates p' by Newton's method ([`penetrations`]). States whose forces the deck cannot determine
@@ -60,19 +62,23 @@ pub struct CheckCase {
 pub fn states(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
+    equilibria: &[CheckCase],
     count: usize,
 ) -> Result<Vec<CheckCase>, Error> {
     let mut random = Random::new(1);
     let scales = Scales::of(plan);
     let mut out = Vec::with_capacity(count);
     let mut last = None;
-    for _ in 0..TRIES * count {
+    for attempt in 0..TRIES * count {
         if out.len() == count {
             break;
         }
-        let Some(instant) = scales.instant(plan, &mut random) else {
+        let Some(mut instant) = scales.instant(plan, &mut random) else {
             continue;
         };
+        if attempt % 2 == 1 {
+            scales.displace(plan, equilibria, &mut instant, &mut random);
+        }
         match complete(plan, foundations, instant, &mut random) {
             Ok(Some(case)) => out.push(case),
             Ok(None) => {}
@@ -105,7 +111,7 @@ fn complete(
     let mut most = vec![f64::INFINITY; plan.contacts.len()];
     for (c, penetration, force) in penetrations(plan, &open, random) {
         instant.penetration[c] = Some(penetration);
-        most[c] = MAX_FORCE_RATIO * force;
+        most[c] = MAX_FORCE_RATIO * force.abs();
     }
     let forces = one(&instant)?;
     let fits = (0..plan.contacts.len()).all(|c| {
@@ -115,10 +121,8 @@ fn complete(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         if contact.diff.is_some() && instant.penetration[c].is_some() {
             let point = law.at(p, 0.0);
-            if point.by_rate < MIN_RAMP * law.damping
-                || force < MIN_FORCE * point.force
-                || force > most[c]
-            {
+            let is_weak = !law.bilateral && force < MIN_FORCE * point.force;
+            if point.by_rate < MIN_RAMP * law.damping || is_weak || force.abs() > most[c] {
                 return false;
             }
         }
@@ -136,6 +140,8 @@ fn complete(
 
 /// Returns (contact, penetration, force) for each closed contact whose penetration is a state variable.
 ///
+/// Bilateral contacts are always closed.
+///
 /// Unknowns: penetrations p of the active contacts. Equation: p + G F(p, p') = e, with the approach e of wheel and
 /// rail without forces, the compliance G of the rail and the law F of spring and damper. Newton's method is damped so
 /// that p decreases by at most a factor of ten in an iteration. Contacts that open are removed, and the remaining
@@ -147,9 +153,16 @@ fn penetrations(
     random: &mut Random,
 ) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
-    let approach = |c: usize| open.penetration[c];
+    // a bilateral contact is closed already: its penetration is not its approach
+    let approach = |c: usize| {
+        if law(c).bilateral {
+            open.approach[c]
+        } else {
+            open.penetration[c]
+        }
+    };
     let mut active: Vec<usize> = (0..plan.contacts.len())
-        .filter(|&c| plan.contacts[c].diff.is_some() && approach(c) > 0.0)
+        .filter(|&c| plan.contacts[c].diff.is_some() && (law(c).bilateral || approach(c) > 0.0))
         .collect();
     let mut rate = vec![0.0; plan.contacts.len()];
     let mut found = Vec::new();
@@ -176,12 +189,20 @@ fn penetrations(
                 };
                 // the force and the slope of a law with an exponent are zero at p <= 0, where Newton's method would
                 // stop
-                p = DVector::from_fn(size, |i, _| (p[i] - step[i]).max(0.1 * p[i]));
+                p = DVector::from_fn(size, |i, _| {
+                    let next = p[i] - step[i];
+                    if law(active[i]).bilateral {
+                        next
+                    } else {
+                        next.max(0.1 * p[i])
+                    }
+                });
             }
             found = active.iter().copied().zip(p.iter().copied()).collect();
             // a contact is open if its penetration was reduced in every iteration
             let is_closed = |(c, p): &(usize, f64)| {
-                *p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0
+                law(*c).bilateral
+                    || (*p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0)
             };
             let before = active.len();
             found.retain(is_closed);
@@ -218,6 +239,8 @@ fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize
 struct Scales {
     /// Approach of wheel and rail under the weight of the body.
     sink: Vec<f64>,
+    /// Largest penetration of a wheel under its share of the weight.
+    depth: Vec<f64>,
     /// Half the wheel base and half the gauge.
     arms: Vec<[f64; 2]>,
     /// Lateral displacement.
@@ -232,6 +255,7 @@ impl Scales {
     fn of(plan: &DeckPlan<'_>) -> Scales {
         let mut out = Scales {
             sink: vec![],
+            depth: vec![],
             arms: vec![],
             side: vec![],
             speed: vec![],
@@ -257,6 +281,8 @@ impl Scales {
                 }
             };
             out.sink.push(sink);
+            out.depth
+                .push(largest(&|w| plan.kind(w).normal.penetration(of_wheel)));
             out.arms.push([
                 largest(&|w| plan.wheels[w].hub[0].abs()),
                 largest(&|w| plan.wheels[w].hub[2].abs()),
@@ -287,6 +313,37 @@ impl Scales {
             out.range.push(range);
         }
         out
+    }
+
+    /// Moves the bodies of a state to a static equilibrium, displaced by about a penetration of their wheels. Bodies
+    /// that move along their rails keep their time and place where there is no equilibrium.
+    fn displace(
+        &self,
+        plan: &DeckPlan<'_>,
+        equilibria: &[CheckCase],
+        instant: &mut Instant,
+        random: &mut Random,
+    ) {
+        let Some(last) = equilibria.len().checked_sub(1) else {
+            return;
+        };
+        let index = (random.between(0.0, 1.0) * (last as f64 + 1.0)) as usize;
+        let base = &equilibria[index.min(last)].instant;
+        instant.time = base.time;
+        for (b, body) in plan.input.scene.bodies.iter().enumerate() {
+            let [length, width] = self.arms[b];
+            let depth = self.depth[b];
+            let turn = depth / length.max(width).max(depth);
+            let sizes = [0.0, depth, depth, turn, turn, turn];
+            let own = &mut instant.displacement[b];
+            *own = base.displacement[b];
+            for k in (1..6).filter(|&k| body.free[k]) {
+                own[k] += random.around(sizes[k]);
+            }
+            if let BodyMotion::Prescribed(profile) = &plan.scene.bodies[b].motion {
+                instant.speed[b][0] = profile.at(base.time).v;
+            }
+        }
     }
 
     /// A random state without penetrations; `None` if a wheel would be beyond its rail.

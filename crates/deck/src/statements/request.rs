@@ -135,6 +135,24 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
     request(id, &format!("motion_of_{name}"), parts)
 }
 
+/// Friction of the wheels along the rails of structure `s`. Decks have no compliance along rails, so that these forces
+/// are in reactions alone.
+fn tractions(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
+    let slides = |w: &usize| {
+        let wheel = &plan.wheels[*w];
+        wheel.structure == s && wheel.spin.is_some() && plan.kind(*w).friction.is_some()
+    };
+    (0..plan.wheels.len())
+        .filter(slides)
+        .map(|w| LoadedMarker {
+            direction: plan.direction(w, Axis::Longitudinal),
+            place: value(variable(w, VariableSlot::Place)),
+            force: value(variable(w, VariableSlot::Traction)),
+            negative: false,
+        })
+        .collect()
+}
+
 /// Reactions of the ground on structure `s`: sums of forces times influence lines. Each influence line is a SPLINE at
 /// the stations.
 fn reactions(
@@ -151,7 +169,8 @@ fn reactions(
     let Some(effects) = effects.filter(|_| plan.compliances[s].is_flexible()) else {
         return Ok(());
     };
-    let loads = contact::loads(plan, s);
+    let mut loads = contact::loads(plan, s);
+    loads.extend(tractions(plan, s));
     let mut named = Vec::new();
     for reaction in &effects.reactions {
         let name = label(reaction);

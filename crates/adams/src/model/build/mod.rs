@@ -271,6 +271,7 @@ impl<'a> Build<'a> {
             .map(|slot| slot.owner == Owner::Variable)
             .collect();
         model.order = order::order(&needs, &implicit, &preferred);
+        model.needs = needs;
         model.symbols = self.symbols;
         Ok(model)
     }

@@ -1,12 +1,13 @@
 //! The equations of static equilibrium.
 
-use super::iterate::Unknown;
+use super::iterate::{RotationMeasure, Unknown};
 use super::motion::prescribed;
 use crate::expression::functions::{Function, UnaryFunction, atan2};
 use crate::kinematics::Frame;
 use crate::kinematics::vector::{Vector, add, column, cross, dot, scale, subtract, vector};
 use crate::model::{AdamsModel, Block, Constraint, Equation, Evaluation, Owner};
 use crate::{Error, Scalar};
+use nalgebra::{Matrix3, Vector3};
 
 /// The force on every part, and the torque about its origin, in ground axes.
 type Wrenches<T> = Vec<[Vector<T>; 2]>;
@@ -14,7 +15,7 @@ type Wrenches<T> = Vec<[Vector<T>; 2]>;
 /// The residuals, one for each unknown: the force along a translation, the torque about a rotation, the error
 /// of a torn slot, DIF1 of a DIF, and the gap of the equation that a reaction enforces.
 ///
-/// The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in
+/// With small rotations, lever arms are those without rotation. The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in
 /// `on`.
 pub(super) fn balance<T: Scalar>(
     model: &AdamsModel,
@@ -22,17 +23,29 @@ pub(super) fn balance<T: Scalar>(
     on: &mut Evaluation<'_, T>,
     unknowns: &[Unknown],
     multipliers: &[Vec<T>],
+    measure: RotationMeasure,
 ) -> Result<Vec<T>, Error> {
+    let turned: Vec<Turned> = match measure {
+        RotationMeasure::Finite => vec![None; parts.len()],
+        RotationMeasure::Small => parts.iter().map(back).collect(),
+    };
     let errors = slots(model, on)?;
     let mut gaps = Vec::with_capacity(model.constraints.len());
     let mut wrenches: Wrenches<T> = vec![[vector([0.0; 3]), vector([0.0; 3])]; model.parts.len()];
     for (k, constraint) in model.constraints.iter().enumerate() {
         let value = prescribed(constraint, on)?;
-        let (gap, wrench) = constrain(constraint, on, &value, &multipliers[k]);
+        let of = |marker: usize| turned[model.markers[marker].part].as_ref();
+        let (gap, wrench) = constrain(
+            constraint,
+            on,
+            &value,
+            &multipliers[k],
+            [of(constraint.i), of(constraint.j)],
+        );
         apply(
             model,
             &mut wrenches,
-            parts,
+            (parts, &turned),
             on,
             [constraint.i, constraint.j],
             &wrench,
@@ -46,7 +59,7 @@ pub(super) fn balance<T: Scalar>(
         apply(
             model,
             &mut wrenches,
-            parts,
+            (parts, &turned),
             on,
             [load.i, load.j],
             &wrench,
@@ -61,7 +74,7 @@ pub(super) fn balance<T: Scalar>(
             .map_or(&parts[k].origin, |cm| &on.at.frames[cm].origin);
         add_wrench(
             &mut wrenches[k],
-            &parts[k],
+            (&parts[k], turned[k].as_ref()),
             place,
             &[weight, vector([0.0; 3])],
             1.0,
@@ -108,10 +121,19 @@ fn slots<T: Scalar>(
     Ok(errors)
 }
 
+/// The inverse of the axes of a part, which takes lever arms back to the part without rotation; `None` with finite
+/// rotations, where arms are what they are.
+type Turned = Option<Matrix3<f64>>;
+
+/// The inverse of the axes of a part.
+fn back<T: Scalar>(part: &Frame<T>) -> Turned {
+    Matrix3::from_fn(|i, j| part.axes[i][j].value()).try_inverse()
+}
+
 /// Adds a force and torque at a point, times a sign, to those on a part.
 fn add_wrench<T: Scalar>(
     total: &mut [Vector<T>; 2],
-    part: &Frame<T>,
+    (part, turned): (&Frame<T>, Option<&Matrix3<f64>>),
     place: &Vector<T>,
     wrench: &[Vector<T>; 2],
     sign: f64,
@@ -119,6 +141,11 @@ fn add_wrench<T: Scalar>(
     let sign = T::constant(sign);
     let (force, torque) = (scale(&wrench[0], &sign), scale(&wrench[1], &sign));
     let arm = subtract(place, &part.origin);
+    let arm = match turned {
+        None => arm,
+        // The arm of a point of the part does not depend on the unknowns.
+        Some(back) => vector((back * Vector3::from_fn(|row, _| arm[row].value())).into()),
+    };
     total[1] = add(&total[1], &add(&torque, &cross(&arm, &force)));
     total[0] = add(&total[0], &force);
 }
@@ -128,7 +155,7 @@ fn add_wrench<T: Scalar>(
 fn apply<T: Scalar>(
     model: &AdamsModel,
     wrenches: &mut Wrenches<T>,
-    parts: &[Frame<T>],
+    (parts, turned): (&[Frame<T>], &[Turned]),
     on: &Evaluation<'_, T>,
     [i, j]: [usize; 2],
     wrench: &[Vector<T>; 2],
@@ -136,18 +163,29 @@ fn apply<T: Scalar>(
 ) {
     let place = &on.at.frames[i].origin;
     let (a, b) = (model.markers[i].part, model.markers[j].part);
-    add_wrench(&mut wrenches[a], &parts[a], place, wrench, 1.0);
+    let on_part = |k: usize| (&parts[k], turned[k].as_ref());
+    add_wrench(&mut wrenches[a], on_part(a), place, wrench, 1.0);
     if !action_only {
-        add_wrench(&mut wrenches[b], &parts[b], place, wrench, -1.0);
+        add_wrench(&mut wrenches[b], on_part(b), place, wrench, -1.0);
     }
 }
 
-/// The gaps of the equations of a constraint, and the force and torque on I that its multipliers make.
+/// An axis of a marker as it is without rotation of its part.
+fn unturned<T: Scalar>(axis: &Vector<T>, turned: Option<&Matrix3<f64>>) -> Vector<T> {
+    match turned {
+        None => axis.clone(),
+        Some(back) => vector((back * Vector3::from_fn(|row, _| axis[row].value())).into()),
+    }
+}
+
+/// The gaps of the equations of a constraint, and the force and torque on I that its multipliers make. `turned` has
+/// the inverse axes of the parts of I and J with small rotations.
 fn constrain<T: Scalar>(
     constraint: &Constraint,
     on: &Evaluation<'_, T>,
     prescribed: &T,
     multipliers: &[T],
+    turned: [Option<&Matrix3<f64>>; 2],
 ) -> (Vec<T>, [Vector<T>; 2]) {
     let (i, j) = (&on.at.frames[constraint.i], &on.at.frames[constraint.j]);
     let distance = subtract(&i.origin, &j.origin);
@@ -163,7 +201,8 @@ fn constrain<T: Scalar>(
             Equation::Normal(a, b) => {
                 let (a, b) = (column(&i.axes, a), column(&j.axes, b));
                 gaps.push(dot(&a, &b));
-                torque = add(&torque, &scale(&cross(&a, &b), multiplier));
+                let normal = cross(&unturned(&a, turned[0]), &unturned(&b, turned[1]));
+                torque = add(&torque, &scale(&normal, multiplier));
             }
             Equation::About => {
                 let x = column(&i.axes, 0);

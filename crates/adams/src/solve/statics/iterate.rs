@@ -22,6 +22,17 @@ pub(super) enum Unknown {
     Reaction(usize, usize),
 }
 
+/// How rotations of parts enter the equations of statics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotationMeasure {
+    /// Finite rotations, as in ADAMS.
+    Finite,
+    /// Small rotations theta from the axes of ground, as in a simulator that linearises: the axes of a part are I +
+    /// theta x, and forces have the lever arms that they have without rotation. The equations are then the virtual
+    /// work of these displacements. Parts must be parallel to ground without rotation.
+    Small,
+}
+
 /// The unknowns of a model.
 pub(super) fn unknowns(model: &AdamsModel) -> Vec<Unknown> {
     let mut out = Vec::new();
@@ -61,6 +72,7 @@ pub(super) fn unknowns(model: &AdamsModel) -> Vec<Unknown> {
 #[derive(Clone, Debug)]
 pub(super) struct Iterate {
     pub time: f64,
+    pub measure: RotationMeasure,
     /// Position of each part; that of ground is not used.
     pub origins: Vec<Vector3<f64>>,
     /// Axes of each part, likewise.
@@ -78,9 +90,14 @@ impl Iterate {
     ///
     /// # Errors
     /// [`Error::State`] for a state without one of the parts or DIFFs.
-    pub fn new(model: &AdamsModel, state: &ModelState) -> Result<Iterate, Error> {
+    pub fn new(
+        model: &AdamsModel,
+        state: &ModelState,
+        measure: RotationMeasure,
+    ) -> Result<Iterate, Error> {
         let mut out = Iterate {
             time: state.time,
+            measure,
             origins: Vec::new(),
             rotations: Vec::new(),
             values: model.slots.iter().map(|slot| slot.guess).collect(),
@@ -102,7 +119,10 @@ impl Iterate {
                 statement: StatementId::new("PART", part.id),
             })?;
             out.origins.push(pose.origin);
-            out.rotations.push(orthonormal(&pose.rotation));
+            out.rotations.push(match measure {
+                RotationMeasure::Finite => orthonormal(&pose.rotation),
+                RotationMeasure::Small => pose.rotation,
+            });
         }
         for diff in &model.diffs {
             let value = state.differentials.get(&diff.id);
@@ -114,7 +134,7 @@ impl Iterate {
         Ok(out)
     }
 
-    /// The iterate after a fraction of a step. Rotations are composed as finite rotations.
+    /// The iterate after a fraction of a step. Finite rotations are composed, small ones added.
     pub fn after(&self, unknowns: &[Unknown], step: &[f64], fraction: f64) -> Iterate {
         let mut out = self.clone();
         let mut rotations: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
@@ -131,8 +151,12 @@ impl Iterate {
             }
         }
         for (part, rotation) in rotations {
-            out.rotations[part] =
-                orthonormal(&(Rotation3::new(rotation).into_inner() * self.rotations[part]));
+            out.rotations[part] = match self.measure {
+                RotationMeasure::Finite => {
+                    orthonormal(&(Rotation3::new(rotation).into_inner() * self.rotations[part]))
+                }
+                RotationMeasure::Small => self.rotations[part] + rotation.cross_matrix(),
+            };
         }
         out
     }
@@ -146,7 +170,7 @@ impl Iterate {
     }
 
     /// The frames of the parts with derivatives with respect to the unknowns. The derivative of axes A with
-    /// respect to a rotation about the axis e is e x A.
+    /// respect to a rotation about the axis e is e x A, and e x I for small rotations.
     pub fn dual_frames(&self, unknowns: &[Unknown]) -> Vec<Frame<Dual>> {
         let count = unknowns.len();
         let mut origins: Vec<[Dual; 3]> = self
@@ -169,7 +193,10 @@ impl Iterate {
         let each = origins.into_iter().zip(rotations).zip(&self.rotations);
         each.map(|((origin, turn), rotation)| {
             let axes: Matrix<Dual> = matrix(rows(rotation));
-            let change = cross_columns(&turn, &axes);
+            let change = match self.measure {
+                RotationMeasure::Finite => cross_columns(&turn, &axes),
+                RotationMeasure::Small => cross_columns(&turn, &matrix(rows(&Matrix3::identity()))),
+            };
             Frame::at_rest(
                 origin,
                 std::array::from_fn(|row| add(&axes[row], &change[row])),

@@ -2,17 +2,21 @@
 //!
 //! `iterate` numbers the unknowns and holds their values. `balance` evaluates the equations, among them the
 //! prescribed displacements of `motion`. `search` solves them by Newton's method, with pseudo-transient
-//! continuation where it fails. `assemble` satisfies constraints and loops before.
+//! continuation where it fails. `assemble` satisfies constraints and loops before. `near` starts from a state with
+//! known VARIABLEs.
 
 mod assemble;
 mod balance;
 mod equilibrium;
 mod iterate;
 mod motion;
+mod near;
 mod search;
 
 use crate::{AdamsModel, Error, ModelState};
 pub use equilibrium::{ConstraintReaction, Equilibrium};
+pub use iterate::RotationMeasure;
+pub use near::{EquationResidual, Imbalance};
 use search::search;
 
 impl AdamsModel {

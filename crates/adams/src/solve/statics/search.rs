@@ -17,7 +17,7 @@
 
 use super::balance::balance;
 use super::equilibrium::{ConstraintReaction, Equilibrium};
-use super::iterate::{Iterate, Unknown, seed, unknowns};
+use super::iterate::{Iterate, RotationMeasure, Unknown, seed, unknowns};
 use crate::kinematics::Frame;
 use crate::model::{AdamsModel, Configuration, Equation, Evaluation, Owner};
 use crate::solve::linear::FactoredMatrix;
@@ -28,9 +28,9 @@ use std::collections::BTreeMap;
 /// Largest number of iterations.
 const MOST: usize = 400;
 /// Steps of at most this size, relative to their scale, are at the level of rounding.
-const ROUNDING: f64 = 1e-15;
+pub(super) const ROUNDING: f64 = 1e-15;
 /// Steps that no longer decrease count as rounding if they are below this size.
-const STALLED: f64 = 1e-10;
+pub(super) const STALLED: f64 = 1e-10;
 /// Largest scaled residual of an equilibrium.
 const RESIDUAL: f64 = 1e-9;
 
@@ -40,22 +40,14 @@ pub(super) fn search(
     guess: &ModelState,
     before: Option<&Equilibrium>,
 ) -> Result<Equilibrium, Error> {
-    let mut start = Iterate::new(model, guess)?;
+    let mut start = Iterate::new(model, guess, RotationMeasure::Finite)?;
     if let Some(before) = before.filter(|one| one.solution.values.len() == model.slots.len()) {
         start.values.clone_from(&before.solution.values);
     } else if let Ok(closed) = model.solve(guess) {
         // An IC of zero does not give the size of a variable; loops that are closed at the guess do.
         start.values.clone_from(&closed.values);
     }
-    let unknowns = unknowns(model);
-    let inner = |unknown: &&Unknown| matches!(unknown, Unknown::Slot(_) | Unknown::Differential(_));
-    let search = Search {
-        model,
-        inner: unknowns.iter().filter(inner).copied().collect(),
-        unknowns,
-        length: model_length(model, &start),
-        force: model_force(model),
-    };
+    let search = Search::new(model, &start);
     if search.unknowns.is_empty() {
         return search.report(&start, 0, 0);
     }
@@ -67,7 +59,7 @@ pub(super) fn search(
 const SOLVED: f64 = 1e-6;
 /// A search and the scales of its quantities.
 pub(super) struct Search<'a> {
-    model: &'a AdamsModel,
+    pub model: &'a AdamsModel,
     pub unknowns: Vec<Unknown>,
     /// The unknowns of algebraic loops and of differential equations.
     pub inner: Vec<Unknown>,
@@ -77,9 +69,25 @@ pub(super) struct Search<'a> {
     force: f64,
 }
 
+impl<'a> Search<'a> {
+    /// A search whose scales are those of the parts where they are at the start.
+    pub fn new(model: &'a AdamsModel, start: &Iterate) -> Search<'a> {
+        let unknowns = unknowns(model);
+        let inner =
+            |unknown: &&Unknown| matches!(unknown, Unknown::Slot(_) | Unknown::Differential(_));
+        Search {
+            model,
+            inner: unknowns.iter().filter(inner).copied().collect(),
+            unknowns,
+            length: model_length(model, start),
+            force: model_force(model),
+        }
+    }
+}
+
 impl Search<'_> {
     /// Iterates from `at` to equilibrium.
-    fn run(&self, mut at: Iterate) -> Result<Equilibrium, Error> {
+    pub fn run(&self, mut at: Iterate) -> Result<Equilibrium, Error> {
         // The viscous resistance, force over length; zero in Newton's method.
         let mut resistance = 0.0;
         let mut before = f64::INFINITY;
@@ -146,7 +154,7 @@ impl Search<'_> {
 
     /// The matrix with viscous resistance, factored in scales in which the stiffness that supports a part
     /// counts and rounding does not.
-    fn factor(
+    pub fn factor(
         &self,
         at: &Iterate,
         mut matrix: DMatrix<f64>,
@@ -248,7 +256,7 @@ impl Search<'_> {
     }
 
     /// Everything that expressions read, for parts in the given frames.
-    fn evaluation<T: Scalar>(
+    pub fn evaluation<T: Scalar>(
         &self,
         time: f64,
         frames: &[Frame<T>],
@@ -279,7 +287,14 @@ impl Search<'_> {
             at.differentials.clone(),
             at.values.clone(),
         );
-        let residual = balance(self.model, &frames, &mut on, unknowns, &at.reactions)?;
+        let residual = balance(
+            self.model,
+            &frames,
+            &mut on,
+            unknowns,
+            &at.reactions,
+            at.measure,
+        )?;
         Ok((residual, on))
     }
 
@@ -318,7 +333,9 @@ impl Search<'_> {
             })
             .collect();
         let mut on = self.evaluation(at.time, &frames, differentials, values);
-        let all = balance(self.model, &frames, &mut on, unknowns, &reactions)?;
+        let all = balance(
+            self.model, &frames, &mut on, unknowns, &reactions, at.measure,
+        )?;
         let matrix = DMatrix::from_fn(count, count, |i, j| all[i].derivative(j));
         Ok((all.iter().map(Scalar::value).collect(), matrix))
     }
@@ -358,7 +375,7 @@ impl Search<'_> {
     /// The largest residuals of an equilibrium: 1e-9 of their scales, or what rounding of the unknowns makes of the
     /// equations, whichever is larger. The force of a stiff wheel changes by its stiffness times the rounding of a
     /// coordinate.
-    fn allowed_residuals(&self, at: &Iterate, matrix: &DMatrix<f64>, rows: &[f64]) -> Vec<f64> {
+    pub fn allowed_residuals(&self, at: &Iterate, matrix: &DMatrix<f64>, rows: &[f64]) -> Vec<f64> {
         let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
         let rounding = |i: usize| -> f64 {
             let terms = sizes
@@ -395,7 +412,7 @@ impl Search<'_> {
     }
 
     /// The keyword and identifier of the statement that an equation belongs to.
-    fn statement_of(&self, equation: usize) -> (&'static str, u32) {
+    pub fn statement_of(&self, equation: usize) -> (&'static str, u32) {
         match self.unknowns.get(equation) {
             Some(Unknown::Translation(part, _) | Unknown::Rotation(part, _)) => {
                 ("PART", self.model.parts[*part].id)
@@ -414,7 +431,7 @@ impl Search<'_> {
     }
 
     /// The equilibrium at an iterate.
-    fn report(
+    pub fn report(
         &self,
         at: &Iterate,
         iterations: usize,
@@ -457,7 +474,7 @@ fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
-fn scaled_size(all: &[f64], scales: &[f64]) -> f64 {
+pub(super) fn scaled_size(all: &[f64], scales: &[f64]) -> f64 {
     let ratio = |(value, scale): (&f64, &f64)| {
         if *value == 0.0 {
             0.0

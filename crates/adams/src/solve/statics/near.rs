@@ -1,0 +1,231 @@
+//! Static equilibrium near a state whose VARIABLEs are known, such as an equilibrium of another program.
+//!
+//! The VARIABLEs are put into the expressions, and the equations are linearised there: the residuals with the best
+//! reactions say which equations do not hold, and one Newton step is the distance to the equilibrium. Further full
+//! steps find it. Since forces and displacements are both given, no loop has to be closed first: a stiff wheel is as
+//! deep in its rail at the start as its force says. Where full steps do not converge, as where a wheel opens on the
+//! way, the damped iteration of `search` goes on.
+
+use super::equilibrium::Equilibrium;
+use super::iterate::{Iterate, RotationMeasure, Unknown};
+use super::search::{ROUNDING, STALLED, Search, scaled_size};
+use crate::solve::substitution::GivenValues;
+use crate::{AdamsModel, Error, ModelState, StatementId};
+use nalgebra::{DMatrix, DVector};
+use std::collections::BTreeSet;
+
+/// Largest number of full Newton steps.
+const STEPS: usize = 25;
+/// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
+const SINGULAR: f64 = 1e-11;
+
+/// An equation of statics that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquationResidual {
+    /// The statement: the PART whose forces are not in balance, the VARIABLE, DIFF or load whose expression has
+    /// another value, or the JOINT, JPRIM or MOTION that is not satisfied.
+    pub statement: StatementId,
+    /// The quantity of the residual.
+    pub quantity: &'static str,
+    /// The residual, in the units of the data set; what the expressions give above what is given.
+    pub residual: f64,
+    /// The residual relative to its scale: weights, and the size of the model.
+    pub scaled: f64,
+}
+
+/// How far a state is from equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imbalance {
+    /// The equations with their residuals at the state, largest scaled residual first, with the reactions that leave
+    /// the smallest residuals.
+    pub equations: Vec<EquationResidual>,
+    /// The state after one Newton step, whose length is the distance from equilibrium to first order.
+    pub after: Equilibrium,
+}
+
+impl AdamsModel {
+    /// How far a state with given VARIABLEs is from static equilibrium.
+    ///
+    /// # Errors
+    /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
+    /// finite value; [`Error::Equilibrium`] where the linearised equations have no solution.
+    pub fn imbalance(
+        &self,
+        guess: &ModelState,
+        given: &GivenValues,
+        measure: RotationMeasure,
+    ) -> Result<Imbalance, Error> {
+        let at = self.iterate_near(guess, given, measure)?;
+        let search = Search::new(self, &at).holding(&given.held);
+        let (residual, matrix) = search.linearize(&at, &search.unknowns)?;
+        let rows = search.residual_scales(&at);
+        let left = without_reactions(&search, &residual, &matrix, &rows);
+        let mut equations: Vec<EquationResidual> = left
+            .iter()
+            .zip(&rows)
+            .enumerate()
+            .map(|(k, (residual, scale))| {
+                let (keyword, id) = search.statement_of(k);
+                EquationResidual {
+                    statement: StatementId::new(keyword, id),
+                    quantity: quantity(&search.unknowns[k]),
+                    residual: *residual,
+                    scaled: residual.abs() / scale,
+                }
+            })
+            .collect();
+        equations.sort_by(|a, b| b.scaled.total_cmp(&a.scaled));
+        let none = || {
+            let (statement, residual) = equations.first().map_or_else(
+                || (StatementId::new("PART", 0), 0.0),
+                |worst| (worst.statement.clone(), worst.residual),
+            );
+            Error::Equilibrium {
+                statement,
+                residual,
+                iterations: 1,
+            }
+        };
+        let factored = search.factor(&at, matrix, 0.0).ok_or_else(none)?;
+        let step = factored.correction(&residual).ok_or_else(none)?;
+        let end = at.after(&search.unknowns, &step, 1.0);
+        let after = search.report(&end, 1, factored.rank_deficiency())?;
+        Ok(Imbalance { equations, after })
+    }
+
+    /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there. Freedoms that are held
+    /// stay where they are.
+    ///
+    /// # Errors
+    /// The errors of [`AdamsModel::equilibrium`].
+    pub fn equilibrium_near(
+        &self,
+        guess: &ModelState,
+        given: &GivenValues,
+        measure: RotationMeasure,
+    ) -> Result<Equilibrium, Error> {
+        let start = self.iterate_near(guess, given, measure)?;
+        let search = Search::new(self, &start).holding(&given.held);
+        if search.unknowns.is_empty() {
+            return search.report(&start, 0, 0);
+        }
+        match search.full_steps(start.clone())? {
+            Some(found) => Ok(found),
+            None => search.run(search.closed(start)),
+        }
+    }
+
+    /// The unknowns at a state with given VARIABLEs; reactions are zero.
+    fn iterate_near(
+        &self,
+        guess: &ModelState,
+        given: &GivenValues,
+        measure: RotationMeasure,
+    ) -> Result<Iterate, Error> {
+        let mut at = Iterate::new(self, guess, measure)?;
+        let search = Search::new(self, &at);
+        let frames = at.frames();
+        let zeros = vec![0.0; self.slots.len()];
+        let mut on = search.evaluation(at.time, &frames, at.differentials.clone(), zeros);
+        self.substitution(|id| given.variables.contains_key(&id))?
+            .fill(&mut on, given)?;
+        at.values = on.at.values;
+        Ok(at)
+    }
+}
+
+impl Search<'_> {
+    /// The search without some freedoms of parts, by identifier, and without their equations.
+    fn holding(mut self, held: &BTreeSet<(u32, usize)>) -> Self {
+        let id = |part: usize| self.model.parts[part].id;
+        self.unknowns.retain(|unknown| match *unknown {
+            Unknown::Translation(part, axis) => !held.contains(&(id(part), axis)),
+            Unknown::Rotation(part, axis) => !held.contains(&(id(part), 3 + axis)),
+            _ => true,
+        });
+        self
+    }
+
+    /// The equilibrium by full Newton steps; `None` if they do not converge.
+    fn full_steps(&self, mut at: Iterate) -> Result<Option<Equilibrium>, Error> {
+        let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
+        for iterations in 1..=STEPS {
+            let Ok((residual, matrix)) = self.linearize(&at, &self.unknowns) else {
+                return Ok(None);
+            };
+            let rows = self.residual_scales(&at);
+            let allowed = self.allowed_residuals(&at, &matrix, &rows);
+            let balances = residual
+                .iter()
+                .zip(&allowed)
+                .all(|(r, allowed)| r.abs() <= *allowed);
+            let Some(factored) = self.factor(&at, matrix, 0.0) else {
+                return Ok(None);
+            };
+            let Some(step) = factored.correction(&residual) else {
+                return Ok(None);
+            };
+            let length = scaled_size(&step, &self.step_scales(&at, &step));
+            let stalled = length <= STALLED && length >= 0.1 * before;
+            if balances && (length <= ROUNDING || stalled) {
+                return self
+                    .report(&at, iterations, factored.rank_deficiency())
+                    .map(Some);
+            }
+            // Reactions start from zero, so that the first step is not a measure.
+            if iterations == 2 {
+                first = length;
+            }
+            if self.largest_angle(&step) > 0.5 || length > 1e3 * first {
+                return Ok(None);
+            }
+            before = length;
+            at = at.after(&self.unknowns, &step, 1.0);
+        }
+        Ok(None)
+    }
+}
+
+/// The residuals after the reactions that make the scaled residuals as small as they can be.
+fn without_reactions(
+    search: &Search<'_>,
+    residual: &[f64],
+    matrix: &DMatrix<f64>,
+    rows: &[f64],
+) -> Vec<f64> {
+    let columns: Vec<usize> = (0..search.unknowns.len())
+        .filter(|k| matches!(search.unknowns[*k], Unknown::Reaction(..)))
+        .collect();
+    if columns.is_empty() {
+        return residual.to_vec();
+    }
+    let scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
+        matrix[(i, columns[j])] / rows[i]
+    });
+    let right = DVector::from_fn(residual.len(), |i, _| residual[i] / rows[i]);
+    let Some(svd) = scaled.clone().try_svd(true, true, f64::EPSILON, 10_000) else {
+        return residual.to_vec();
+    };
+    let least = SINGULAR * svd.singular_values.max();
+    match svd.solve(&right, least) {
+        Ok(reactions) => {
+            let left = right - scaled * reactions;
+            left.iter()
+                .zip(rows)
+                .map(|(left, row)| left * row)
+                .collect()
+        }
+        Err(_) => residual.to_vec(),
+    }
+}
+
+/// What the residual of an unknown's equation measures.
+fn quantity(unknown: &Unknown) -> &'static str {
+    match unknown {
+        Unknown::Translation(_, axis) => ["force along x", "force along y", "force along z"][*axis],
+        Unknown::Rotation(_, axis) => ["torque about x", "torque about y", "torque about z"][*axis],
+        Unknown::Slot(_) => "value",
+        Unknown::Differential(_) => "rate",
+        Unknown::Reaction(..) => "gap",
+    }
+}
