@@ -121,8 +121,8 @@ pub fn expected_values(
         given: GivenValues::default(),
         values: Vec::new(),
     };
-    for w in 0..plan.wheels.len() {
-        wheel(plan, case, w, &rails[w], size, &mut out);
+    for (w, rail) in rails.iter().enumerate().take(plan.wheels.len()) {
+        wheel(plan, case, w, rail, size, &mut out);
     }
     for (c, contact) in plan.contacts.iter().enumerate() {
         let Some(id) = contact.diff else { continue };
@@ -389,11 +389,11 @@ impl Tally {
         let k = expected.quantity;
         let scale = if k < MOMENT { 1.0 } else { 1.0 / self.radius };
         self.largest[k] = self.largest[k].max(expected.value.abs() * scale);
-        let found = found.unwrap_or(f64::MAX);
+        let found = found.filter(|value| value.is_finite()).unwrap_or(f64::MAX);
         let difference = (found - expected.value).abs() * scale;
         self.worst[k] = self.worst[k].max(difference);
         let beyond = difference - expected.rounding;
-        if !(beyond > 0.0) {
+        if beyond <= 0.0 {
             return;
         }
         let key = (expected.keyword, expected.id, k);
