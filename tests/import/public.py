@@ -47,13 +47,8 @@ def main():
     taken, alone, all_reasons = 0, collections.Counter(), collections.Counter()
     with tempfile.TemporaryDirectory() as scratch:
         for deck in found:
-            # files of other endings are given to the importer by a name that says what they are
-            model = deck
-            if deck.suffix.lower() == ".fem":
-                model = Path(scratch) / (deck.name + ".bdf")
-                model.write_bytes(deck.read_bytes())
             units = ["--length", "m", "--force", "N", "--json", "-o", str(Path(scratch) / "spec.json")]
-            run = subprocess.run([program, "import", str(model), *units, *flags], capture_output=True, check=False)
+            run = subprocess.run([program, "import", str(deck), *units, *flags], capture_output=True, check=False)
             if run.returncode == 0:
                 taken += 1
                 continue
