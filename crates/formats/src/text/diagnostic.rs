@@ -125,19 +125,18 @@ impl Diagnostic {
     }
 }
 
-/// A text without control characters, which a terminal would obey: a blank stands for each. Line feeds and tabs stay.
+/// A text without control characters, which a terminal would obey. Line feeds and tabs stay.
 ///
 /// ```
-/// assert_eq!(formats::text::diagnostic::plain("rail \u{1b}[31m\n"), "rail  [31m\n");
+/// assert_eq!(formats::text::diagnostic::plain("rail \u{1b}[31m\n"), "rail [31m\n");
 /// ```
 #[must_use]
 pub fn plain(text: &str) -> String {
-    let stays = |c: char| matches!(c, '\n' | '\t');
-    text.chars()
-        .map(|c| if stays(c) { c } else { plain_char(c) })
-        .collect()
+    let stays = |c: &char| matches!(c, '\n' | '\t') || !c.is_control();
+    text.chars().filter(stays).collect()
 }
 
+/// The character in an excerpt, in which a blank stands for a control character.
 fn plain_char(c: char) -> char {
     if c.is_control() { ' ' } else { c }
 }
