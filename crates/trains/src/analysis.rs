@@ -498,7 +498,8 @@ fn follow_one(
     known: Option<&Governing>,
 ) -> Option<Governing> {
     let mut best: Option<Governing> = None;
-    for (stance, placed) in plan.trains[0].iter().enumerate() {
+    for &stance in over.distinct(target.k, 0) {
+        let placed = &plan.trains[0][stance];
         let so_far = best
             .as_ref()
             .or(known)

@@ -34,14 +34,14 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds of the responses from `first` on; the others are not bounded.
-    pub fn new(passage: &Passage, first: usize) -> Bounds {
+    /// The bounds of the `wanted` responses; the others are not bounded.
+    pub fn new(passage: &Passage, wanted: &[bool; GirderResponse::ALL.len()]) -> Bounds {
         let pieces = passage.pieces.list.len();
         let length = passage.on.length();
         let responses = GirderResponse::ALL.len();
         let mut values = vec![f64::INFINITY; PARTS * responses * 2 * pieces];
         let second: [Vec<[f64; 2]>; 2] = [0, 1].map(|direction| {
-            let known = passage.deflections[direction].is_some();
+            let known = passage.deflections[direction].is_some() && wanted[QUANTITIES + direction];
             (0..pieces)
                 .map(|piece| {
                     if known {
@@ -53,10 +53,15 @@ impl Bounds {
                 .collect()
         });
         let bent: Vec<Vec<f64>> = match passage.on.bent() {
-            Some(_) => (0..QUANTITIES).map(|k| bent_seconds(passage, k)).collect(),
+            Some(_) => (0..QUANTITIES)
+                .map(|k| match wanted[k] {
+                    true => bent_seconds(passage, k),
+                    false => vec![0.0; pieces],
+                })
+                .collect(),
             None => Vec::new(),
         };
-        for k in first..responses {
+        for k in (0..responses).filter(|k| wanted[*k]) {
             for piece in 0..pieces {
                 let mut ends = [[f64::NEG_INFINITY; 2]; PARTS + 1];
                 for (station, ends) in ends.iter_mut().enumerate() {

@@ -55,14 +55,15 @@ impl Overrun {
                 .collect(),
             false => vec![Vec::new(); passages.len()],
         };
-        let distinct = (0..GirderResponse::ALL.len()).map(distinct).collect();
-        let of = |stances: &Vec<Passage>| {
-            stances
-                .iter()
-                .map(|passage| Bounds::new(passage, first))
-                .collect()
+        let distinct: Vec<Vec<Vec<usize>>> = (0..GirderResponse::ALL.len()).map(distinct).collect();
+        let of = |(train, stances): (usize, &Vec<Passage>)| {
+            let bounds = |(stance, passage): (usize, &Passage)| {
+                let wanted = std::array::from_fn(|k| distinct[k][train].contains(&stance));
+                Bounds::new(passage, &wanted)
+            };
+            stances.iter().enumerate().map(bounds).collect()
         };
-        let bounds = passages.iter().map(of).collect();
+        let bounds = passages.iter().enumerate().map(of).collect();
         Ok(Overrun {
             passages,
             distinct,
