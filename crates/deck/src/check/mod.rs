@@ -104,7 +104,7 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
         let expected = expected_values(plan, &foundations, case, 0.0)?;
         Ok((state(plan, case, None), expected))
     });
-    let what = ("forces at random states", FORCE_LIMIT);
+    let what = ("forces at random states and at rest", FORCE_LIMIT);
     let mut forces = vec![compare::compare(plan, &set, what, still)?];
 
     let mut carried = set.clone();

@@ -34,7 +34,7 @@ const HOLDS: f64 = 1e-9;
 const NAMED: usize = 3;
 
 /// The equilibria of the simulator along the prescribed motion.
-pub struct Sweep {
+pub struct EquilibriumPath {
     /// The equilibria.
     pub cases: Vec<CheckCase>,
     /// The reason why the simulator did not compute all of them.
@@ -112,14 +112,14 @@ fn within(found: &EquilibriumDifference, limit: &EquilibriumDifference) -> bool 
 
 /// The equilibria of the simulator along the prescribed motion; `None` if a body is free along its rail and therefore
 /// has no static equilibrium.
-pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Sweep> {
+pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<EquilibriumPath> {
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
         return None;
     }
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / f64::from(INTERVALS);
-    let mut out = Sweep {
+    let mut out = EquilibriumPath {
         cases: Vec::new(),
         failed: None,
     };
@@ -198,7 +198,7 @@ pub fn path(
     plan: &DeckPlan<'_>,
     set: &DataSet,
     foundations: &[Foundation],
-    sweep: &Sweep,
+    sweep: &EquilibriumPath,
 ) -> Result<SweepDifference, Error> {
     let model = AdamsModel::new(set)?;
     let held = held(plan);
