@@ -345,11 +345,13 @@ fn run_combination(seed: u64, folder: &Path) -> Became {
     }
 }
 
-/// Scenes that combine features run, or are refused with a message; none panics or hangs. `GIRDERWAY_FUZZ_COMBINATIONS` is their
-/// number; those that fail are stored.
+/// Scenes that combine features run, or are refused with a message; none panics. Those that fail are stored. Where
+/// `GIRDERWAY_FUZZ_COMBINATIONS` gives their number, which is a measurement on a quiet machine, none may take longer than
+/// [`LONGEST`] either; the second tier only lists those that do.
 #[test]
 fn combinations_of_features_run_or_are_refused() {
-    let count: u64 = setting("GIRDERWAY_FUZZ_COMBINATIONS").unwrap_or(200);
+    let measured: Option<u64> = setting("GIRDERWAY_FUZZ_COMBINATIONS");
+    let count = measured.unwrap_or(200);
     let first: u64 = setting("GIRDERWAY_FUZZ_SEED").unwrap_or(1) * 1_000_000_000;
     let next = AtomicU64::new(0);
     let threads = thread::available_parallelism().map_or(1, usize::from);
@@ -409,7 +411,7 @@ fn combinations_of_features_run_or_are_refused() {
         told.join("\n")
     );
     assert!(
-        failed + slow == 0 && 2 * (ran + incomplete) > count,
+        failed == 0 && (slow == 0 || measured.is_none()) && 2 * (ran + incomplete) > count,
         "see above"
     );
 }
