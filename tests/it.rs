@@ -16,6 +16,7 @@ mod import;
 mod malformed;
 mod outputs;
 mod paper;
+mod second_order;
 mod selector;
 mod study;
 mod sweep;

@@ -89,10 +89,13 @@ fn run(page: &str, folder: &Path) -> usize {
                 for words in commands(&block) {
                     assert_eq!(words.first(), Some(&"girderway"), "{}", block.text);
                     said = girderway(folder, &words[1..]);
-                    // a crane between its flanges does not determine all its largest values
+                    // a crane between its flanges does not determine all its largest values, and its girders twist
+                    let told = [
+                        "largest values are not determined: flanges strike",
+                        "second-order effects and large rotations would change",
+                    ];
                     let is_wrong = |line: &str| {
-                        line.contains("warning")
-                            && !line.contains("largest values are not determined: flanges strike")
+                        line.contains("warning") && !told.iter().any(|told| line.contains(told))
                     };
                     assert!(!said.lines().any(is_wrong), "{}: {said}", block.text);
                     count += 1;

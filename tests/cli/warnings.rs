@@ -125,13 +125,13 @@ fn rails_that_give_by_a_hundredth_of_their_span_warn() {
 #[test]
 fn rails_held_lengthwise_at_both_ends_warn_where_that_would_stiffen_them() {
     let influence = r#"{"spec": "taut.json", "foundation": "influence"}"#;
-    assert_eq!(
-        warned(influence, 2.8e6, 30.0, 0.0, false),
-        Vec::<String>::new()
-    );
+    // the tension itself is a second-order effect, most of the shear force
+    let is_second = |text: &String| text.contains("second-order effects");
+    let loose = warned(influence, 2.8e6, 30.0, 0.0, false);
+    assert!(loose.len() == 1 && is_second(&loose[0]), "{loose:?}");
     let taut = warned(influence, 2.85e6, 30.0, 0.0, false);
     assert!(
-        taut.len() == 1 && taut[0].contains("restrain it longitudinally"),
+        taut.len() == 2 && taut[0].contains("restrain it longitudinally") && is_second(&taut[1]),
         "{taut:?}"
     );
 }
@@ -218,4 +218,29 @@ fn wheels_that_are_braked_alone_warn_with_what_applies_a_brake() {
         "the wheels have it: {alone:?}"
     );
     assert!(braked(r#"{"body": "car", "dof": "x", "kind": "free", "brake": 0.005}"#).is_empty());
+}
+
+/// Analytic: a wheel of 1e-6 lb on 1e8 lb/ft vibrates 9 million times a second. A push on it would take tens of millions of steps.
+#[test]
+fn a_run_of_millions_of_steps_is_given_up_with_its_reason() {
+    let folder = folder();
+    fs::write(folder.path().join("girder.json"), GIRDER).expect("written");
+    let scene = r#"{"format": "girderway-scene/1", "units": {"length": "ft", "force": "lbf", "time": "s"}, "gravity": 32.174,
+        "structures": {"bridge": {"spec": "girder.json", "foundation": "rigid"}},
+        "bodies": {"car": {"weight": 1e-6, "dof": ["y"], "x0": 10}},
+        "wheels": {"wheel": {"radius": 1, "vertical": {"k": 1e8}}},
+        "trucks": [{"name": "truck", "body": "car", "tree": [0], "wheel": "wheel"}],
+        "loads": [{"body": "car", "dof": "y", "value": [[0, -5], [1e-7, -4]]}],
+        "motions": [{"body": "car", "dof": "x", "kind": "prescribed", "speed": [[0, 1]]}], "end": {"time": 1}}"#;
+    fs::write(folder.path().join("scene.json"), scene).expect("written");
+    let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+    let said = text(&run.stderr);
+    assert_ne!(run.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("the run was given up at t = 0.0004"),
+        "{said}"
+    );
+    assert!(said.contains("a small mass on a stiff wheel"), "{said}");
+    let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+    assert_eq!(summary["status"], "too many steps");
 }

@@ -36,7 +36,7 @@
 //! # Ok::<(), fea::Error>(())
 //! ```
 //!
-//! Wings, lowest first: dof, error, model, assembly, factor, influence, modes, preload
+//! Wings, lowest first: dof, error, model, assembly, factor, influence, modes, preload, large
 //!
 //! A file of one imports nothing of a later one:
 //!
@@ -46,14 +46,15 @@
 //! 4. `factor`: sparse Cholesky in doubles and double-doubles, certificate, limits of memory;
 //! 5. `influence`: rails laid over members, grids, surfaces, reactions and internal forces;
 //! 6. `modes`: mass, natural modes, effects of inertia;
-//! 7. `preload`: axial forces of a loaded state, critical factors, what such a state leaves out, and what second order would
-//!    change.
+//! 7. `preload`: axial forces of a loaded state, critical factors, what such a state leaves out;
+//! 8. `large`: finite displacements, and what the linear theories leave out.
 
 mod assembly;
 mod dof;
 mod error;
 mod factor;
 mod influence;
+mod large;
 mod model;
 mod modes;
 mod preload;
@@ -65,6 +66,7 @@ pub use influence::{
     CertifiedSurface, DEFAULT_ACCURACY, Effect, FactoredFrame, InfluenceGrid, Reactions, Restraint,
     grid, point_compliance, surface,
 };
+pub use large::{LargeDisplacements, LargestDifference, LinearState, Omitted};
 pub use model::{
     ArmStiffness, BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model,
     PointMass, Rail, RailSegment, RigidLink, Support, Taper,
@@ -75,6 +77,6 @@ pub use modes::{
 };
 pub use preload::{
     BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload,
-    PreloadedState, RailForce, SecondOrderChange, loaded_frame, preloaded, second_order_change,
+    PreloadedState, RailForce, loaded_frame, preloaded,
 };
 pub use splines::ForceComponent;

@@ -3,7 +3,7 @@
 use sim::{Error, Fall, Status};
 
 use formats::scene::{DOFS, Scene};
-use formats::text::number::number;
+use formats::text::number::{number, rounded};
 
 /// The word for the status of a run in summaries, and a message where the run did not reach its end.
 #[must_use]
@@ -17,6 +17,19 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
             Some(format!(
                 "the integration failed at t = {t} s: the step size became too small, or contacts opened and closed \
                  indefinitely"
+            )),
+        ),
+        Status::TooManySteps {
+            time,
+            steps,
+            expected,
+        } => (
+            "too many steps",
+            Some(format!(
+                "the run was given up at t = {} s: {steps} steps took it there, and it would take about {expected:.0e}: \
+                 something vibrates far faster than the run is long, such as a small mass on a stiff wheel, or contacts \
+                 that open and close; check masses, `k` and `c`, or use \"quasi-static\"",
+                number(rounded(*time, 6))
             )),
         ),
         Status::Failed(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),

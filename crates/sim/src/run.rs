@@ -41,6 +41,13 @@ const ALTERNATIVES: [(Method, f64); 6] = [
     (Method::Sdirk4, 0.125),
 ];
 
+/// Steps after which a run is judged by its progress: it is given up if at the mean and at the latest rate its rest would take so
+/// many steps, or a tenth of them at a rate of a million in a unit of time. Wheels of cranes take some ten thousand in a second;
+/// one of a few milligrams on a stiff rail vibrates ten million times.
+const JUDGED: usize = 20_000;
+const MOST_STEPS: f64 = 1e7;
+const FAST: f64 = 1e6;
+
 /// Length of the first step that is tried, relative to the run.
 const FIRST: f64 = 1e-4;
 
@@ -69,6 +76,15 @@ pub enum Status {
     Stopped,
     /// The steps became too small at this time.
     StepTooSmall(f64),
+    /// The run was given up: at the rate of its steps it would have taken millions of them.
+    TooManySteps {
+        /// The time reached.
+        time: f64,
+        /// Number of steps up to it.
+        steps: usize,
+        /// Number of steps that the whole run would take.
+        expected: f64,
+    },
     /// Evaluating the scene failed at this time, for example because a wheel left its structure.
     Failed(f64, Error),
 }
@@ -414,6 +430,7 @@ fn advance(
     if ends {
         return Ok(ended(scene, fired));
     }
+    let mut judged = (0, 0.0);
     for limit in scene.breaks() {
         while stepper.times()[1] < limit * (1.0 - 1e-14) {
             samples.begin(stepper);
@@ -438,6 +455,25 @@ fn advance(
             }
             if watch(to).is_break() {
                 return Ok(Status::Stopped);
+            }
+            let steps = stepper.counts().steps;
+            if steps >= judged.0 + JUDGED {
+                let latest = (steps - judged.0) as f64 / (to - judged.1);
+                let rate = latest.min(steps as f64 / to);
+                let expected = rate * (scene.end - to);
+                let most = if rate > FAST {
+                    0.1 * MOST_STEPS
+                } else {
+                    MOST_STEPS
+                };
+                if expected > most {
+                    return Ok(Status::TooManySteps {
+                        time: to,
+                        steps,
+                        expected,
+                    });
+                }
+                judged = (steps, to);
             }
         }
     }

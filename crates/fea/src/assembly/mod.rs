@@ -24,6 +24,7 @@ mod sparse;
 mod stiffness;
 mod turning;
 
+pub(crate) use blocks::BlockSums;
 pub(crate) use bodies::{Bodies, arm};
 pub(crate) use combination::Combination;
 pub(crate) use element::{

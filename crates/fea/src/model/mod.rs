@@ -14,7 +14,7 @@ mod section;
 mod structure;
 mod taper;
 
-pub(crate) use cut::{cut_members, flexible_ends};
+pub(crate) use cut::{cut_at, cut_members, equal_cuts, flexible_ends};
 pub use girder::Girder;
 pub use rail::{Rail, RailSegment};
 pub use section::{BeamTheory, CrossSection};

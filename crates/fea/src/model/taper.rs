@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::model::cut::{cut_member, flexible_ends};
+use crate::model::cut::{cut_member, equal_cuts, flexible_ends};
 use crate::model::section::CrossSection;
 use crate::model::structure::{Member, MemberKind, Model};
 
@@ -118,7 +118,7 @@ impl Model {
         } else {
             1
         };
-        cut_member(member, ends, parts, out, |part, out| {
+        cut_member(member, ends, &equal_cuts(parts), out, |part, out| {
             if taper.section == member.section {
                 return member.section;
             }

@@ -47,16 +47,18 @@ pub struct RailForce {
 
 /// A force at the tip of a rigid arm of a body.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ArmForce {
+pub(crate) struct ArmForce {
     pub body: usize,
     /// From the reference of the body, global.
     pub arm: Vector3<f64>,
     pub force: Vector3<f64>,
+    /// Direction of the rail of a force that stays at its place along it, while the rail turns under it.
+    pub rail: Option<Vector3<f64>>,
 }
 
 /// What a preload does to a frame.
 #[derive(Debug)]
-pub(super) struct BodyLoads {
+pub(crate) struct BodyLoads {
     /// Over the scaled unknowns.
     pub load: SparseLoad,
     /// Forces on bodies, with their arms; without those of members.
@@ -74,7 +76,7 @@ impl Preload {
     }
 
     /// Checks numbers and indices of points.
-    pub(super) fn check(&self, m: &Model) -> Result<(), Error> {
+    pub(crate) fn check(&self, m: &Model) -> Result<(), Error> {
         let at = |k: usize| {
             move |fault| Error::Invalid {
                 entry: ModelEntry::PreloadForce(k),
@@ -101,7 +103,7 @@ impl Preload {
     ///
     /// # Errors
     /// A force on a degree of freedom that nothing holds; a place beyond its rail.
-    pub(super) fn loads(&self, m: &Model, frame: &FactoredFrame) -> Result<BodyLoads, Error> {
+    pub(crate) fn loads(&self, m: &Model, frame: &FactoredFrame) -> Result<BodyLoads, Error> {
         let bodies = &frame.bodies;
         let mut out = BodyLoads {
             load: SparseLoad::new(),
@@ -119,6 +121,7 @@ impl Preload {
                     body,
                     arm,
                     force: gravity * mass.mass,
+                    rail: None,
                 });
             }
             for (element, member) in frame.elements.iter().zip(&m.members) {
@@ -132,6 +135,7 @@ impl Preload {
                         body,
                         arm: arm + element.offsets[end],
                         force: gravity * half,
+                        rail: None,
                     });
                 }
             }
@@ -153,6 +157,7 @@ impl Preload {
                 body,
                 arm: arm_of(point),
                 force: Vector3::from(force),
+                rail: None,
             });
         }
         for given in &self.rails {
@@ -203,6 +208,7 @@ impl Preload {
                 body,
                 arm: tip + global(offset),
                 force: global(force) * share,
+                rail: Some(global([1.0, 0.0, 0.0])),
             });
         }
         Ok(())

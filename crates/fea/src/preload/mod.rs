@@ -6,18 +6,16 @@
 //! about the state.
 //!
 //! Order of the files: `given` (the preload as given), `forces` (axial forces and forces on arms in a motion), `critical`
-//! (the smallest factor on the preload at which the stiffness is singular), `caution` (what the state leaves out), `state`,
-//! `change` (what second order would change under loads of first order).
+//! (the smallest factor on the preload at which the stiffness is singular), `caution` (what the state leaves out), `state`.
 
 mod caution;
-mod change;
 mod critical;
 mod forces;
 mod given;
 mod state;
 
 pub use caution::{Caution, CautionKind};
-pub use change::{SecondOrderChange, second_order_change};
 pub use critical::{BucklingMode, CriticalFactor, MOST_CRITICAL};
+pub(crate) use given::{ArmForce, BodyLoads};
 pub use given::{Preload, RailForce};
 pub use state::{LoadedFrame, PreloadedState, loaded_frame, preloaded};

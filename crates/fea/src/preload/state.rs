@@ -280,7 +280,7 @@ fn first_frame(
 }
 
 /// The model with the axial forces of its members and the stiffness of its arms.
-pub(super) fn with_forces(mut model: Model, forces: StateForces) -> Model {
+fn with_forces(mut model: Model, forces: StateForces) -> Model {
     for (member, own) in model.members.iter_mut().zip(&forces.members) {
         member.tension = own.axial;
     }
@@ -289,7 +289,7 @@ pub(super) fn with_forces(mut model: Model, forces: StateForces) -> Model {
 }
 
 /// The error of a loaded model that cannot be factored: its buckling, if it buckles at or below its load.
-pub(super) fn buckled(model: &Model, error: Error) -> Error {
+fn buckled(model: &Model, error: Error) -> Error {
     let is_singular = matches!(
         error,
         Error::Mechanism { .. }
@@ -376,7 +376,7 @@ fn check_sag(model: &Model, preload: &Preload) -> Result<(), Error> {
 }
 
 /// For each point its three displacements and three rotations, global, by the motions of the bodies.
-pub(super) fn point_motions(frame: &FactoredFrame, motions: &[SVector<f64, 6>]) -> Vec<[f64; 6]> {
+fn point_motions(frame: &FactoredFrame, motions: &[SVector<f64, 6>]) -> Vec<[f64; 6]> {
     let bodies = &frame.bodies;
     let of = |point: usize| {
         let motion = bodies.motion(point, &nalgebra::Vector3::zeros());

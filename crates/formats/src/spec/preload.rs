@@ -66,6 +66,15 @@ impl SpecPreload {
         }
     }
 
+    /// The weight and the given loads, without wheels, on a model whose upward direction is `up`.
+    #[must_use]
+    pub fn without_wheels(&self, up: [f64; 3]) -> Preload {
+        Preload {
+            rails: Vec::new(),
+            ..self.forces(up)
+        }
+    }
+
     /// The preload on a model whose upward direction is `up`.
     fn forces(&self, up: [f64; 3]) -> Preload {
         let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();

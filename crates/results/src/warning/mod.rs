@@ -50,7 +50,7 @@ fn of_second_order<'a>(
 ) -> impl Iterator<Item = String> + use<'a> {
     let all = outcome
         .second_order
-        .get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
+        .get_or_init(|| second::second_order(scene, outcome));
     all.iter()
         .filter(move |doubt| doubt.is_warning == is_warning)
         .map(|doubt| doubt.text.clone())

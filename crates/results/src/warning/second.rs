@@ -1,118 +1,173 @@
-//! How far first order holds for a run: what the axial forces under its largest loads would change.
+//! How far the linear theory holds for a run: finite displacements under the loads of the times that matter.
 
-use fea::{Preload, RailForce, second_order_change};
-use formats::scene::motion::SimulationInput;
+use fea::{LargeDisplacements, LinearState, Omitted, Preload, RailForce};
 use formats::scene::{Foundation, Origin, Scene};
 use formats::text::number::{number, rounded};
+use piecewise::Side;
+use sim::Channel;
+use trains::GirderResponse;
 
-use crate::case_result::FirstOrderDoubt;
-use crate::columns::NamedColumns;
+use crate::case_result::{CaseResult, FirstOrderDoubt};
 
 /// Relative change from which it is told, and from which it is a warning, as codes ask for second order then (EN 1993-1-1,
 /// 5.2.1).
 const NOTED: f64 = 1e-3;
 const WARNED: f64 = 0.1;
 
-/// What is to be told of the structures without preload: the estimates of [`fea::second_order_change`] for the forces of all
-/// wheels at the recorded time at which they are largest together, and for the weight of what has mass.
-pub(super) fn second_order(
-    scene: &Scene,
-    input: &SimulationInput,
-    record: &NamedColumns,
-) -> Vec<FirstOrderDoubt> {
+/// Times, evenly spaced over the run, at which structures are looked at beside those of the largest responses.
+const SPACED_TIMES: usize = 9;
+
+/// What is to be told of the structures: what [`LinearState::compare`] finds at the times at which forces, moments and deflections
+/// of their girders are largest, and at evenly spaced times. Differences are those of all these times, by the largest values.
+pub(super) fn second_order(scene: &Scene, outcome: &CaseResult) -> Vec<FirstOrderDoubt> {
     (0..scene.structures.len())
-        .filter_map(|index| of_structure(scene, index, input, record))
+        .filter_map(|index| of_structure(scene, index, outcome))
         .collect()
 }
 
-fn of_structure(
-    scene: &Scene,
-    index: usize,
-    input: &SimulationInput,
-    record: &NamedColumns,
-) -> Option<FirstOrderDoubt> {
+/// What is known of a structure after all times.
+enum Finding {
+    Omitted(Omitted),
+    Lost { time: f64, part: f64 },
+}
+
+fn of_structure(scene: &Scene, index: usize, outcome: &CaseResult) -> Option<FirstOrderDoubt> {
     let structure = &scene.structures[index];
     let Origin::Spec { spec, .. } = &structure.origin else {
         return None;
     };
-    if spec.preload.is_some() || structure.foundation == Foundation::Rigid {
+    if structure.foundation == Foundation::Rigid {
         return None;
     }
-    let wheels: Vec<(usize, [&[f64]; 3])> = input
-        .wheels
-        .iter()
-        .filter(|wheel| scene.rails[wheel.rail].structure == index)
-        .map(|wheel| {
-            let parts = ["x", "vertical", "lateral"].map(|part| record.part(&wheel.name, part));
-            (scene.rails[wheel.rail].rail, parts)
-        })
-        .collect();
-    let at = |of: &[f64], row: usize| of.get(row).copied().unwrap_or(0.0);
-    let total = |row: usize| -> f64 {
-        wheels
-            .iter()
-            .map(|(_, [_, vertical, lateral])| at(vertical, row).hypot(at(lateral, row)))
-            .sum()
+    let (model, rails) = spec.model().ok()?;
+    let base = match &spec.preload {
+        Some(preload) => preload.without_wheels(model.up),
+        None if spec.has_mass() => weight(model.up, scene.gravity),
+        None => Preload::default(),
     };
-    let times = record.values("time");
-    let row = (0..times.len()).max_by(|&a, &b| total(a).total_cmp(&total(b)))?;
-    let force = |(rail, [x, vertical, lateral]): &(usize, [&[f64]; 3])| RailForce {
-        rail: *rail,
-        x: at(x, row),
-        force: [0.0, -at(vertical, row), at(lateral, row)],
+    let doubt = |is_warning: bool, text: String| FirstOrderDoubt {
+        is_warning,
+        text: format!("{}: {text}", structure.name),
     };
-    let rails: Vec<RailForce> = wheels
-        .iter()
-        .map(force)
-        .filter(|own| own.force != [0.0; 3])
-        .collect();
-    if rails.is_empty() {
-        return None;
-    }
-    let (model, own) = spec.unloaded_model().ok()?;
-    let size = model.up.iter().map(|a| a * a).sum::<f64>().sqrt();
-    let weight = model.up.map(|a| {
-        if spec.has_mass() && size > 0.0 {
-            -scene.gravity * a / size
-        } else {
-            0.0
+    let found = LinearState::new(&model, &rails, &base).and_then(|state| {
+        let mut all = Omitted::default();
+        for time in times(scene, index, outcome) {
+            let live = Preload {
+                rails: wheel_forces(scene, index, outcome, time),
+                ..Preload::default()
+            };
+            if live.rails.is_empty() {
+                continue;
+            }
+            match state.compare(&live)? {
+                LargeDisplacements::Found(own) => all = all.or(own),
+                LargeDisplacements::Lost { part } => return Ok(Finding::Lost { time, part }),
+            }
         }
+        Ok(Finding::Omitted(all))
     });
-    let loads = Preload {
-        acceleration: weight,
-        points: Vec::new(),
-        rails,
+    let is_lateral_bound = (scene.rails.iter().zip(&outcome.is_lateral_bound))
+        .any(|(rail, is_bound)| rail.structure == index && *is_bound);
+    let warping = if is_lateral_bound {
+        " (without the warping of its sections, which would hold them against twist)"
+    } else {
+        ""
     };
-    let time = number(rounded(times[row], 6));
-    let change = match second_order_change(&model, &own, &loads) {
-        Ok(change) => change,
-        Err(fea::Error::Buckled { factor, .. }) => {
-            return Some(FirstOrderDoubt {
-                is_warning: true,
-                text: format!(
-                    "{}: under its weight and the wheel forces at t = {time} s the structure would buckle, by axial \
-                     forces at {factor:.2} times these loads; the run neglects this; `preload` reports the buckling \
-                     mode",
-                    structure.name
-                ),
-            });
+    let preload = match &spec.preload {
+        Some(_) => "the run is linear about its preload",
+        None => "the run neglects this; `preload` includes the axial forces of standing loads",
+    };
+    match found {
+        Ok(Finding::Omitted(omitted)) => {
+            let [deflection, force, moment] =
+                [omitted.deflection, omitted.force, omitted.moment].map(|own| own.relative());
+            let most = deflection.max(force).max(moment);
+            (most >= NOTED).then(|| {
+                doubt(
+                    most >= WARNED,
+                    format!(
+                        "second-order effects and large rotations would change deflections by about {deflection:.1e}, \
+                         forces by {force:.1e} and moments by {moment:.1e} of the largest{warping}; {preload}"
+                    ),
+                )
+            })
         }
-        // What the run does not need, such as a direction that nothing resists, is no doubt about it.
-        Err(_) => return None,
-    };
-    let turned = 0.5 * change.rotation * change.rotation;
-    let most = change
-        .of_displacements()
-        .max(change.force)
-        .max(change.moment);
-    (most >= NOTED).then(|| FirstOrderDoubt {
-        is_warning: most >= WARNED,
-        text: format!(
-            "{}: under its weight and the wheel forces at t = {time} s, when these are largest, second-order effects \
-             would change deflections by about {:.1e}, forces by {:.1e} and moments by {:.1e} of the largest, and \
-             large rotations would change deflections by {turned:.1e}; the run neglects this; `preload` includes the \
-             axial forces",
-            structure.name, change.deflection, change.force, change.moment
-        ),
-    })
+        Ok(Finding::Lost { part, .. }) if part == 0.0 && !base.is_zero() => Some(doubt(
+            true,
+            format!(
+                "no stable equilibrium with finite displacements was found under its standing loads alone, so that \
+                 second-order effects are not known; {preload}"
+            ),
+        )),
+        Ok(Finding::Lost { time, part }) => Some(doubt(
+            true,
+            format!(
+                "under the wheel forces at t = {} s the structure would lose its stability: no equilibrium with finite \
+                 displacements was found beyond {part:.2} of these forces{warping}, so that second-order effects are not \
+                 known; {preload}",
+                number(rounded(time, 6))
+            ),
+        )),
+        Err(error) => Some(doubt(
+            false,
+            format!("second-order effects are not known ({error})"),
+        )),
+    }
+}
+
+/// Gravity on a model whose upward direction is `up`.
+fn weight(up: [f64; 3], gravity: f64) -> Preload {
+    let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();
+    let factor = if size > 0.0 { -gravity / size } else { 0.0 };
+    Preload {
+        acceleration: up.map(|a| factor * a),
+        ..Preload::default()
+    }
+}
+
+/// The times of the largest value of each quantity on the rails of a structure, and evenly spaced ones, increasing.
+fn times(scene: &Scene, index: usize, outcome: &CaseResult) -> Vec<f64> {
+    let mut largest: Vec<(GirderResponse, f64, f64)> = Vec::new();
+    let all = outcome.girders().extremes.iter();
+    for own in all.filter(|own| scene.rails[own.rail].structure == index) {
+        let value = own.value.abs();
+        match largest.iter_mut().find(|known| known.0 == own.quantity) {
+            Some(known) if known.1 < value => *known = (own.quantity, value, own.time),
+            Some(_) => {}
+            None => largest.push((own.quantity, value, own.time)),
+        }
+    }
+    let end = outcome
+        .columns
+        .values("time")
+        .last()
+        .copied()
+        .unwrap_or(0.0);
+    let spaced = (0..SPACED_TIMES).map(|k| end * k as f64 / (SPACED_TIMES - 1) as f64);
+    let mut times: Vec<f64> = largest.iter().map(|own| own.2).chain(spaced).collect();
+    times.sort_unstable_by(f64::total_cmp);
+    times.dedup_by(|b, a| *b - *a <= 1e-6 * end);
+    times
+}
+
+/// The forces of the wheels on the rails of a structure at a time.
+fn wheel_forces(scene: &Scene, index: usize, outcome: &CaseResult, time: f64) -> Vec<RailForce> {
+    let solution = &outcome.run.solution;
+    let wheels = outcome.input.wheels.iter().enumerate();
+    wheels
+        .filter(|(_, wheel)| scene.rails[wheel.rail].structure == index)
+        .map(|(k, wheel)| {
+            let value = |channel: Channel| solution.value(channel, time, Side::Before);
+            RailForce {
+                rail: scene.rails[wheel.rail].rail,
+                x: value(Channel::Position(k)),
+                force: [
+                    value(Channel::Traction(k)),
+                    -value(Channel::Vertical(k)),
+                    value(Channel::Lateral(k)),
+                ],
+            }
+        })
+        .filter(|own| own.force != [0.0; 3])
+        .collect()
 }

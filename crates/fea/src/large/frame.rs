@@ -1,0 +1,346 @@
+//! Potential energy of a frame under dead loads, and its minimum as the loads grow.
+
+use nalgebra::{Const, SVector, U1, Vector3};
+use num_dual::Dual2SVec64;
+use sprs::CsMat;
+
+use super::member::{EndForces, MovingMember};
+use super::turn::{Turn, cross, sum};
+use crate::assembly::{BlockSums, Element, Matrix6, Real};
+use crate::factor::Factor;
+use crate::influence::FactoredFrame;
+use crate::model::{MemberKind, Model};
+use crate::preload::{ArmForce, BodyLoads};
+
+/// Steps of Newton's method for one load.
+const MOST_STEPS: usize = 20;
+/// Work of a step, relative to that of the loads, at which the equilibrium is found: displacements are right to about its root.
+const SETTLED: f64 = 1e-14;
+/// Displacement by the size of the frame whose work counts as none.
+const UNMOVED: f64 = 1e-9;
+/// Displacements behind the first step of Newton's method, relative to those of this step, beyond which the loads grow too fast:
+/// the equilibrium may be one to which the frame snaps through.
+const FARTHER: f64 = 1.0;
+/// Smallest part of the loads by which they grow.
+const LEAST_GROWTH: f64 = 1.0 / 256.0;
+/// Rotation of one step, radian, beyond which the loads grow too fast.
+const LARGEST_TURN: f64 = 0.5;
+
+/// A frame whose members turn with it.
+///
+/// State: the scaled unknowns x of a linear frame, by which the displacements and rotation vectors of its bodies are linear
+/// functions. The potential energy is that of the members ([`MovingMember`]) and of the springs to ground, less the work of the
+/// loads. A force F at the tip of a rigid arm r keeps its direction: it does the work F . (u + R r - r). One on a rail also keeps
+/// its place along the rail, as a wheel does that the rail turns under: of the turn of its arm only the part about the rail counts.
+///
+/// Supports hold the motions that they hold in the linear frame: where they act on an arm of a rigid body, its rotation counts to
+/// first order.
+pub(super) struct MovingFrame<'a> {
+    frame: &'a FactoredFrame,
+    members: Vec<Option<MovingMember>>,
+    /// Springs to ground: body, arm from its reference, degree of freedom, stiffness.
+    springs: Vec<(usize, [f64; 3], usize, f64)>,
+    /// Largest distance of a point from the first one along an axis.
+    size: f64,
+}
+
+/// First and second derivatives of the potential energy by the scaled unknowns.
+struct Slope {
+    gradient: Vec<f64>,
+    hessian: CsMat<f64>,
+}
+
+/// The path of equilibria ends: no stable equilibrium was found beyond this part of the loads.
+pub(super) struct Lost {
+    pub part: f64,
+}
+
+/// Loads by the scaled unknowns, and their arms.
+pub(super) struct DeadLoads {
+    by_unknown: Vec<f64>,
+    on_arms: Vec<ArmForce>,
+}
+
+impl DeadLoads {
+    pub fn new(frame: &FactoredFrame, loads: &BodyLoads) -> DeadLoads {
+        let mut by_unknown = vec![0.0; frame.unknowns()];
+        loads
+            .load
+            .iter()
+            .for_each(|&(k, value)| by_unknown[k] += value);
+        DeadLoads {
+            by_unknown,
+            on_arms: loads.on_arms.clone(),
+        }
+    }
+
+    /// `self` + `part` of `other`.
+    pub fn plus(&self, part: f64, other: &DeadLoads) -> DeadLoads {
+        let by_unknown = self.by_unknown.iter().zip(&other.by_unknown);
+        let grown = other.on_arms.iter().map(|own| ArmForce {
+            force: own.force * part,
+            ..*own
+        });
+        DeadLoads {
+            by_unknown: by_unknown.map(|(a, b)| a + part * b).collect(),
+            on_arms: self.on_arms.iter().copied().chain(grown).collect(),
+        }
+    }
+}
+
+impl<'a> MovingFrame<'a> {
+    /// `m` is the model that the frame was made of, without axial forces of a preload, as its `elements` are.
+    pub fn new(m: &Model, frame: &'a FactoredFrame, elements: &[Element]) -> MovingFrame<'a> {
+        let bodies = &frame.bodies;
+        let arm = |point: usize| bodies.arms[point].map(Real::double);
+        let members = m.members.iter().zip(elements).map(|(member, element)| {
+            let pair = bodies.pair(member.points);
+            let arms = [0, 1].map(|end| arm(member.points[end]) + element.offsets[end]);
+            let is_cable = member.kind == MemberKind::Cable;
+            (pair[0] != pair[1]).then(|| MovingMember::new(element, pair, arms, is_cable))
+        });
+        let springs = m.springs.iter().map(|spring| {
+            (
+                bodies.of_point[spring.point],
+                arm(spring.point).into(),
+                spring.dof as usize,
+                spring.stiffness,
+            )
+        });
+        MovingFrame {
+            frame,
+            members: members.collect(),
+            springs: springs.collect(),
+            size: m.points.iter().fold(0.0, |most, point| {
+                (0..3).fold(most, |most: f64, k| {
+                    most.max((point[k] - m.points[0][k]).abs())
+                })
+            }),
+        }
+    }
+
+    /// The equilibrium under `loads` alone; `None` where none is found.
+    ///
+    /// Hangers resist nothing before they are loaded. Where the loads cannot grow from nothing, the search begins at the linear
+    /// state, which is near the equilibrium.
+    pub fn standing(&self, loads: &DeadLoads) -> Option<Vec<f64>> {
+        let rest = vec![0.0; self.frame.unknowns()];
+        if loads.by_unknown.iter().all(|load| *load == 0.0) {
+            return Some(rest);
+        }
+        let nothing = DeadLoads {
+            by_unknown: rest.clone(),
+            on_arms: Vec::new(),
+        };
+        self.follow(rest, &nothing, loads).ok().or_else(|| {
+            let mut near = loads.by_unknown.clone();
+            self.frame.solver().solve(&mut near);
+            self.equilibrium(&near, loads)
+        })
+    }
+
+    /// The equilibrium under `base` and `more`, from the one under `base` at `x`, as `more` grows from nothing to all of it.
+    ///
+    /// Newton's method with the exact second derivatives for each load; where it does not find a minimum, the load grows by half
+    /// as much.
+    pub fn follow(
+        &self,
+        mut x: Vec<f64>,
+        base: &DeadLoads,
+        more: &DeadLoads,
+    ) -> Result<Vec<f64>, Lost> {
+        let (mut reached, mut growth) = (0.0_f64, 1.0_f64);
+        while reached < 1.0 {
+            let part = (reached + growth).min(1.0);
+            match self.equilibrium(&x, &base.plus(part, more)) {
+                Some(found) => {
+                    (x, reached) = (found, part);
+                    growth *= 2.0;
+                }
+                None if growth > LEAST_GROWTH => growth *= 0.5,
+                None => return Err(Lost { part: reached }),
+            }
+        }
+        Ok(x)
+    }
+
+    /// The minimum of the potential energy near `start`; `None` where Newton's method does not find one.
+    pub fn equilibrium(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
+        let mut x = start.to_vec();
+        let mut before = f64::INFINITY;
+        let (mut first, mut farther) = (0.0_f64, 0.0_f64);
+        let forces = loads.on_arms.iter().map(|own| own.force.norm());
+        let least = UNMOVED * self.size * forces.sum::<f64>();
+        for step in 0..MOST_STEPS {
+            let Slope { gradient, hessian } = self.slope(&x, loads);
+            let factor = Factor::new(&hessian).ok()?;
+            let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
+            factor.solve(&mut change);
+            let work = -dot(&gradient, &change);
+            if !work.is_finite() {
+                return None;
+            }
+            let turned = self
+                .frame
+                .body_motions(&change)
+                .iter()
+                .fold(0.0_f64, |most, motion| {
+                    most.max(motion.fixed_rows::<3>(3).norm())
+                });
+            if turned > LARGEST_TURN {
+                return None;
+            }
+            let moved = self.largest_displacement(&change);
+            if step == 0 {
+                first = moved;
+            } else {
+                farther += moved;
+                if farther > FARTHER * first {
+                    return None;
+                }
+            }
+            x.iter_mut()
+                .zip(&change)
+                .for_each(|(x, change)| *x += change);
+            let all = dot(&loads.by_unknown, &x).abs();
+            if work <= SETTLED * all.max(least) {
+                return Some(x);
+            }
+            // Far from the answer a step may do more work than the one before it, but not for long.
+            if step > 3 && work > before {
+                return None;
+            }
+            before = work;
+        }
+        None
+    }
+
+    /// The largest displacement of a body, by its reference.
+    fn largest_displacement(&self, x: &[f64]) -> f64 {
+        let motions = self.frame.body_motions(x);
+        motions.iter().fold(0.0, |most, motion| {
+            most.max(motion.fixed_rows::<3>(0).norm())
+        })
+    }
+
+    fn slope(&self, x: &[f64], loads: &DeadLoads) -> Slope {
+        let frame = self.frame;
+        let motions = frame.body_motions(x);
+        let mut by_body = vec![SVector::<f64, 6>::zeros(); motions.len()];
+        let mut sums = BlockSums::new(motions.len(), self.members.len());
+        let basis = |body: usize| &frame.bodies.list[body].basis;
+        let own = |sums: &mut BlockSums<f64>, body: usize, block: &Matrix6| {
+            sums.add_own(body, &(basis(body).transpose() * block * basis(body)));
+        };
+        for member in self.members.iter().flatten() {
+            let [a, b] = member.bodies;
+            let energy = member.derivatives([&motions[a], &motions[b]]);
+            by_body[a] += energy.gradient[0];
+            by_body[b] += energy.gradient[1];
+            own(&mut sums, a, &energy.hessian[0]);
+            own(&mut sums, b, &energy.hessian[2]);
+            sums.add_coupling([a, b], basis(a).transpose() * energy.hessian[1] * basis(b));
+        }
+        for &(body, arm, dof, stiffness) in &self.springs {
+            let variables = variables(&motions[body]);
+            let moved = if dof < 3 {
+                let turn = Turn::new([variables[3], variables[4], variables[5]]);
+                variables[dof] + turn.change(arm.map(Dual2SVec64::<6>::from))[dof]
+            } else {
+                variables[dof]
+            };
+            let (gradient, hessian) = derivatives(moved * moved * (0.5 * stiffness));
+            by_body[body] += gradient;
+            own(&mut sums, body, &hessian);
+        }
+        // The loads by unknown hold u + t x r; what remains of their work is F . (R r - r - t x r).
+        let on_arms = loads.on_arms.iter().filter(|own| {
+            let none = Vector3::zeros();
+            own.arm != none && own.force != none
+        });
+        for ArmForce {
+            body,
+            arm,
+            force,
+            rail,
+        } in on_arms
+        {
+            let variables = variables(&motions[*body]);
+            let mut vector = [variables[3], variables[4], variables[5]];
+            if let Some(axis) = rail.map(<[f64; 3]>::from) {
+                let about = vector[0] * axis[0] + vector[1] * axis[1] + vector[2] * axis[2];
+                vector = axis.map(|component| about * component);
+            }
+            let arm = <[f64; 3]>::from(*arm).map(Dual2SVec64::<6>::from);
+            let (finite, small) = (Turn::new(vector).change(arm), cross(vector, arm));
+            let work = (0..3).fold(Dual2SVec64::<6>::from(0.0), |sum, k| {
+                sum + (finite[k] - small[k]) * force[k]
+            });
+            let (gradient, hessian) = derivatives(-work);
+            by_body[*body] += gradient;
+            own(&mut sums, *body, &hessian);
+        }
+        let numbering = &frame.stiffness().numbering;
+        let gradient = numbering
+            .column
+            .iter()
+            .zip(&numbering.scale)
+            .zip(&loads.by_unknown);
+        Slope {
+            gradient: gradient
+                .map(|((&column, scale), load)| {
+                    scale
+                        * basis(column / 6)
+                            .column(column % 6)
+                            .dot(&by_body[column / 6])
+                        - load
+                })
+                .collect(),
+            hessian: sums.upper(&numbering.unknown, &numbering.scale),
+        }
+    }
+
+    /// Displacements of all points of the model, and of the tips of `arms`.
+    pub fn displacements(&self, x: &[f64], arms: &[ArmForce]) -> Vec<[f64; 3]> {
+        let motions = self.frame.body_motions(x);
+        let bodies = &self.frame.bodies;
+        let moved = |body: usize, arm: [f64; 3]| {
+            let motion = &motions[body];
+            let turn = Turn::new([motion[3], motion[4], motion[5]]);
+            sum([motion[0], motion[1], motion[2]], turn.change(arm))
+        };
+        let points = bodies.of_point.iter().zip(&bodies.arms);
+        points
+            .map(|(&body, arm)| moved(body, arm.map(Real::double).into()))
+            .chain(arms.iter().map(|own| moved(own.body, own.arm.into())))
+            .collect()
+    }
+
+    /// Internal forces at the ends of all members; none for those within one rigid body.
+    pub fn end_forces(&self, x: &[f64]) -> Vec<Option<EndForces>> {
+        let motions = self.frame.body_motions(x);
+        let of =
+            |member: &MovingMember| member.end_forces(member.bodies.map(|body| &motions[body]));
+        self.members
+            .iter()
+            .map(|member| member.as_ref().map(of))
+            .collect()
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The motions of a body as variables.
+fn variables(motion: &SVector<f64, 6>) -> [Dual2SVec64<6>; 6] {
+    std::array::from_fn(|k| Dual2SVec64::from_re(motion[k]).derivative(k))
+}
+
+fn derivatives(energy: Dual2SVec64<6>) -> (SVector<f64, 6>, Matrix6) {
+    let gradient = energy.v1.unwrap_generic(U1, Const::<6>);
+    (
+        gradient.transpose(),
+        energy.v2.unwrap_generic(Const::<6>, Const::<6>),
+    )
+}
