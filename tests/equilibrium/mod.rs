@@ -159,3 +159,47 @@ fn bodies_that_the_track_holds_run() {
         }
     }
 }
+
+/// Analytic: a girder of 10 m under 40 kN at 2 m and at 5 m sinks there by P b x (L^2 - b^2 - x^2)/(6 E I L) each. The wheels share
+/// one force through an equaliser; the rail sinks under each by its own amount.
+#[test]
+fn the_rail_sinks_under_each_wheel_of_an_equaliser() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let spec = json!({"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
+        "girder": {"spans": [10], "E": 2.1e8, "I_vertical": 4e-4}, "stations": [0, 10]});
+    let scene = json!({"format": "girderway-scene/1", "units": {"length": "m", "force": "kN", "time": "s"}, "gravity": 10,
+        "analysis": "quasi-static", "structures": {"b": {"spec": "spec.json", "foundation": "influence"}},
+        "bodies": {"t": {"mass": 8, "dof": ["y"], "x0": 3.5}}, "wheels": {"w": {"radius": 0.3, "vertical": {"k": 5e4}}},
+        "trucks": [{"name": "w", "body": "t", "tree": [[-1.5, 1.5]], "wheel": "w"}], "end": {"time": 1}, "output": {"dt": 1}});
+    for (name, value) in [("spec.json", &spec), ("scene.json", &scene)] {
+        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(["run", "scene.json", "-o", "out"])
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let history = History::read(&folder.path().join("out/history.csv"));
+    let (length, ei) = (10.0_f64, 2.1e8 * 4e-4);
+    let unit = |x: f64, at: f64| {
+        let (x, b) = if x <= at {
+            (x, length - at)
+        } else {
+            (length - x, at)
+        };
+        b * x * (length * length - b * b - x * x) / (6.0 * ei * length)
+    };
+    for (wheel, x) in [("w.wheel1", 2.0), ("w.wheel2", 5.0)] {
+        let known = 40.0 * (unit(x, 2.0) + unit(x, 5.0));
+        let found = history.column(&format!("{wheel}.rail_deflection"))[0];
+        assert!(
+            (found / known - 1.0).abs() < 1e-9,
+            "{wheel}: {found}, not {known}"
+        );
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use splines::{Influence, Probe};
+use splines::{Axis, Influence, Probe};
 
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
@@ -217,6 +217,12 @@ impl Recorder {
         for gauge in &system.scene.gauges {
             moved.push(self.displacement(system, geometry, at, gauge)?);
         }
+        let mut sunk = Vec::new();
+        for w in 0..self.wheels.len() {
+            if let Some(gauge) = gauge_under(system, geometry, w) {
+                sunk.push((w, -self.displacement(system, geometry, at, &gauge)?));
+            }
+        }
         let frame = geometry.frame(system, at);
         values.extend_from_slice(&self.blank);
         let row = &mut values[first..];
@@ -251,6 +257,9 @@ impl Recorder {
             .zip(others.as_chunks_mut::<OF_WHEEL>().0);
         for ((w, wheel), own) in all {
             write_wheel(system, geometry, at, (w, wheel), of_bodies, own);
+        }
+        for (w, sunk) in sunk {
+            others[OF_WHEEL * w + 5] = sunk;
         }
         for &ForceColumn {
             element,
@@ -363,6 +372,31 @@ fn channels_of(system: &System) -> Vec<Channel> {
         channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
     }
     channels
+}
+
+/// The place of the rail under a wheel that shares its force with others. Their mean penetration says nothing of the rail under
+/// one of them, so that its deflection is computed like that at a gauge. `None` for a wheel of its own.
+fn gauge_under(system: &System, geometry: &Geometry, w: usize) -> Option<Gauge> {
+    let mechanics = &system.mechanics;
+    let groups = mechanics.groups_of(w);
+    if mechanics.groups[groups.start].wheels.len() == 1 {
+        return None;
+    }
+    let structure = system.scene.contacts[mechanics.wheels[w].contact].structure;
+    let under = system.probes.entries[structure].iter().filter(|entry| {
+        entry.wheel == w && entry.probe.axis == Axis::Vertical && groups.contains(&entry.element)
+    });
+    let most = under.max_by(|a, b| {
+        let share = |element: usize| geometry.fraction(element);
+        share(a.element).total_cmp(&share(b.element))
+    })?;
+    Some(Gauge {
+        structure,
+        probe: Probe {
+            x: geometry.places().x[w],
+            ..most.probe
+        },
+    })
 }
 
 /// Writes the columns of wheel `w`, whose body has its displacements in the columns `of_bodies`. The forces are left: they are
