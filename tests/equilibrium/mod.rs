@@ -44,11 +44,16 @@ fn bridge(cg: [f64; 3]) -> Value {
 
 /// Runs a scene; returns what it says, and its history where it has one.
 fn run(scene: &Value) -> (String, Option<History>) {
+    run_on(&rails(), scene)
+}
+
+/// Runs a scene on a structure.
+fn run_on(spec: &Value, scene: &Value) -> (String, Option<History>) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, value: &Value| {
         std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
     };
-    write("spec.json", &rails());
+    write("spec.json", spec);
     write("scene.json", scene);
     let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
         .args(["run", "scene.json", "-o", "out"])
@@ -164,27 +169,14 @@ fn bodies_that_the_track_holds_run() {
 /// one force through an equaliser; the rail sinks under each by its own amount.
 #[test]
 fn the_rail_sinks_under_each_wheel_of_an_equaliser() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
     let spec = json!({"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
         "girder": {"spans": [10], "E": 2.1e8, "I_vertical": 4e-4}, "stations": [0, 10]});
     let scene = json!({"format": "girderway-scene/1", "units": {"length": "m", "force": "kN", "time": "s"}, "gravity": 10,
         "analysis": "quasi-static", "structures": {"b": {"spec": "spec.json", "foundation": "influence"}},
         "bodies": {"t": {"mass": 8, "dof": ["y"], "x0": 3.5}}, "wheels": {"w": {"radius": 0.3, "vertical": {"k": 5e4}}},
         "trucks": [{"name": "w", "body": "t", "tree": [[-1.5, 1.5]], "wheel": "w"}], "end": {"time": 1}, "output": {"dt": 1}});
-    for (name, value) in [("spec.json", &spec), ("scene.json", &scene)] {
-        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
-    }
-    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
-        .args(["run", "scene.json", "-o", "out"])
-        .current_dir(folder.path())
-        .output()
-        .expect("the program starts");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let history = History::read(&folder.path().join("out/history.csv"));
+    let (said, history) = run_on(&spec, &scene);
+    let history = history.unwrap_or_else(|| panic!("{said}"));
     let (length, ei) = (10.0_f64, 2.1e8 * 4e-4);
     let unit = |x: f64, at: f64| {
         let (x, b) = if x <= at {
