@@ -17,6 +17,9 @@ use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
+/// Range of a stress, relative to its largest magnitude, below which it is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The S-N curve of a detail, in the unit of stress of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Resistance {
@@ -132,7 +135,8 @@ fn fatigue_result(
     let fatigue = &scene.output.fatigue;
     let resistance = Resistance::new(detail, fatigue, scene.units)?;
     let values: Vec<f64> = turns.iter().map(|turn| turn.value).collect();
-    let cycles = rainflow(&values, fatigue.history)?;
+    let mut cycles = rainflow(&values, fatigue.history)?;
+    drop_rounding(&mut cycles, &values);
     let each = cycles
         .iter()
         .map(|cycle| Ok(cycle.count * resistance.damage(cycle.range())?))
@@ -154,6 +158,12 @@ fn fatigue_result(
         equivalent: reference * (damage.sum * practice::fatigue::REFERENCE_CYCLES).cbrt(),
         life: fatigue.crossings.map(|crossings| crossings * damage.sum),
     })
+}
+
+/// Drops cycles whose range is only rounding of the stress: their number would depend on the units of the scene.
+fn drop_rounding(cycles: &mut Vec<Cycle>, stresses: &[f64]) {
+    let largest = stresses.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+    cycles.retain(|cycle| cycle.range() > ROUNDING * largest);
 }
 
 impl FatigueResult {
@@ -223,4 +233,24 @@ pub fn csv(results: &[FatigueResult]) -> Result<Option<Vec<u8>>, csv::Error> {
         }
     }
     bytes(writer).map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use practice::Repetition;
+
+    use super::*;
+
+    /// Analytic: a history of one cycle between 0 and 100 with ripples of rounding has that cycle alone, in any unit.
+    #[test]
+    fn ripples_of_rounding_are_no_cycles() {
+        for unit in [1.0, 1e-3, 6.894_757e6] {
+            let values = [0.0, 100.0, 100.0 - 1e-12, 100.0, 0.0, 2e-13, 0.0].map(|s| unit * s);
+            let mut cycles = rainflow(&values, Repetition::Once).expect("a history");
+            drop_rounding(&mut cycles, &values);
+            let total: f64 = cycles.iter().map(|cycle| cycle.count).sum();
+            let is_whole = |cycle: &Cycle| (cycle.range() / (100.0 * unit) - 1.0).abs() < 1e-12;
+            assert!(total == 1.0 && cycles.iter().all(is_whole), "{cycles:?}");
+        }
+    }
 }
