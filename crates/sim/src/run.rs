@@ -42,11 +42,11 @@ const ALTERNATIVES: [(Method, f64); 6] = [
 ];
 
 /// Steps after which a run is judged by its progress: it is given up if at the mean and at the latest rate its rest would take so
-/// many steps, or a tenth of them at a rate of a million in a unit of time. Wheels of cranes take some ten thousand in a second;
-/// one of a few milligrams on a stiff rail vibrates ten million times.
+/// many steps, or a hundredth of them at a rate of ten million in a unit of time. Wheels of cranes take some ten thousand in a
+/// second, and a million at the accuracy of references; one of a few milligrams on a stiff rail vibrates ten million times.
 const JUDGED: usize = 20_000;
-const MOST_STEPS: f64 = 1e7;
-const FAST: f64 = 1e6;
+const MOST_STEPS: f64 = 1e8;
+const FAST: f64 = 1e7;
 
 /// Length of the first step that is tried, relative to the run.
 const FIRST: f64 = 1e-4;
@@ -462,7 +462,7 @@ fn advance(
                 let rate = latest.min(steps as f64 / to);
                 let expected = rate * (scene.end - to);
                 let most = if rate > FAST {
-                    0.1 * MOST_STEPS
+                    0.01 * MOST_STEPS
                 } else {
                     MOST_STEPS
                 };
