@@ -52,7 +52,7 @@ const SAME: f64 = 2e-3;
 /// // 3 (tan u - u)/u^3 - 1 with u = (pi/2) sqrt(0.1), of the deflection across
 /// let u = 0.1_f64.sqrt() * std::f64::consts::FRAC_PI_2;
 /// let known = 3.0 * (u.tan() - u) / u.powi(3) - 1.0;
-/// assert!((left_out.deflection.relative() / known - 1.0).abs() < 0.02);
+/// assert!((left_out.deflection.relative() / known - 1.0).abs() < 0.05);
 /// # Ok::<(), fea::Error>(())
 /// ```
 #[derive(Debug)]
