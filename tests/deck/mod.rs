@@ -3,6 +3,7 @@
 mod commands;
 mod form;
 mod mutations;
+mod random;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -12,6 +12,7 @@ use crate::progress::Progress;
 use deck::{self, DeckForm, check};
 use formats::scene::Document;
 use formats::text::diagnostic::Diagnostic;
+use formats::text::fault::Faults;
 use foundations::distinct_specs;
 use outputs::files;
 use outputs::files::json as json_text;
@@ -66,7 +67,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         )
     });
     let file = args.scene.display().to_string();
-    let plan = deck::plan(scene, &known, form, &file)?;
+    let plan = deck::plan(scene, &known, form, &file).map_err(|error| located(error, &document))?;
     let model = args
         .output
         .as_deref()
@@ -105,6 +106,24 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         Err(Failure::Differs(
             "the deck differs from the simulator".to_owned(),
         ))
+    }
+}
+
+/// A failure that names the body and its place in the scene where the scene has no equilibrium on the tables of the deck.
+fn located(error: deck::Error, document: &Document) -> Failure {
+    let deck::Error::Start(error) = error else {
+        return error.into();
+    };
+    let scene = document.scene();
+    let message = format!(
+        "the deck's first instant: {}",
+        results::run_error::in_scene_names(&error, scene)
+    );
+    let fault = results::preflight::of_error(&foundations::Error::Simulation(error), scene);
+    let source = document.inputs.all()[0].source();
+    match (fault, source) {
+        (Some(fault), Ok(source)) => source.diagnose(&Faults(vec![fault])).into(),
+        _ => Failure::Untrusted(message),
     }
 }
 

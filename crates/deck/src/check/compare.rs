@@ -121,8 +121,8 @@ pub fn expected_values(
         given: GivenValues::default(),
         values: Vec::new(),
     };
-    for (w, rail) in rails.iter().enumerate().take(plan.wheels.len()) {
-        wheel(plan, case, w, rail, size, &mut out);
+    for w in 0..plan.wheels.len() {
+        wheel(plan, case, w, &rails, size, &mut out);
     }
     for (c, contact) in plan.contacts.iter().enumerate() {
         let Some(id) = contact.diff else { continue };
@@ -146,10 +146,11 @@ fn wheel(
     plan: &DeckPlan<'_>,
     case: &CheckCase,
     w: usize,
-    rail: &RailDisplacement,
+    rails: &[RailDisplacement],
     size: f64,
     out: &mut ExpectedValues,
 ) {
+    let rail = &rails[w];
     let (own, kind, forces) = (&plan.wheels[w], plan.kind(w), &case.forces);
     let contact = &plan.contacts[own.contact];
     let penetration = forces.penetration[own.contact];
@@ -161,10 +162,13 @@ fn wheel(
     let turned =
         (roll.abs() + yaw.abs() + pitch.abs()) * (hx.abs() + hy.abs() + hz.abs() + kind.radius);
     let by_place = ROUNDING * (size + x.abs() + hx.abs() + turned);
-    let by_height = ROUNDING
-        * (size + height.abs() + y.abs() + hy.abs() + kind.radius + turned + rail.rise.abs());
-    let by_side =
-        ROUNDING * (size + lateral.abs() + z.abs() + hz.abs() + turned + rail.shift.abs());
+    let by_rise = rail.rise_rounding.of(by_place);
+    let by_shift = rail.shift_rounding.of(by_place);
+    let by_height = by_contact_rise(plan, own.contact, rails, by_place)
+        + ROUNDING
+            * (size + height.abs() + y.abs() + hy.abs() + kind.radius + turned + rail.rise.abs());
+    let by_side = by_shift
+        + ROUNDING * (size + lateral.abs() + z.abs() + hz.abs() + turned + rail.shift.abs());
     let law = kind.normal.at(penetration, case.rate[own.contact]);
     let by_press = law.by_penetration.abs() * by_height;
     let by_flange = kind
@@ -190,7 +194,7 @@ fn wheel(
     );
     let is_flexible = plan.compliances[own.structure].is_flexible();
     if is_flexible {
-        add(1, VariableSlot::Rise, rail.rise, 0.0);
+        add(1, VariableSlot::Rise, rail.rise, by_rise);
     }
     if contact.wheels.start == w {
         add(3, VariableSlot::Penetration, penetration, by_height);
@@ -198,7 +202,7 @@ fn wheel(
     }
     if kind.flange.is_some() {
         if is_flexible {
-            add(2, VariableSlot::Shift, rail.shift, 0.0);
+            add(2, VariableSlot::Shift, rail.shift, by_shift);
         }
         let from_rail = z + roll * (hy - arm) - yaw * hx - rail.shift;
         add(5, VariableSlot::Sideways, from_rail, by_side);
@@ -233,6 +237,58 @@ struct RailDisplacement {
     shift: f64,
     /// Force along the rail due to its slopes.
     along: f64,
+    /// What `rise` and `shift` are computed from.
+    rise_rounding: TermSizes,
+    shift_rounding: TermSizes,
+}
+
+/// Sizes of the terms of a displacement, sum over j of G(i, j) F_j.
+#[derive(Clone, Copy, Debug, Default)]
+struct TermSizes {
+    /// Sum of (|G(i, j)| + (G(i, i) G(j, j))^(1/2)) |F_j|. Products of curves are at most as large as the second term,
+    /// and may cancel.
+    sum: f64,
+    /// Sum of the derivatives by the coordinates of both i and j.
+    by_place: f64,
+}
+
+impl TermSizes {
+    /// The rounding error of the displacement where coordinates have the error `by_place`.
+    fn of(self, by_place: f64) -> f64 {
+        ROUNDING * self.sum + by_place * self.by_place
+    }
+}
+
+/// The largest rounding error of the displacements of the rail under the wheels of contact `c`.
+fn by_contact_rise(
+    plan: &DeckPlan<'_>,
+    c: usize,
+    rails: &[RailDisplacement],
+    by_place: f64,
+) -> f64 {
+    let wheels = plan.contacts[c].wheels.clone();
+    wheels
+        .map(|w| rails[w].rise_rounding.of(by_place))
+        .fold(0.0, f64::max)
+}
+
+/// The largest force along the rails due to their slopes at the given states, relative to the largest vertical force.
+///
+/// # Errors
+/// [`Error::Compliance`] for a wheel beyond its rail.
+pub fn largest_along(
+    plan: &DeckPlan<'_>,
+    foundations: &[Foundation],
+    cases: &[CheckCase],
+) -> Result<f64, Error> {
+    let (mut along, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
+    for case in cases {
+        for (w, rail) in displacements(plan, foundations, case)?.iter().enumerate() {
+            along = along.max(rail.along.abs());
+            largest = largest.max(case.forces.vertical[w].abs());
+        }
+    }
+    Ok(along / largest)
 }
 
 /// The displacements of the rails under all wheels.
@@ -279,9 +335,16 @@ fn displacements(
                     .sum()
             };
             let moved = of(&influence.value);
+            let mut sizes = TermSizes::default();
+            for (j, (_, _, load)) in loads.iter().enumerate() {
+                let (value, slope) = (&influence.value, &influence.slope);
+                let product = (value[(i, i)] * value[(j, j)]).abs().sqrt();
+                sizes.sum += (value[(i, j)].abs() + product) * load.abs();
+                sizes.by_place += (slope[(i, j)].abs() + slope[(j, i)].abs()) * load.abs();
+            }
             match axis {
-                Axis::Lateral => out[w].shift = moved,
-                _ => out[w].rise = moved,
+                Axis::Lateral => (out[w].shift, out[w].shift_rounding) = (moved, sizes),
+                _ => (out[w].rise, out[w].rise_rounding) = (moved, sizes),
             }
             out[w].along += own * of(&influence.slope);
         }

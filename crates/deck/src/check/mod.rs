@@ -26,7 +26,7 @@ use sim::ContactForces;
 
 use self::random::Random;
 use self::states::CheckCase;
-use super::DeckPlan;
+use super::{DeckForm, DeckPlan};
 use crate::Error;
 
 /// Limit of the differences, relative to the largest value.
@@ -76,6 +76,9 @@ pub struct CheckReport {
     pub forces: Vec<CheckDifference>,
     /// Differences along the quasi-static path; `None` if a body is free along its rail.
     pub path: Option<SweepDifference>,
+    /// Largest force along a rail at the equilibria that the form of the deck leaves out, F du/dx, relative to the largest
+    /// vertical force. The simulator leaves it out of the comparison too.
+    pub missing_along: f64,
 }
 
 impl CheckReport {
@@ -97,8 +100,14 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     let set = DataSet::read(text)?;
     AdamsModel::new(&set)?;
     let foundations = plan.foundations()?;
-    let sweep = path::sweep(plan, &foundations);
+    let in_statics = plan.foundations_in_statics()?;
+    let sweep = path::sweep(plan, &in_statics);
     let equilibria = sweep.as_ref().map_or(&[][..], |sweep| &sweep.cases);
+    let missing_along = if plan.form == DeckForm::Factored {
+        0.0
+    } else {
+        compare::largest_along(plan, &foundations, equilibria)?
+    };
     let cases = states::states(plan, &foundations, equilibria, count)?;
     let still = cases.iter().chain(equilibria).map(|case| {
         let expected = expected_values(plan, &foundations, case, 0.0)?;
@@ -118,13 +127,14 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     let what = ("the same, rails on a moving part", CARRIED_FORCE_LIMIT);
     forces.push(compare::compare(plan, &carried, what, moving)?);
     let path = match &sweep {
-        Some(sweep) => Some(path::path(plan, &set, &foundations, sweep)?),
+        Some(sweep) => Some(path::path(plan, &set, &in_statics, sweep)?),
         None => None,
     };
     Ok(CheckReport {
         states: StateCounts::of(&cases),
         forces,
         path,
+        missing_along,
     })
 }
 

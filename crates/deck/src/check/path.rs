@@ -136,6 +136,9 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
         ));
     }
     let times = run.history.column(Channel::Time);
+    let speeds: Vec<Vec<f64>> = (0..plan.bodies.len())
+        .map(|b| run.history.column(Channel::Speed(b, BodyDof::X)))
+        .collect();
     let column = |channel: Channel| run.history.column(channel);
     let wheels = plan.wheels.len();
     let of_wheels = |channel: fn(usize) -> Channel| -> Vec<Vec<f64>> {
@@ -168,7 +171,11 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
                 .iter()
                 .map(|own| std::array::from_fn(|k| own[k].get(i).copied().unwrap_or_default()))
                 .collect(),
-            speed: vec![[0.0; 6]; plan.bodies.len()],
+            // wheels do not spin in statics: those that move along their rails slide
+            speed: at(&speeds)
+                .into_iter()
+                .map(|along| [along, 0.0, 0.0, 0.0, 0.0, 0.0])
+                .collect(),
             spin: vec![0.0; wheels],
             penetration: penetration.iter().copied().map(Some).collect(),
         };

@@ -48,6 +48,13 @@ impl CheckReport {
             None => lines.push("no quasi-static path: a body is free along its rail".to_owned()),
             Some(path) => path_lines(path, &mut lines),
         }
+        if self.missing_along > 0.0 {
+            lines.push(format!(
+                "  this form leaves out the force along the rail, F du/dx: up to {:.1e} of the largest force at these \
+                 positions; the comparison leaves it out on both sides",
+                self.missing_along
+            ));
+        }
         lines
     }
 
@@ -100,7 +107,7 @@ impl CheckReport {
                 "all": count.all, "pressing": count.loaded, "off": count.off, "flange": count.flange,
                 "slide": count.slide,
             },
-            "forces": rows, "path": path,
+            "forces": rows, "path": path, "missing_along": self.missing_along,
         })
     }
 }

@@ -3,34 +3,20 @@
 //! Each state is generated in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene;
 //! in every other state the positions are those of a static equilibrium, displaced by about a penetration, so that
 //! stiff wheels on stiff rails touch them together.
-//! The simulator computes the contact forces with all springs and dampers in equilibrium. For contacts whose
-//! penetration is a state variable (a damper on a flexible rail), the penetrations are then solved from p + G F(p,
-//! p') = e with random rates p' by Newton's method ([`penetrations`]). States whose forces the deck cannot determine
-//! are rejected; at most [`TRIES`] times the requested number of states are generated.
+//! The simulator computes the contact forces. Where a damper acts between wheel and rail, the penetration p is a state
+//! variable, and its rate p' the unknown. Forces that follow from a given penetration are ill conditioned where wheels
+//! are close to each other, so that the rate is given instead, as the speed at which the wheel falls, and p and F follow
+//! together from p + G F(p, p') = e. At most [`TRIES`] times the requested number of states are generated.
 
-use nalgebra::{DMatrix, DVector};
-use sim::{ContactForces, Foundation, Instant, contact_forces};
+use sim::{ContactForces, Damper, Foundation, Instant, Scene, contact_forces};
 
 use super::random::Random;
 use crate::DeckPlan;
 use crate::Error;
 use formats::scene::BodyMotion;
 
-/// Largest ratio of the force that the simulator computes from a penetration to the force from which the penetration
-/// was computed. Where wheels are close to each other, the forces are ill conditioned functions of the penetrations.
-const MAX_FORCE_RATIO: f64 = 3.0;
-/// Penetration, relative to the approach, up to which a contact is treated as open.
-const OPEN: f64 = 1e-9;
-/// Number of Newton iterations for the penetrations of a state.
-const ITERATIONS: usize = 40;
-/// Largest force of a damper outside its ramp, relative to that of its spring.
-const DAMPER_FORCE: f64 = 0.6;
 /// Largest number of generated states per requested state.
 const TRIES: usize = 50;
-/// Smallest fraction of the full damping at which the rate of a contact is computed from its force.
-const MIN_RAMP: f64 = 0.6;
-/// Smallest accepted sum of the forces of spring and damper, as a fraction of the force of the spring.
-const MIN_FORCE: f64 = 1e-2;
 /// Largest rotation, radians.
 const MAX_ROTATION: f64 = 0.02;
 /// Length without wheels at each end of a rail, as a fraction of the length of the rail, for bodies that are free
@@ -54,8 +40,7 @@ pub struct CheckCase {
 /// Generates `count` random states with positions, speeds, spins, and penetrations that correspond to compressive
 /// forces; some wheels are off their rails.
 ///
-/// States whose forces the deck cannot determine are rejected: contacts in tension, dampers that act on a wheel that
-/// is off its rail, rates at the beginning of the ramp of a damper, and springs and dampers whose forces cancel.
+/// States with contacts in tension are rejected.
 ///
 /// # Errors
 /// [`Error::States`] where too few such states were found.
@@ -65,6 +50,7 @@ pub fn states(
     equilibria: &[CheckCase],
     count: usize,
 ) -> Result<Vec<CheckCase>, Error> {
+    let scene = with_given_rates(plan);
     let mut random = Random::new(1);
     let scales = Scales::of(plan);
     let mut out = Vec::with_capacity(count);
@@ -79,7 +65,7 @@ pub fn states(
         if attempt % 2 == 1 {
             scales.displace(plan, equilibria, &mut instant, &mut random);
         }
-        match complete(plan, foundations, instant, &mut random) {
+        match complete(plan, &scene, foundations, instant) {
             Ok(Some(case)) => out.push(case),
             Ok(None) => {}
             Err(error) => last = Some(error),
@@ -95,144 +81,53 @@ pub fn states(
     })
 }
 
-/// Adds the penetrations that are state variables and the contact forces to a state; `None` if the state is rejected.
+/// The scene with dampers between hubs and ground in place of those between wheels and rails, so that the rate of each
+/// penetration is the speed at which the wheel falls, and penetration and force follow together.
+fn with_given_rates(plan: &DeckPlan<'_>) -> Scene {
+    let mut scene = plan.input.scene.clone();
+    for wheel in &mut scene.wheels {
+        wheel.normal.damper = Damper::Ground;
+    }
+    scene
+}
+
+/// Adds the contact forces to a state, and the penetrations that are state variables; `None` if the state is rejected.
 fn complete(
     plan: &DeckPlan<'_>,
+    scene: &Scene,
     foundations: &[Foundation],
     mut instant: Instant,
-    random: &mut Random,
 ) -> Result<Option<CheckCase>, sim::Error> {
-    let scene = &plan.input.scene;
-    let one = |instant: &Instant| {
-        contact_forces(scene, foundations, std::slice::from_ref(instant))
-            .map(|mut all| all.swap_remove(0))
-    };
-    let open = one(&instant)?;
-    let mut most = vec![f64::INFINITY; plan.contacts.len()];
-    for (c, penetration, force) in penetrations(plan, &open, random) {
-        instant.penetration[c] = Some(penetration);
-        most[c] = MAX_FORCE_RATIO * force.abs();
-    }
-    let forces = one(&instant)?;
-    let fits = (0..plan.contacts.len()).all(|c| {
-        let contact = &plan.contacts[c];
+    let forces = contact_forces(scene, foundations, std::slice::from_ref(&instant))?.swap_remove(0);
+    let mut rate = vec![0.0; plan.contacts.len()];
+    for (c, contact) in plan.contacts.iter().enumerate() {
         let law = &plan.kind(contact.wheels.start).normal;
         let (force, p) = (forces.vertical[contact.wheels.start], forces.penetration[c]);
-        let acts = contact.diff.is_none() || instant.penetration[c].is_some();
-        if contact.diff.is_some() && instant.penetration[c].is_some() {
-            let point = law.at(p, 0.0);
-            let is_weak = !law.bilateral && force < MIN_FORCE * point.force;
-            if point.by_rate < MIN_RAMP * law.damping || is_weak || force.abs() > most[c] {
-                return false;
-            }
+        if !law.bilateral && (force < 0.0 || (force > 0.0 && p <= 0.0)) {
+            return Ok(None);
         }
-        law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
-    });
-    let rate = (0..plan.contacts.len())
-        .map(|c| rate(plan, &instant, &forces, c))
-        .collect();
-    Ok(fits.then_some(CheckCase {
+        if contact.diff.is_some() && (law.bilateral || p > 0.0) {
+            instant.penetration[c] = Some(p);
+            rate[c] = fall(plan, &instant, c);
+        }
+    }
+    Ok(Some(CheckCase {
         instant,
         forces,
         rate,
     }))
 }
 
-/// Returns (contact, penetration, force) for each closed contact whose penetration is a state variable.
-///
-/// Bilateral contacts are always closed.
-///
-/// Unknowns: penetrations p of the active contacts. Equation: p + G F(p, p') = e, with the approach e of wheel and
-/// rail without forces, the compliance G of the rail and the law F of spring and damper. Newton's method is damped so
-/// that p decreases by at most a factor of ten in an iteration. Contacts that open are removed, and the remaining
-/// system is solved again. The rates p' are zero in the first solution. In the second solution each rate is random,
-/// with a damper force of at most the fraction [`DAMPER_FORCE`] of the spring force.
-fn penetrations(
-    plan: &DeckPlan<'_>,
-    open: &ContactForces,
-    random: &mut Random,
-) -> Vec<(usize, f64, f64)> {
-    let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
-    // a bilateral contact is closed already: its penetration is not its approach
-    let approach = |c: usize| {
-        if law(c).bilateral {
-            open.approach[c]
-        } else {
-            open.penetration[c]
-        }
+/// Mean speed at which the wheels of contact `c` fall.
+fn fall(plan: &DeckPlan<'_>, instant: &Instant, c: usize) -> f64 {
+    let wheels = plan.contacts[c].wheels.clone();
+    let count = wheels.len() as f64;
+    let of = |w: usize| {
+        let [_, y, _, roll, _, pitch] = instant.speed[plan.wheels[w].body];
+        let [hx, _, hz] = plan.wheels[w].hub;
+        -(y + pitch * hx - roll * hz)
     };
-    let mut active: Vec<usize> = (0..plan.contacts.len())
-        .filter(|&c| plan.contacts[c].diff.is_some() && (law(c).bilateral || approach(c) > 0.0))
-        .collect();
-    let mut rate = vec![0.0; plan.contacts.len()];
-    let mut found = Vec::new();
-    for damped in [false, true] {
-        while !active.is_empty() {
-            let mut p = DVector::from_iterator(active.len(), active.iter().map(|&c| approach(c)));
-            for _ in 0..ITERATIONS {
-                let point = |i: usize| law(active[i]).at(p[i], rate[active[i]]);
-                let count = |i: usize| plan.contacts[active[i]].wheels.len() as f64;
-                let compliance =
-                    |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
-                let size = active.len();
-                let residual = DVector::from_fn(size, |r, _| {
-                    p[r] - approach(active[r])
-                        + (0..size)
-                            .map(|i| compliance(r, i) * point(i).force)
-                            .sum::<f64>()
-                });
-                let matrix = DMatrix::from_fn(size, size, |r, i| {
-                    f64::from(u8::from(r == i)) + compliance(r, i) * point(i).by_penetration
-                });
-                let Some(step) = matrix.lu().solve(&residual) else {
-                    break;
-                };
-                // the force and the slope of a law with an exponent are zero at p <= 0, where Newton's method would
-                // stop
-                p = DVector::from_fn(size, |i, _| {
-                    let next = p[i] - step[i];
-                    if law(active[i]).bilateral {
-                        next
-                    } else {
-                        next.max(0.1 * p[i])
-                    }
-                });
-            }
-            found = active.iter().copied().zip(p.iter().copied()).collect();
-            // a contact is open if its penetration was reduced in every iteration
-            let is_closed = |(c, p): &(usize, f64)| {
-                law(*c).bilateral
-                    || (*p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0)
-            };
-            let before = active.len();
-            found.retain(is_closed);
-            active = found.iter().map(|(c, _)| *c).collect();
-            if active.len() == before {
-                break;
-            }
-        }
-        if !damped {
-            for (c, p) in &found {
-                rate[*c] =
-                    random.around(DAMPER_FORCE) * law(*c).at(*p, 0.0).force / law(*c).damping;
-            }
-        }
-    }
-    found
-        .into_iter()
-        .map(|(c, p)| (c, p, law(c).at(p, rate[c]).force))
-        .collect()
-}
-
-/// Rate of penetration of contact `c` that corresponds to its force and penetration.
-fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
-    let contact = &plan.contacts[c];
-    let law = &plan.kind(contact.wheels.start).normal;
-    let point = law.at(forces.penetration[c], 0.0);
-    if contact.diff.is_none() || instant.penetration[c].is_none() || point.by_rate == 0.0 {
-        return 0.0;
-    }
-    (forces.vertical[contact.wheels.start] - point.force) / point.by_rate
+    wheels.map(of).sum::<f64>() / count
 }
 
 /// Magnitudes of displacements and speeds of each body in random states.
@@ -339,6 +234,8 @@ impl Scales {
             *own = base.displacement[b];
             for k in (1..6).filter(|&k| body.free[k]) {
                 own[k] += random.around(sizes[k]);
+                // dampers and springs have forces of the same size
+                instant.speed[b][k] *= depth / self.sink[b].max(f64::MIN_POSITIVE);
             }
             if let BodyMotion::Prescribed(profile) = &plan.scene.bodies[b].motion {
                 instant.speed[b][0] = profile.at(base.time).v;

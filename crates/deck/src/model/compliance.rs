@@ -11,7 +11,10 @@
 
 use adams::{Spline, SplineValues, Statement};
 use sim::{Extent, Foundation};
-use splines::{Axis, FactoredTable, InfluenceBlock, Rank, ReadingMethod, TableReading};
+use splines::{
+    Axis, Compliance, FactoredTable, Influence, InfluenceBlock, Probe, Rank, ReadingMethod,
+    TableReading,
+};
 
 use crate::Error;
 use crate::words::form::DeckForm;
@@ -169,11 +172,12 @@ impl RailCompliance {
         }
     }
 
-    /// The foundation of the simulator that interpolates the same tables as the deck.
+    /// The foundation of the simulator that interpolates the same tables as the deck. Without `slopes` rails have no
+    /// slope, so that no force acts along them, as in a deck that reads families.
     ///
     /// # Errors
     /// [`Error::Tables`] for tables that cannot be interpolated.
-    pub fn foundation(&self) -> Result<Foundation, Error> {
+    pub fn foundation(&self, slopes: bool) -> Result<Foundation, Error> {
         let fail = |source| Error::Tables {
             structure: self.name.clone(),
             source,
@@ -197,7 +201,11 @@ impl RailCompliance {
                     ReadingMethod::Akispl
                 };
                 let reading = TableReading::new(kind, blocks).map_err(fail)?;
-                Ok(Foundation::massless(Box::new(reading), rails))
+                Ok(if slopes {
+                    Foundation::massless(Box::new(reading), rails)
+                } else {
+                    Foundation::massless(Box::new(WithoutSlopes(reading)), rails)
+                })
             }
             Tables::Factored(factored, ..) => {
                 Ok(Foundation::massless(Box::new(factored.clone()), rails))
@@ -365,6 +373,29 @@ fn curve(
         .iter()
         .position(|curves| curves.direction == direction)?;
     Some(first[at] + crate::words::ids::number(k) - 1)
+}
+
+/// A reading of tables whose slopes are zero.
+struct WithoutSlopes(TableReading);
+
+impl Compliance for WithoutSlopes {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
+        self.0.fill(at, out)?;
+        out.slope.fill(0.0);
+        Ok(())
+    }
+
+    fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.0.breaks(rail)
+    }
+
+    fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.0.range(rail)
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.0.is_symmetric()
+    }
 }
 
 /// Families of every ordered pair of directions that has a table, pairs of equal directions first. The transpose of a

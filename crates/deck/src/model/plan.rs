@@ -140,7 +140,19 @@ impl DeckPlan<'_> {
     pub fn foundations(&self) -> Result<Vec<Foundation>, Error> {
         self.compliances
             .iter()
-            .map(RailCompliance::foundation)
+            .map(|one| one.foundation(true))
+            .collect()
+    }
+
+    /// The same with the forces along the rails that the deck has: none where it reads families.
+    ///
+    /// # Errors
+    /// [`Error::Tables`] for tables that cannot be interpolated.
+    pub fn foundations_in_statics(&self) -> Result<Vec<Foundation>, Error> {
+        let slopes = self.form == DeckForm::Factored;
+        self.compliances
+            .iter()
+            .map(|one| one.foundation(slopes))
             .collect()
     }
 }
@@ -166,7 +178,7 @@ pub fn plan<'a>(
     let compliances = compliances(scene, &input, known, form, file, &mut splines)?;
     let mut foundations = Vec::new();
     for compliance in &compliances {
-        foundations.push(compliance.foundation()?);
+        foundations.push(compliance.foundation(form == DeckForm::Factored)?);
     }
     let start = Start::of(&input.scene, &foundations)?;
     let mut markers = NextId::from(1);

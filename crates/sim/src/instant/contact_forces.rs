@@ -88,7 +88,8 @@ fn forces_at(
     let none = Error::NoForces { time: at.t };
     for i in 0..count {
         let is_given = given(solver, instant, i).is_some();
-        solver.set_active(i, is_given || system.law(i).bilateral);
+        let touches = !system.law(i).has_memory() && solver.geometry().approach(i, &at.q) > 0.0;
+        solver.set_active(i, is_given || touches || system.law(i).bilateral);
     }
     for _ in 0..4 * count + 8 {
         if !solve_rates(solver, instant, at)? {
