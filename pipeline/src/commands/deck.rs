@@ -91,7 +91,10 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     let stage = progress.stage("executing the deck");
-    let report = check::check(&plan, &text, args.states as usize)?;
+    let states = args
+        .states
+        .map_or_else(|| check::default_states(&plan), |states| states as usize);
+    let report = check::check(&plan, &text, states)?;
     drop(stage);
     for line in report.lines() {
         progress.say(&line);

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
 
-use super::states::CheckCase;
+use super::states::{CheckCase, fall};
 use crate::Error;
 use crate::words::ids::{VariableSlot, number, variable};
 use crate::{DeckForm, DeckPlan};
@@ -27,6 +27,8 @@ const FORCE: usize = 9;
 const MOMENT: usize = 12;
 /// Rounding errors of a length are at most this times the coordinates that it is computed from.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Accuracy to which the simulator solves for forces, relative to a force.
+const CONVERGED: f64 = 1e-8;
 /// Largest number of statements that are named in a report.
 const NAMED: usize = 3;
 
@@ -169,7 +171,12 @@ fn wheel(
             * (size + height.abs() + y.abs() + hy.abs() + kind.radius + turned + rail.rise.abs());
     let by_side = by_shift
         + ROUNDING * (size + lateral.abs() + z.abs() + hz.abs() + turned + rail.shift.abs());
-    let law = kind.normal.at(penetration, case.rate[own.contact]);
+    let rate = if contact.diff.is_some() {
+        case.rate[own.contact]
+    } else {
+        fall(plan, &case.instant, own.contact)
+    };
+    let law = kind.normal.at(penetration, rate);
     let by_press = law.by_penetration.abs() * by_height;
     let by_flange = kind
         .flange
@@ -177,7 +184,8 @@ fn wheel(
         .map_or(0.0, |flange| flange.stiffness * by_side);
     let mut add = |quantity: usize, slot: VariableSlot, value: f64, rounding: f64| {
         let id = variable(w, slot);
-        out.given.variables.insert(id, value);
+        let given = if quantity == 6 { down } else { value };
+        out.given.variables.insert(id, given);
         out.values.push(ExpectedValue {
             quantity,
             keyword: "VARIABLE",
@@ -198,7 +206,13 @@ fn wheel(
     }
     if contact.wheels.start == w {
         add(3, VariableSlot::Penetration, penetration, by_height);
-        add(6, VariableSlot::Press, down, by_press);
+        // the simulator's law is what the expression says, not the force that its iteration leaves
+        let press = if (law.force - down).abs() <= CONVERGED * down.abs() {
+            law.force
+        } else {
+            down
+        };
+        add(6, VariableSlot::Press, press, by_press);
     }
     if kind.flange.is_some() {
         if is_flexible {

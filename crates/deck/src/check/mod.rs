@@ -37,6 +37,14 @@ pub const CARRIED_FORCE_LIMIT: f64 = 1e-9;
 /// Largest number of states in the comparison on a moving part.
 const SAMPLE: usize = 1000;
 
+/// Number of random states that are checked where none is given: 10000 with up to three wheels, and fewer with more, down
+/// to 100, because the work for each grows with the square of the wheels.
+#[must_use]
+pub fn default_states(plan: &DeckPlan<'_>) -> usize {
+    let crowd = (3.0 / plan.wheels.len().max(1) as f64).min(1.0);
+    (10_000.0 * crowd * crowd).round().max(100.0) as usize
+}
+
 /// Numbers of random states, by the forces that act in them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StateCounts {

@@ -20,8 +20,12 @@ use crate::DeckPlan;
 use crate::Error;
 use crate::words::ids::number;
 
-/// Number of time intervals between the equilibria that are compared.
-const INTERVALS: u32 = 40;
+/// Number of time intervals between the equilibria that are compared, with up to [`FEW`] wheels.
+const INTERVALS: f64 = 40.0;
+/// Least number of them.
+const LEAST: f64 = 2.0;
+/// Number of wheels above which fewer equilibria are compared: the work for each grows with the cube of the wheels.
+const FEW: f64 = 20.0;
 /// Limit of the relative differences of displacements and forces with the rotations of the simulator.
 pub const LIMIT: f64 = 1e-8;
 /// Rounding errors of coordinates, relative to their size.
@@ -118,7 +122,8 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
     }
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
-    scene.output_dt = scene.end / f64::from(INTERVALS);
+    let crowd = (FEW / plan.wheels.len().max(1) as f64).min(1.0);
+    scene.output_dt = scene.end / (INTERVALS * crowd.powi(3)).round().max(LEAST);
     let mut out = EquilibriumPath {
         cases: Vec::new(),
         failed: None,

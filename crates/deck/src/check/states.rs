@@ -119,7 +119,7 @@ fn complete(
 }
 
 /// Mean speed at which the wheels of contact `c` fall.
-fn fall(plan: &DeckPlan<'_>, instant: &Instant, c: usize) -> f64 {
+pub fn fall(plan: &DeckPlan<'_>, instant: &Instant, c: usize) -> f64 {
     let wheels = plan.contacts[c].wheels.clone();
     let count = wheels.len() as f64;
     let of = |w: usize| {

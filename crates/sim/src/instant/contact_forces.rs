@@ -91,25 +91,39 @@ fn forces_at(
         let touches = !system.law(i).has_memory() && solver.geometry().approach(i, &at.q) > 0.0;
         solver.set_active(i, is_given || touches || system.law(i).bilateral);
     }
-    for _ in 0..4 * count + 8 {
+    for round in 0..TOGETHER + 4 * count + 8 {
         if !solve_rates(solver, instant, at)? {
             return Err(none);
         }
         let free = |i: usize| !system.law(i).has_memory() || solver.is_on_rigid_rail(i);
-        let weakest = (0..count)
+        let mut opening: Vec<usize> = (0..count)
             .filter(|&i| free(i) && solver.active().has(i) && solver.opens(i, at))
-            .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
-        let deepest = (0..count)
+            .collect();
+        let mut closing: Vec<usize> = (0..count)
             .filter(|&i| free(i) && !solver.active().has(i) && solver.closing(i, at) > 0.0)
-            .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
-        match (weakest, deepest) {
-            (Some(i), _) => solver.set_active(i, false),
-            (None, Some(i)) => solver.set_active(i, true),
-            (None, None) => return Ok(answer(solver, at)),
+            .collect();
+        if opening.is_empty() && closing.is_empty() {
+            return Ok(answer(solver, at));
+        }
+        if round >= TOGETHER {
+            // one at a time: the weakest, or else the deepest
+            opening.sort_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+            closing.sort_by(|&i, &j| at.p[j].total_cmp(&at.p[i]));
+            opening.truncate(1);
+            closing.truncate(usize::from(opening.is_empty()));
+        }
+        for i in opening {
+            solver.set_active(i, false);
+        }
+        for i in closing {
+            solver.set_active(i, true);
         }
     }
     Err(none)
 }
+
+/// Number of rounds in which all contacts that open or close do so together.
+const TOGETHER: usize = 6;
 
 /// Copies the values of the instant to the state.
 fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
