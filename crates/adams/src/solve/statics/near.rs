@@ -14,6 +14,9 @@ use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
+/// Number of steps after which steps that no longer decrease are rounding where every equation holds: a small force
+/// between stiff contacts has few digits.
+const SETTLED: usize = 4;
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
 /// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
@@ -166,7 +169,7 @@ impl Search<'_> {
                 return Ok(None);
             };
             let length = scaled_size(&step, &self.step_scales(&at, &step));
-            let stalled = length <= STALLED && length >= 0.1 * before;
+            let stalled = (length <= STALLED || iterations >= SETTLED) && length >= 0.1 * before;
             if balances && (length <= ROUNDING || stalled) {
                 return self
                     .report(&at, iterations, factored.rank_deficiency())
@@ -176,7 +179,7 @@ impl Search<'_> {
             if iterations == 2 {
                 first = length;
             }
-            if self.largest_angle(&step) > 0.5 || length > 1e3 * first {
+            if self.largest_angle(&step) > 0.5 || (!balances && length > 1e3 * first) {
                 return Ok(None);
             }
             before = length;
