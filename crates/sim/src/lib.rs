@@ -77,7 +77,7 @@ pub use piecewise::Side;
 pub use record::energy::{Audit, EnergyGap, EnergyGaps, GapCause};
 pub use record::history::History;
 pub use record::solution::{NodeInterval, Solution, SolutionNodes, TimeExtreme};
-pub use run::{Run, Status, check_equilibrium, run, run_by};
+pub use run::{Run, Status, check_equilibrium, equilibria, run, run_by};
 pub use scene::actuators::{Actuators, Brake, Drive, Load, PrescribedSpin};
 pub use scene::body::{Body, Contact, Pin};
 pub use scene::carrier::{CarriedRail, Carrier};

@@ -270,6 +270,42 @@ fn attempt(
     }
 }
 
+/// The static equilibria of a scene at given times, as rows of a history, up to the first time without one. All bodies must
+/// have prescribed places.
+///
+/// A quasi-static [`run`] also follows what happens between its rows, which takes longer.
+///
+/// # Errors
+/// A scene that cannot be set up: see [`Error`].
+pub fn equilibria(
+    scene: &Scene,
+    foundations: &[Foundation],
+    times: &[f64],
+) -> Result<(History, Status), Error> {
+    let system = System::new(scene, foundations)?;
+    let mut state = starting(&system);
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    locate_wheels(&mut solver, &state)?;
+    state.v.fill(0.0);
+    place_below_ropes(&mut solver, &mut state)?;
+    let mut recorder = Recorder::new(&system);
+    let (mut rows, mut status) = (Vec::new(), Status::Done);
+    for &t in times {
+        let mut row = Vec::new();
+        state.t = t;
+        let found = locate_wheels(&mut solver, &state)
+            .and_then(|()| equilibrate(&mut solver, &mut state))
+            .and_then(|()| solver.instant(&mut state).map(|_| ()))
+            .and_then(|()| recorder.row(&system, solver.geometry(), &state, &mut row));
+        if let Err(error) = found {
+            status = Status::Failed(t, error);
+            break;
+        }
+        rows.extend(row);
+    }
+    Ok((History::of(recorder.channels().to_vec(), rows), status))
+}
+
 /// The state with the starting displacements and speeds of the bodies.
 fn starting(system: &System) -> State {
     let mut state = system.state();

@@ -7,7 +7,6 @@
 //! must not exceed the estimate by more than a factor.
 
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 
 use adams::{AdamsModel, DataSet, Equilibrium, GivenValues, RotationMeasure, StatementId};
 use nalgebra::Vector3;
@@ -131,28 +130,31 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
     let crowd = (FEW / plan.wheels.len().max(1) as f64).min(1.0);
-    scene.output_dt = scene.end / (INTERVALS * crowd.powi(3)).round().max(LEAST);
+    let intervals = (INTERVALS * crowd.powi(3)).round().max(LEAST);
+    let times: Vec<f64> = (0..=intervals as usize)
+        .map(|i| scene.end * (i as f64 / intervals))
+        .collect();
     let mut out = EquilibriumPath {
         cases: Vec::new(),
         failed: None,
     };
-    let run = match sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())) {
-        Ok(run) => run,
+    let (history, status) = match sim::equilibria(&scene, foundations, &times) {
+        Ok(found) => found,
         Err(error) => {
             out.failed = Some(format!("simulator: {error}"));
             return Some(out);
         }
     };
-    if let Status::StepTooSmall(t) | Status::Failed(t, _) = run.status {
+    if let Status::StepTooSmall(t) | Status::Failed(t, _) = status {
         out.failed = Some(format!(
             "simulator: its quasi-static sweep stopped at t = {t} s"
         ));
     }
-    let times = run.history.column(Channel::Time);
+    let times = history.column(Channel::Time);
     let speeds: Vec<Vec<f64>> = (0..plan.bodies.len())
-        .map(|b| run.history.column(Channel::Speed(b, BodyDof::X)))
+        .map(|b| history.column(Channel::Speed(b, BodyDof::X)))
         .collect();
-    let column = |channel: Channel| run.history.column(channel);
+    let column = |channel: Channel| history.column(channel);
     let wheels = plan.wheels.len();
     let of_wheels = |channel: fn(usize) -> Channel| -> Vec<Vec<f64>> {
         (0..wheels).map(|w| column(channel(w))).collect()
