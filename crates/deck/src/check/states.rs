@@ -17,6 +17,9 @@ use formats::scene::BodyMotion;
 
 /// Largest number of generated states per requested state.
 const TRIES: usize = 50;
+/// Largest force of a damper outside its ramp in random states, relative to that of a spring under the approach of wheel and
+/// rail.
+const DAMPED: f64 = 0.2;
 /// Largest rotation, radians.
 const MAX_ROTATION: f64 = 0.02;
 /// Length without wheels at each end of a rail, as a fraction of the length of the rail, for bodies that are free
@@ -189,7 +192,7 @@ impl Scales {
                     .map_or(0.0, |f| 2.0 * f.clearance + sink)
             }));
             let slip = largest(&|w| plan.kind(w).friction.as_ref().map_or(0.0, |f| f.slip));
-            let fall = largest(&damped);
+            let fall = DAMPED * largest(&damped);
             out.speed.push([
                 if fall > 0.0 { fall } else { DEFAULT_SPEED },
                 if slip > 0.0 { slip } else { DEFAULT_SPEED },
