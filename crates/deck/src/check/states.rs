@@ -114,6 +114,17 @@ fn complete(
             rate[c] = fall(plan, &instant, c);
         }
     }
+    // a rate is not the speed of the wheel: the rail moves too
+    for (b, speed) in instant.speed.iter_mut().enumerate() {
+        let feels = plan.contacts.iter().any(|contact| {
+            let first = contact.wheels.start;
+            let is_damped = plan.kind(first).normal.damping > 0.0;
+            plan.wheels[first].body == b && is_damped && contact.diff.is_none()
+        });
+        if !feels {
+            speed[1] *= -0.5;
+        }
+    }
     Ok(Some(CheckCase {
         instant,
         forces,
