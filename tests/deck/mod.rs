@@ -135,6 +135,29 @@ fn stiff(folder: &Path, k: f64, c: f64) -> PathBuf {
     path
 }
 
+/// The roll of a crane at rest depends on the height at which its flanges press: radius less penetration.
+#[test]
+fn decks_of_flanges_that_press_at_rest_have_the_simulators_equilibria() {
+    let text = std::fs::read_to_string(scene("crane")).expect("the scene");
+    let mut value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let spec = root().join("tests/deck/scenes/floor.json");
+    value["structures"]["floor"]["spec"] = spec.to_str().expect("a path in UTF-8").into();
+    value["wheels"]["flanged"]["lateral"]["clearance"] = 0.0.into();
+    value["motions"] = serde_json::json!([
+        {"body": "crane", "dof": "x", "kind": "prescribed", "speed": [[0, 0.5]]}
+    ]);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, value.to_string()).expect("a temporary file");
+    let loaded = Loaded::new(&path);
+    for form in FORMS {
+        let report = loaded.check(form, &loaded.text(form), 100);
+        let lines = report.lines().join("\n");
+        assert!(report.path.is_some(), "{form:?}\n{lines}");
+        assert!(report.holds(), "{form:?}\n{lines}");
+    }
+}
+
 /// Stiffnesses and dampings of its wheels, kN/m and kN s/m.
 const STIFFNESSES: [f64; 5] = [1e5, 2e5, 4e5, 7e5, 1e6];
 const DAMPINGS: [f64; 3] = [0.0, 20.0, 200.0];

@@ -88,6 +88,7 @@ fn balance(solver: &mut Solver, entry: &[f64], at: &mut State) -> Result<(), Err
     let verticals = system.verticals();
     at.p[..verticals].copy_from_slice(&place.p[..verticals]);
     at.p_rate.fill(0.0);
+    solver.update_heights(at);
     solver.rest_rails(at);
     for i in 0..verticals {
         solver.set_active(i, balance.pieces[i] != 0);

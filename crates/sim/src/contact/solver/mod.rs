@@ -131,6 +131,11 @@ impl<'a> Solver<'a> {
             .update_rail_slope(self.system, &at.q, &at.force);
     }
 
+    /// Sets the heights of all wheels to those of the penetrations of `at`.
+    pub fn update_heights(&mut self, at: &State) {
+        self.geometry.update_heights(self.system, at);
+    }
+
     /// Sets the heights of all wheels to their radii.
     pub fn reset_heights(&mut self) {
         self.geometry.reset_heights(self.system);
