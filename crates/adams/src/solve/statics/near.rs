@@ -8,15 +8,12 @@
 
 use super::equilibrium::Equilibrium;
 use super::iterate::{Iterate, RotationMeasure, Unknown};
-use super::search::{ROUNDING, STALLED, Search, scaled_size};
+use super::search::{ROUNDING, STALLED, Search, holds, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// Number of steps after which steps that no longer decrease are rounding where every equation holds: a small force
-/// between stiff contacts has few digits.
-const SETTLED: usize = 4;
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
 /// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
@@ -118,6 +115,43 @@ impl AdamsModel {
         }
     }
 
+    /// What rounding makes of an equilibrium, to first order: shows `see` the equilibrium, and then, for each equation, the
+    /// equilibrium that it would be if this equation were off by its rounding.
+    ///
+    /// # Errors
+    /// The errors of [`AdamsModel::imbalance`].
+    pub fn rounding_at(
+        &self,
+        found: &Equilibrium,
+        held: &BTreeSet<(u32, usize)>,
+        measure: RotationMeasure,
+        mut see: impl FnMut(&Equilibrium),
+    ) -> Result<(), Error> {
+        let given = GivenValues {
+            variables: found.solution.variables.clone(),
+            held: held.clone(),
+            ..GivenValues::default()
+        };
+        let at = self.iterate_near(&found.state, &given, measure)?;
+        let search = Search::new(self, &at).holding(held);
+        let (_, matrix, by_held) = search.linearize_all(&at)?;
+        let rounding = search.rounding(&at, [&matrix, &by_held]);
+        let none = || Error::Equilibrium {
+            statement: StatementId::new("PART", 0),
+            residual: 0.0,
+            iterations: 1,
+        };
+        let factored = search.factor(&at, matrix, 0.0).ok_or_else(none)?;
+        see(&search.report(&at, 0, 0)?);
+        for (k, own) in rounding.iter().enumerate() {
+            let mut residual = vec![0.0; rounding.len()];
+            residual[k] = *own;
+            let step = factored.correction(&residual).ok_or_else(none)?;
+            see(&search.report(&at.after(&search.unknowns, &step, 1.0), 1, 0)?);
+        }
+        Ok(())
+    }
+
     /// The unknowns at a state with given VARIABLEs; reactions are zero.
     fn iterate_near(
         &self,
@@ -141,11 +175,12 @@ impl Search<'_> {
     /// The search without some freedoms of parts, by identifier, and without their equations.
     fn holding(mut self, held: &BTreeSet<(u32, usize)>) -> Self {
         let id = |part: usize| self.model.parts[part].id;
-        self.unknowns.retain(|unknown| match *unknown {
-            Unknown::Translation(part, axis) => !held.contains(&(id(part), axis)),
-            Unknown::Rotation(part, axis) => !held.contains(&(id(part), 3 + axis)),
-            _ => true,
-        });
+        let is_held = |unknown: &Unknown| match *unknown {
+            Unknown::Translation(part, axis) => held.contains(&(id(part), axis)),
+            Unknown::Rotation(part, axis) => held.contains(&(id(part), 3 + axis)),
+            _ => false,
+        };
+        (self.held, self.unknowns) = self.unknowns.iter().partition(|one| is_held(one));
         self
     }
 
@@ -153,15 +188,12 @@ impl Search<'_> {
     fn full_steps(&self, mut at: Iterate) -> Result<Option<Equilibrium>, Error> {
         let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
         for iterations in 1..=STEPS {
-            let Ok((residual, matrix)) = self.linearize(&at, &self.unknowns) else {
+            let Ok((residual, matrix, by_held)) = self.linearize_all(&at) else {
                 return Ok(None);
             };
             let rows = self.residual_scales(&at);
-            let allowed = self.allowed_residuals(&at, &matrix, &rows);
-            let balances = residual
-                .iter()
-                .zip(&allowed)
-                .all(|(r, allowed)| r.abs() <= *allowed);
+            let rounding = self.rounding(&at, [&matrix, &by_held]);
+            let [balances, is_rounding] = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix, 0.0) else {
                 return Ok(None);
             };
@@ -169,7 +201,7 @@ impl Search<'_> {
                 return Ok(None);
             };
             let length = scaled_size(&step, &self.step_scales(&at, &step));
-            let stalled = (length <= STALLED || iterations >= SETTLED) && length >= 0.1 * before;
+            let stalled = (length <= STALLED || is_rounding) && length >= 0.1 * before;
             if balances && (length <= ROUNDING || stalled) {
                 return self
                     .report(&at, iterations, factored.rank_deficiency())
@@ -179,7 +211,7 @@ impl Search<'_> {
             if iterations == 2 {
                 first = length;
             }
-            if self.largest_angle(&step) > 0.5 || (!balances && length > 1e3 * first) {
+            if self.largest_angle(&step) > 0.5 || length > 1e3 * first {
                 return Ok(None);
             }
             before = length;

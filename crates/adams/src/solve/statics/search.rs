@@ -29,7 +29,8 @@ use std::collections::BTreeMap;
 const MOST: usize = 400;
 /// Steps of at most this size, relative to their scale, are at the level of rounding.
 pub(super) const ROUNDING: f64 = 1e-15;
-/// Steps that no longer decrease count as rounding if they are below this size.
+/// Steps that no longer decrease count as rounding if they are below this size, or if every residual is rounding: the force
+/// of a stiff contact may have few digits.
 pub(super) const STALLED: f64 = 1e-10;
 /// Largest scaled residual of an equilibrium.
 const RESIDUAL: f64 = 1e-9;
@@ -61,6 +62,8 @@ const SOLVED: f64 = 1e-6;
 pub(super) struct Search<'a> {
     pub model: &'a AdamsModel,
     pub unknowns: Vec<Unknown>,
+    /// Freedoms of parts that stay where they are. Expressions read them, with their rounding.
+    pub held: Vec<Unknown>,
     /// The unknowns of algebraic loops and of differential equations.
     pub inner: Vec<Unknown>,
     /// Typical length of the model.
@@ -79,6 +82,7 @@ impl<'a> Search<'a> {
             model,
             inner: unknowns.iter().filter(inner).copied().collect(),
             unknowns,
+            held: Vec::new(),
             length: model_length(model, start),
             force: model_force(model),
         }
@@ -95,15 +99,12 @@ impl Search<'_> {
         let mut iterations = 0;
         while iterations < MOST {
             iterations += 1;
-            let (residual, matrix) = self.linearize(&at, &self.unknowns)?;
+            let (residual, matrix, by_held) = self.linearize_all(&at)?;
             let rows = self.residual_scales(&at);
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
-            let allowed = self.allowed_residuals(&at, &matrix, &rows);
-            let balances = residual
-                .iter()
-                .zip(&allowed)
-                .all(|(r, allowed)| r.abs() <= *allowed);
+            let rounding = self.rounding(&at, [&matrix, &by_held]);
+            let [balances, is_rounding] = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix.clone(), resistance) else {
                 break;
             };
@@ -122,7 +123,7 @@ impl Search<'_> {
             }
             let scales = self.step_scales(&at, &step);
             let length = scaled_size(&step, &scales);
-            let stalled = length <= STALLED && length >= 0.1 * before;
+            let stalled = (length <= STALLED || is_rounding) && length >= 0.1 * before;
             if (length <= ROUNDING || stalled) && balances {
                 let end = if stalled {
                     at
@@ -137,7 +138,7 @@ impl Search<'_> {
                 .filter(|_| length > ROUNDING)
             {
                 Some(next) => at = next,
-                None if length <= STALLED && balances => {
+                None if (length <= STALLED || is_rounding) && balances => {
                     return self.report(&at, iterations, factored.rank_deficiency());
                 }
                 None => (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY),
@@ -340,6 +341,19 @@ impl Search<'_> {
         Ok((all.iter().map(Scalar::value).collect(), matrix))
     }
 
+    /// The residuals, their Jacobian, and their derivatives by the freedoms that are held.
+    pub fn linearize_all(
+        &self,
+        at: &Iterate,
+    ) -> Result<(Vec<f64>, DMatrix<f64>, DMatrix<f64>), Error> {
+        let (count, held) = (self.unknowns.len(), self.held.len());
+        let every = [&self.unknowns[..], &self.held[..]].concat();
+        let (mut residual, matrix) = self.linearize(at, &every)?;
+        residual.truncate(count);
+        let by_held = matrix.view((0, count), (count, held)).into_owned();
+        Ok((residual, matrix.resize(count, count, 0.0), by_held))
+    }
+
     /// The scale of each unknown, relative to which its steps are measured.
     pub fn step_scales(&self, at: &Iterate, step: &[f64]) -> Vec<f64> {
         let reaction = at
@@ -372,21 +386,21 @@ impl Search<'_> {
         self.unknowns.iter().zip(step).map(scale).collect()
     }
 
-    /// The largest residuals of an equilibrium: 1e-9 of their scales, or what rounding of the unknowns makes of the
-    /// equations, whichever is larger. The force of a stiff wheel changes by its stiffness times the rounding of a
-    /// coordinate.
-    pub fn allowed_residuals(&self, at: &Iterate, matrix: &DMatrix<f64>, rows: &[f64]) -> Vec<f64> {
+    /// What rounding of the unknowns and of the freedoms that are held makes of each equation; `derivatives` are those of
+    /// [`linearize_all`](Self::linearize_all).
+    pub fn rounding(&self, at: &Iterate, [matrix, by_held]: [&DMatrix<f64>; 2]) -> Vec<f64> {
         let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
-        let rounding = |i: usize| -> f64 {
-            let terms = sizes
-                .iter()
-                .enumerate()
-                .map(|(j, size)| (matrix[(i, j)] * size).abs());
-            terms.sum::<f64>() * 8.0 * f64::EPSILON
+        let held = self.held.iter().map(|unknown| match unknown {
+            Unknown::Rotation(..) => 1.0,
+            _ => self.length,
+        });
+        let held: Vec<f64> = held.collect();
+        let terms = |of: &DMatrix<f64>, sizes: &[f64], i: usize| -> f64 {
+            let terms = sizes.iter().enumerate();
+            terms.map(|(j, size)| (of[(i, j)] * size).abs()).sum()
         };
-        rows.iter()
-            .enumerate()
-            .map(|(i, scale)| (RESIDUAL * scale).max(rounding(i)))
+        (0..self.unknowns.len())
+            .map(|i| (terms(matrix, &sizes, i) + terms(by_held, &held, i)) * 8.0 * f64::EPSILON)
             .collect()
     }
 
@@ -471,6 +485,19 @@ fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -
             + residual[i]
     };
     (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
+}
+
+/// Whether every equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it, whichever is larger,
+/// since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate; and whether every residual is
+/// rounding.
+pub(super) fn holds(residual: &[f64], rows: &[f64], rounding: &[f64]) -> [bool; 2] {
+    let pairs = || residual.iter().map(|r| r.abs()).zip(rounding);
+    let allowed =
+        |((r, rounding), scale): ((f64, &f64), &f64)| r <= (RESIDUAL * scale).max(*rounding);
+    [
+        pairs().zip(rows).all(allowed),
+        pairs().all(|(r, rounding)| r <= *rounding),
+    ]
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
