@@ -148,6 +148,39 @@ fn a_damper_against_the_ground_is_caught() {
     );
 }
 
+/// A damper of a body that also has one to ground, whose force determines the speed of the body.
+#[test]
+fn a_damper_against_the_ground_is_caught_beside_one_that_belongs_there() {
+    let text = std::fs::read_to_string(example("bogie")).expect("the scene");
+    let mut value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let spec = example("bogie").with_file_name("spec.json");
+    value["structures"]["girder"]["spec"] = spec.to_str().expect("a path in UTF-8").into();
+    let mut grounded = value["wheels"]["crane"].clone();
+    grounded["vertical"]["damper"] = "ground".into();
+    value["wheels"]["crane"]["vertical"]["damper"] = "rail".into();
+    value["wheels"]["grounded"] = grounded;
+    let mut truck = value["trucks"][0].clone();
+    truck["name"] = "second".into();
+    truck["wheel"] = "grounded".into();
+    truck["tree"] = serde_json::json!([-3.0, 3.0]);
+    value["trucks"].as_array_mut().expect("a list").push(truck);
+    value.as_object_mut().expect("an object").remove("compare");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, value.to_string()).expect("a temporary file");
+    let loaded = Loaded::new(&path);
+    let form = DeckForm::Factored;
+    let right = loaded.check(form, &loaded.text(form), 100);
+    assert!(right.holds(), "{}", right.lines().join("\n"));
+    for (from, to) in [
+        ("+100000.0*DIF1(1)", "-100000.0*VY(5,4,4,4)"),
+        ("DIF1(1)", "DIF1(2)"),
+    ] {
+        let text = changed(&loaded, form, "VARIABLE", 105, |one| replace(one, from, to));
+        caught(&loaded, form, &text, to);
+    }
+}
+
 #[test]
 fn another_exponent_is_caught() {
     let loaded = Loaded::new(&example("wheel"));

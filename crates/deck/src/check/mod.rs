@@ -37,12 +37,15 @@ pub const CARRIED_FORCE_LIMIT: f64 = 1e-9;
 /// Largest number of states in the comparison on a moving part.
 const SAMPLE: usize = 1000;
 
+/// Least number of random states where none is given.
+const LEAST: f64 = 1000.0;
+
 /// Number of random states that are checked where none is given: 10000 with up to three wheels, and fewer with more, down
-/// to 100, because the work for each grows with the square of the wheels.
+/// to 1000, because the work for each grows with the square of the wheels.
 #[must_use]
 pub fn default_states(plan: &DeckPlan<'_>) -> usize {
     let crowd = (3.0 / plan.wheels.len().max(1) as f64).min(1.0);
-    (10_000.0 * crowd * crowd).round().max(100.0) as usize
+    (10_000.0 * crowd * crowd).round().max(LEAST) as usize
 }
 
 /// Numbers of random states, by the forces that act in them.
@@ -54,6 +57,8 @@ pub struct StateCounts {
     pub loaded: usize,
     /// States in which no wheel has one.
     pub off: usize,
+    /// States in which the wheel that is loaded least often has a vertical force.
+    pub each: usize,
     /// States in which the flange force of a wheel is not zero.
     pub flange: usize,
     /// States in which the friction force of a wheel is not zero.
@@ -69,6 +74,7 @@ impl StateCounts {
             all: cases.len(),
             loaded: count(&|forces| forces.vertical.iter().all(|force| *force > 0.0)),
             off: count(&|forces| forces.vertical.iter().all(|force| *force == 0.0)),
+            each: states::loaded(cases).into_iter().min().unwrap_or(0),
             flange: count(&|forces| forces.lateral.iter().any(|force| *force != 0.0)),
             slide: count(&|forces| forces.traction.iter().any(|force| *force != 0.0)),
         }

@@ -33,13 +33,6 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 pub const KNOWN: f64 = 2.0;
 /// Scaled residuals up to which an equation holds.
 const HOLDS: f64 = 1e-9;
-/// Largest differences between two equilibria at which all equations hold: stiff wheels share a load by what rounding leaves
-/// of the heights of their rail.
-const ILL_CONDITIONED: EquilibriumDifference = EquilibriumDifference {
-    place: LIMIT,
-    height: 1e-6,
-    force: 1e-4,
-};
 /// Largest number of equations that are named in a report.
 const NAMED: usize = 3;
 
@@ -83,9 +76,12 @@ pub struct SweepDifference {
     pub places: usize,
     /// Differences with the small rotations of the simulator.
     pub small: EquilibriumDifference,
-    /// Their limits: 1e-8, and the rounding errors of coordinates; more where both equilibria satisfy the equations of the
-    /// deck.
+    /// Their limits: 1e-8, and the rounding errors of coordinates; more where the equations of the deck determine its
+    /// equilibrium less well ([`SweepDifference::ill_conditioned`]).
     pub limit: EquilibriumDifference,
+    /// Number of equilibria whose limit is what the rounding of each equation of the deck makes of them, through the inverse
+    /// of the Jacobian: stiff wheels share a load by what rounding leaves of the heights of their rail.
+    pub ill_conditioned: usize,
     /// What finite rotations change.
     pub finite: EquilibriumDifference,
     /// Its estimate, to first order.
@@ -229,6 +225,7 @@ pub fn path(
         places: 0,
         small: EquilibriumDifference::default(),
         limit: scales.limit(plan),
+        ill_conditioned: 0,
         finite: EquilibriumDifference::default(),
         estimate: EquilibriumDifference::default(),
         rotation: scales.rotation,
@@ -253,15 +250,17 @@ pub fn path(
         let difference = scales.difference(&found, &expected);
         out.small.include(difference);
         if !within(&difference, &out.limit) && out.causes.is_empty() {
-            let causes = causes(set, &model, &guess, &given);
-            if causes.is_empty() && within(&difference, &ILL_CONDITIONED) {
-                // the equilibrium of the simulator satisfies every equation of the deck
+            let own = scales.limit_at(plan, (&model, &small), &held)?;
+            if within(&difference, &own) {
+                out.ill_conditioned += 1;
                 out.limit.include(difference);
             } else {
                 out.causes.push(format!(
-                    "at t = {time} s the equilibrium of the simulator is none of the deck:"
+                    "at t = {time} s the equilibrium of the simulator is none of the deck: heights differ by {:.1e}, forces by \
+                     {:.1e}, of which rounding explains {:.1e} and {:.1e}",
+                    difference.height, difference.force, own.height, own.force
                 ));
-                out.causes.extend(causes);
+                out.causes.extend(causes(set, &model, &guess, &given));
             }
         }
         let given = GivenValues {
@@ -356,12 +355,25 @@ fn held(plan: &DeckPlan<'_>) -> BTreeSet<(u32, usize)> {
 }
 
 /// Positions of bodies and wheels in ground, and forces of wheels.
+#[derive(Clone, Debug)]
 struct Positions {
     points: Vec<Vector3<f64>>,
     forces: Vec<[f64; 2]>,
 }
 
 impl Positions {
+    /// Adds the distances between the values of `a` and `b`.
+    fn add_distance(&mut self, a: &Positions, b: &Positions) {
+        for (sum, (a, b)) in self.points.iter_mut().zip(a.points.iter().zip(&b.points)) {
+            *sum += (a - b).abs();
+        }
+        for (sum, (a, b)) in self.forces.iter_mut().zip(a.forces.iter().zip(&b.forces)) {
+            for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
+                *sum += (a - b).abs();
+            }
+        }
+    }
+
     /// Those of the simulator.
     fn of_case(plan: &DeckPlan<'_>, case: &CheckCase) -> Positions {
         let pose = |b: usize| {
@@ -469,6 +481,32 @@ impl Scales {
             height: LIMIT + rounding / self.displacement,
             force: LIMIT + stiffest * rounding / self.force,
         }
+    }
+
+    /// Limits of the differences from one equilibrium of the deck: those of rounding, and the sum of what the rounding of
+    /// each equation makes of each position and force.
+    fn limit_at(
+        &self,
+        plan: &DeckPlan<'_>,
+        (model, found): (&AdamsModel, &Equilibrium),
+        held: &BTreeSet<(u32, usize)>,
+    ) -> Result<EquilibriumDifference, Error> {
+        let mut spread: Option<(Positions, Positions)> = None;
+        model.rounding_at(found, held, RotationMeasure::Small, |one| {
+            let own = Positions::of_deck(plan, one);
+            match &mut spread {
+                Some((base, sum)) => sum.add_distance(base, &own),
+                None => spread = Some((own.clone(), own)),
+            }
+        })?;
+        let mut out = self.limit(plan);
+        if let Some((base, sum)) = &spread {
+            let own = self.difference(sum, base);
+            out.place += own.place;
+            out.height += own.height;
+            out.force += own.force;
+        }
+        Ok(out)
     }
 
     fn difference(&self, found: &Positions, expected: &Positions) -> EquilibriumDifference {

@@ -21,8 +21,8 @@ impl CheckReport {
         }
         let mut lines = vec![
             format!(
-                "{} states: all wheels are loaded in {}, none in {}; flanges touch in {}, wheels slide in {}",
-                count.all, count.loaded, count.off, count.flange, count.slide
+                "{} states: all wheels are loaded in {}, none in {}, each in at least {}; flanges touch in {}, wheels slide in {}",
+                count.all, count.loaded, count.off, count.each, count.flange, count.slide
             ),
             format!("{head} {:>7}", "limit"),
         ];
@@ -97,14 +97,14 @@ impl CheckReport {
             json!({
                 "places": path.places, "asked": of(&path.limit), "difference": of(&path.small),
                 "finite": of(&path.finite), "estimate": of(&path.estimate), "known": of(&path.known()),
-                "rotation": path.rotation, "causes": path.causes, "holds": path.holds(),
+                "rotation": path.rotation, "ill_conditioned": path.ill_conditioned, "causes": path.causes, "holds": path.holds(),
             })
         });
         let count = &self.states;
         json!({
             "format": "girderway-deck-check/1", "holds": self.holds(),
             "states": {
-                "all": count.all, "pressing": count.loaded, "off": count.off, "flange": count.flange,
+                "all": count.all, "pressing": count.loaded, "each": count.each, "off": count.off, "flange": count.flange,
                 "slide": count.slide,
             },
             "forces": rows, "path": path, "missing_along": self.missing_along,
@@ -131,6 +131,12 @@ fn path_lines(path: &SweepDifference, lines: &mut Vec<String>) {
         known.height,
         known.force
     ));
+    if path.ill_conditioned > 0 {
+        lines.push(format!(
+            "  at {} of the positions rounding moves the equilibrium of the deck by more than 1e-8; their limit is what it can move",
+            path.ill_conditioned
+        ));
+    }
     if small.place > limit.place {
         lines.push(format!(
             "  places along the rail differ by {:.1e}",

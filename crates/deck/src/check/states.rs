@@ -5,8 +5,9 @@
 //! stiff wheels on stiff rails touch them together.
 //! The simulator computes the contact forces. Where a damper acts between wheel and rail, the penetration p is a state
 //! variable, and its rate p' the unknown. Forces that follow from a given penetration are ill conditioned where wheels
-//! are close to each other, so that the rate is given instead, as the speed at which the wheel falls, and p and F follow
-//! together from p + G F(p, p') = e. At most [`TRIES`] times the requested number of states are generated.
+//! are close to each other, so that the rate is given instead, as a multiple of the speed at which the wheel falls, and p and F
+//! follow together from p + G F(p, p') = e. States are generated until there are as many as requested and each wheel is loaded
+//! in [`LOADED`] of them, at most [`TRIES`] times the requested number.
 
 use sim::{ContactForces, Damper, Foundation, Instant, Scene, contact_forces};
 
@@ -17,6 +18,10 @@ use formats::scene::BodyMotion;
 
 /// Largest number of generated states per requested state.
 const TRIES: usize = 50;
+/// Number of states in which each wheel is loaded, or a twentieth of the requested states where that is less.
+const LOADED: usize = 50;
+/// Largest number of states per requested state that are compared so that each wheel is loaded that often.
+const MORE: usize = 2;
 /// Largest force of a damper outside its ramp in random states, relative to that of a spring under the approach of wheel and
 /// rail.
 const DAMPED: f64 = 0.2;
@@ -58,8 +63,9 @@ pub fn states(
     let scales = Scales::of(plan);
     let mut out = Vec::with_capacity(count);
     let mut last = None;
+    let (mut often, mut least) = (vec![0; plan.wheels.len()], 0);
     for attempt in 0..TRIES * count {
-        if out.len() == count {
+        if out.len() >= count && (least >= LOADED.min(count / 20) || out.len() >= MORE * count) {
             break;
         }
         let Some(mut instant) = scales.instant(plan, &mut random) else {
@@ -69,12 +75,18 @@ pub fn states(
             scales.displace(plan, equilibria, &mut instant, &mut random);
         }
         match complete(plan, &scene, foundations, instant) {
-            Ok(Some(case)) => out.push(case),
+            Ok(Some(case)) => {
+                for (number, force) in often.iter_mut().zip(&case.forces.vertical) {
+                    *number += usize::from(*force > 0.0);
+                }
+                least = often.iter().copied().min().unwrap_or(0);
+                out.push(case);
+            }
             Ok(None) => {}
             Err(error) => last = Some(error),
         }
     }
-    if out.len() == count {
+    if out.len() >= count {
         return Ok(out);
     }
     Err(Error::States {
@@ -84,12 +96,28 @@ pub fn states(
     })
 }
 
-/// The scene with dampers between hubs and ground in place of those between wheels and rails, so that the rate of each
-/// penetration is the speed at which the wheel falls, and penetration and force follow together.
+/// Rates of penetrations that are states, relative to the speeds at which their wheels fall: rails move too, and each of them
+/// in another way. None is 1, so that a rate is not mistaken for a speed, nor for the rate of the next contact.
+const SHARES: [f64; 5] = [0.5, 1.4, 0.7, 1.8, 0.3];
+
+/// The rate of the penetration of contact `c` relative to the speed at which its wheels fall.
+fn share(c: usize) -> f64 {
+    SHARES[c % SHARES.len()]
+}
+
+/// The scene with dampers between hubs and ground in place of those between wheels and flexible rails, so that penetration
+/// and force follow together from a given rate. Forces are proportional to damping times rate: dampers are larger or smaller
+/// by the ratio of rate and speed.
 fn with_given_rates(plan: &DeckPlan<'_>) -> Scene {
     let mut scene = plan.input.scene.clone();
-    for wheel in &mut scene.wheels {
-        wheel.normal.damper = Damper::Ground;
+    for (c, contact) in plan.contacts.iter().enumerate() {
+        let mut kind = scene.wheels[scene.contacts[c].wheel].clone();
+        if contact.diff.is_some() {
+            kind.normal.damping *= share(c);
+        }
+        kind.normal.damper = Damper::Ground;
+        scene.contacts[c].wheel = scene.wheels.len();
+        scene.wheels.push(kind);
     }
     scene
 }
@@ -111,18 +139,7 @@ fn complete(
         }
         if contact.diff.is_some() && (law.bilateral || p > 0.0) {
             instant.penetration[c] = Some(p);
-            rate[c] = fall(plan, &instant, c);
-        }
-    }
-    // a rate is not the speed of the wheel: the rail moves too
-    for (b, speed) in instant.speed.iter_mut().enumerate() {
-        let feels = plan.contacts.iter().any(|contact| {
-            let first = contact.wheels.start;
-            let is_damped = plan.kind(first).normal.damping > 0.0;
-            plan.wheels[first].body == b && is_damped && contact.diff.is_none()
-        });
-        if !feels {
-            speed[1] *= -0.5;
+            rate[c] = share(c) * fall(plan, &instant, c);
         }
     }
     Ok(Some(CheckCase {
@@ -130,6 +147,16 @@ fn complete(
         forces,
         rate,
     }))
+}
+
+/// Number of states in which each wheel has a vertical force.
+pub fn loaded(cases: &[CheckCase]) -> Vec<usize> {
+    let wheels = cases.first().map_or(0, |case| case.forces.vertical.len());
+    let of = |w: usize| {
+        let own = cases.iter().filter(|case| case.forces.vertical[w] > 0.0);
+        own.count()
+    };
+    (0..wheels).map(of).collect()
 }
 
 /// Mean speed at which the wheels of contact `c` fall.
