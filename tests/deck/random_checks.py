@@ -551,7 +551,7 @@ def run(program, seed, limit):
         try:
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=max(60, 6 * limit))
         except subprocess.TimeoutExpired:
-            return Outcome("wrong", "takes too long", time.perf_counter() - begun)
+            return Outcome("late", "takes too long", time.perf_counter() - begun)
         spent = time.perf_counter() - begun
         if done.returncode not in (0, 1):
             if any(word in done.stderr for word in REFUSALS):
