@@ -5,8 +5,8 @@
 //!    interpolate the tables of the deck, so that equations are compared and not interpolations.
 //! 2. The values of the simulator are put into the expressions of the deck, each of which must give the value of the
 //!    simulator ([`compare`]). This is repeated with all rails on a moving part, which must not change the forces.
-//! 3. The static equations of the deck are solved from the equilibria of the simulator ([`path`]), with the small
-//!    rotations of the simulator and with finite ones.
+//! 3. Every static equation of the deck must hold at the equilibria of the simulator ([`path`]), with its small rotations; what
+//!    finite ones change is computed too.
 
 pub mod compare;
 pub mod path;
@@ -115,7 +115,7 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     AdamsModel::new(&set)?;
     let foundations = plan.foundations()?;
     let in_statics = plan.foundations_in_statics()?;
-    let sweep = path::sweep(plan, &in_statics);
+    let sweep = path::sweep(plan, &in_statics)?;
     let equilibria = sweep.as_ref().map_or(&[][..], |sweep| &sweep.cases);
     let missing_along = if plan.form == DeckForm::Factored {
         0.0

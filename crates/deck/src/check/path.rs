@@ -1,14 +1,14 @@
 //! Comparison of static equilibria of the deck with the quasi-static sweep of the simulator.
 //!
-//! At each equilibrium of the simulator the static equations of the deck are solved by Newton's method from there, with
-//! the small rotations of the simulator: both programs then solve the same problem, and must agree within rounding. They
-//! are solved again with finite rotations, as in ADAMS. What that changes is of second order in the rotations theta, and
-//! the moment m g h theta of the weight, which the simulator leaves out. It is estimated by the first Newton step, and
-//! must not exceed the estimate by more than a factor.
+//! At each equilibrium of the simulator every static equation of the deck must hold, with the small rotations of the
+//! simulator: each to 1e-9 of its scale, or to what the rounding of coordinates makes of it. The distance to the equilibrium of
+//! the deck is one Newton step. Then the equations are solved with finite rotations, as in ADAMS. What that changes is of second
+//! order in the rotations theta, and the moment m g h theta of the weight, which the simulator leaves out. It is estimated by the
+//! first Newton step, and must not exceed the estimate by more than a factor.
 
 use std::collections::BTreeSet;
 
-use adams::{AdamsModel, DataSet, Equilibrium, GivenValues, RotationMeasure, StatementId};
+use adams::{AdamsModel, DataSet, Equilibrium, Imbalance, RotationMeasure, StatementId};
 use nalgebra::Vector3;
 use sim::{Analysis, BodyDof, Channel, ContactForces, Foundation, Instant, Status};
 
@@ -31,11 +31,6 @@ pub const LIMIT: f64 = 1e-8;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Largest ratio of the effect of finite rotations to its estimate.
 pub const KNOWN: f64 = 2.0;
-/// Scaled residuals up to which an equation holds.
-const HOLDS: f64 = 1e-9;
-/// Work after the first equilibrium that differs, in Newton steps times the square of the number of wheels, after which no
-/// further ones are compared: the equilibria of a deck that is wrong are far from those of the simulator.
-const EFFORT: usize = 20_000;
 /// Largest number of equations that are named in a report.
 const NAMED: usize = 3;
 
@@ -79,18 +74,22 @@ pub struct SweepDifference {
     pub places: usize,
     /// Differences with the small rotations of the simulator.
     pub small: EquilibriumDifference,
-    /// Their limits: 1e-8, and the rounding errors of coordinates; more where the equations of the deck determine its
-    /// equilibrium less well ([`SweepDifference::ill_conditioned`]).
+    /// Their limits: 1e-8, and the rounding errors of coordinates; more at equilibria where every equation holds and the
+    /// differences are larger ([`SweepDifference::ill_conditioned`]).
     pub limit: EquilibriumDifference,
-    /// Number of equilibria whose limit is what the rounding of each equation of the deck makes of them, through the inverse
-    /// of the Jacobian: stiff wheels share a load by what rounding leaves of the heights of their rail.
+    /// Number of equilibria that the equations of the deck determine less well: rounding of an equation moves them by more than
+    /// 1e-8. Stiff wheels share a load by what rounding leaves of the heights of their rail.
     pub ill_conditioned: usize,
+    /// Number of equilibria near which Newton's method finds none with finite rotations, as where contacts open and close by turns.
+    pub far: usize,
     /// What finite rotations change.
     pub finite: EquilibriumDifference,
     /// Its estimate, to first order.
     pub estimate: EquilibriumDifference,
     /// Largest rotation of a body, rad.
     pub rotation: f64,
+    /// Why the simulator computed no more equilibria: the comparison ends at the first that it does not find.
+    pub stopped: Option<String>,
     /// What does not agree, and on which side, for the first equilibrium at which something does not.
     pub causes: Vec<String>,
 }
@@ -106,7 +105,7 @@ impl SweepDifference {
         }
     }
 
-    /// Whether both paths were computed and their differences are within the limits.
+    /// Whether all differences are within their limits.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.causes.is_empty()
@@ -122,9 +121,15 @@ fn within(found: &EquilibriumDifference, limit: &EquilibriumDifference) -> bool 
 
 /// The equilibria of the simulator along the prescribed motion; `None` if a body is free along its rail and therefore
 /// has no static equilibrium.
-pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<EquilibriumPath> {
+///
+/// # Errors
+/// [`Error::Start`] for a scene that the simulator cannot set up.
+pub fn sweep(
+    plan: &DeckPlan<'_>,
+    foundations: &[Foundation],
+) -> Result<Option<EquilibriumPath>, Error> {
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
-        return None;
+        return Ok(None);
     }
     let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
@@ -137,17 +142,9 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
         cases: Vec::new(),
         failed: None,
     };
-    let (history, status) = match sim::equilibria(&scene, foundations, &times) {
-        Ok(found) => found,
-        Err(error) => {
-            out.failed = Some(format!("simulator: {error}"));
-            return Some(out);
-        }
-    };
-    if let Status::StepTooSmall(t) | Status::Failed(t, _) = status {
-        out.failed = Some(format!(
-            "simulator: its quasi-static sweep stopped at t = {t} s"
-        ));
+    let (history, status) = sim::equilibria(&scene, foundations, &times).map_err(Error::Start)?;
+    if let Status::Failed(t, error) = status {
+        out.failed = Some(format!("t = {t} s, where the simulator stops: {error}"));
     }
     let times = history.column(Channel::Time);
     let speeds: Vec<Vec<f64>> = (0..plan.bodies.len())
@@ -208,7 +205,7 @@ pub fn sweep(plan: &DeckPlan<'_>, foundations: &[Foundation]) -> Option<Equilibr
             rate: vec![0.0; plan.contacts.len()],
         });
     }
-    Some(out)
+    Ok(Some(out))
 }
 
 /// Compares the equilibria of the deck with those of the simulator.
@@ -229,103 +226,75 @@ pub fn path(
         small: EquilibriumDifference::default(),
         limit: scales.limit(plan),
         ill_conditioned: 0,
+        far: 0,
         finite: EquilibriumDifference::default(),
         estimate: EquilibriumDifference::default(),
         rotation: scales.rotation,
-        causes: sweep.failed.iter().cloned().collect(),
+        stopped: sweep.failed.clone(),
+        causes: Vec::new(),
     };
-    let mut effort = 0;
     for case in &sweep.cases {
-        if effort > EFFORT {
-            break;
-        }
         let mut given = expected_values(plan, foundations, case, 0.0)?.given;
         given.held.clone_from(&held);
         let guess = state(plan, case, None);
-        out.places += 1;
-        let time = case.instant.time;
-        let small = match model.equilibrium_near(&guess, &given, RotationMeasure::Small) {
-            Ok(small) => small,
-            Err(error) => {
-                out.causes.push(format!("deck, at t = {time} s: {error}"));
-                out.causes.extend(causes(set, &model, &guess, &given));
-                return Ok(out);
-            }
-        };
+        let small = model.imbalance(&guess, &given, RotationMeasure::Small)?;
         let expected = Positions::of_case(plan, case);
-        let found = Positions::of_deck(plan, &small);
-        let difference = scales.difference(&found, &expected);
-        out.small.include(difference);
-        if !within(&difference, &out.limit) && out.causes.is_empty() {
-            let own = scales.limit_at(plan, (&model, &small), &held)?;
-            if within(&difference, &own) {
+        out.places += 1;
+        let moved = small
+            .after
+            .as_ref()
+            .map(|after| scales.difference(&Positions::of_deck(plan, after), &expected));
+        if let Some(moved) = moved {
+            out.small.include(moved);
+            if !within(&moved, &out.limit) {
                 out.ill_conditioned += 1;
-                out.limit.include(difference);
-            } else {
-                out.causes.push(format!(
-                    "at t = {time} s the equilibrium of the simulator is none of the deck: heights differ by {:.1e}, forces by \
-                     {:.1e}, of which rounding explains {:.1e} and {:.1e}",
-                    difference.height, difference.force, own.height, own.force
-                ));
-                out.causes.extend(causes(set, &model, &guess, &given));
             }
         }
-        if !out.causes.is_empty() {
-            effort += small.iterations * plan.wheels.len().pow(2);
+        if small.equations.iter().any(|one| !one.holds) {
+            out.causes
+                .extend(causes(set, case.instant.time, &small, moved));
+            return Ok(out);
         }
-        let given = GivenValues {
-            variables: small.solution.variables.clone(),
-            ..given
-        };
-        let finite = model
-            .imbalance(&small.state, &given, RotationMeasure::Finite)
-            .and_then(|first| {
-                let last = model.equilibrium_near(&small.state, &given, RotationMeasure::Finite)?;
-                Ok((first.after, last))
-            });
-        match finite {
-            Ok((first, last)) => {
-                let [first, last] = [&first, &last].map(|one| Positions::of_deck(plan, one));
-                out.estimate.include(scales.difference(&first, &found));
-                out.finite.include(scales.difference(&last, &found));
-            }
-            Err(error) => {
-                out.causes.push(format!(
-                    "deck with finite rotations, at t = {time} s: {error}"
-                ));
-                return Ok(out);
-            }
+        out.limit.include(moved.unwrap_or_default());
+        let first = model.imbalance(&guess, &given, RotationMeasure::Finite)?;
+        let last = model.equilibrium_near(&guess, &given, RotationMeasure::Finite)?;
+        if let (Some(first), Some(last)) = (first.after, last) {
+            let [first, last] = [&first, &last].map(|one| Positions::of_deck(plan, one));
+            out.estimate.include(scales.difference(&first, &expected));
+            out.finite.include(scales.difference(&last, &expected));
+        } else {
+            out.far += 1;
         }
     }
     Ok(out)
 }
 
-/// The equations of the deck that the equilibrium of the simulator does not satisfy.
+/// The equations of the deck that the equilibrium of the simulator does not satisfy, and how far that of the deck is.
 fn causes(
     set: &DataSet,
-    model: &AdamsModel,
-    guess: &adams::ModelState,
-    given: &GivenValues,
+    time: f64,
+    found: &Imbalance,
+    moved: Option<EquilibriumDifference>,
 ) -> Vec<String> {
-    let Ok(found) = model.imbalance(guess, given, RotationMeasure::Small) else {
-        return Vec::new();
-    };
     let name = |id: &StatementId| compare::statement(set, &id.keyword.to_string(), id.id);
-    let named = found
-        .equations
-        .iter()
-        .filter(|one| one.scaled > HOLDS)
-        .take(NAMED);
-    named
-        .map(|one| {
-            format!(
-                "deck: {} has a {} that is off by {:.3e}",
-                name(&one.statement),
-                one.quantity,
-                one.residual
-            )
-        })
-        .collect()
+    let wrong = found.equations.iter().filter(|one| !one.holds);
+    let named = wrong.take(NAMED).map(|one| {
+        format!(
+            "deck: {} has a {} that is off by {:.3e}",
+            name(&one.statement),
+            one.quantity,
+            one.residual
+        )
+    });
+    let away = moved.map_or_else(String::new, |moved| {
+        format!(
+            ", whose heights differ by {:.1e} and forces by {:.1e} to first order",
+            moved.height, moved.force
+        )
+    });
+    let head =
+        format!("at t = {time} s the equilibrium of the simulator is none of the deck{away}");
+    std::iter::once(head).chain(named).collect()
 }
 
 /// The freedoms of parts that the statics of the simulator leaves where they are: z, yaw and the spins of wheels, and roll
@@ -365,25 +334,12 @@ fn held(plan: &DeckPlan<'_>) -> BTreeSet<(u32, usize)> {
 }
 
 /// Positions of bodies and wheels in ground, and forces of wheels.
-#[derive(Clone, Debug)]
 struct Positions {
     points: Vec<Vector3<f64>>,
     forces: Vec<[f64; 2]>,
 }
 
 impl Positions {
-    /// Adds the distances between the values of `a` and `b`.
-    fn add_distance(&mut self, a: &Positions, b: &Positions) {
-        for (sum, (a, b)) in self.points.iter_mut().zip(a.points.iter().zip(&b.points)) {
-            *sum += (a - b).abs();
-        }
-        for (sum, (a, b)) in self.forces.iter_mut().zip(a.forces.iter().zip(&b.forces)) {
-            for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
-                *sum += (a - b).abs();
-            }
-        }
-    }
-
     /// Those of the simulator.
     fn of_case(plan: &DeckPlan<'_>, case: &CheckCase) -> Positions {
         let pose = |b: usize| {
@@ -491,32 +447,6 @@ impl Scales {
             height: LIMIT + rounding / self.displacement,
             force: LIMIT + stiffest * rounding / self.force,
         }
-    }
-
-    /// Limits of the differences from one equilibrium of the deck: those of rounding, and the sum of what the rounding of
-    /// each equation makes of each position and force.
-    fn limit_at(
-        &self,
-        plan: &DeckPlan<'_>,
-        (model, found): (&AdamsModel, &Equilibrium),
-        held: &BTreeSet<(u32, usize)>,
-    ) -> Result<EquilibriumDifference, Error> {
-        let mut spread: Option<(Positions, Positions)> = None;
-        model.rounding_at(found, held, RotationMeasure::Small, |one| {
-            let own = Positions::of_deck(plan, one);
-            match &mut spread {
-                Some((base, sum)) => sum.add_distance(base, &own),
-                None => spread = Some((own.clone(), own)),
-            }
-        })?;
-        let mut out = self.limit(plan);
-        if let Some((base, sum)) = &spread {
-            let own = self.difference(sum, base);
-            out.place += own.place;
-            out.height += own.height;
-            out.force += own.force;
-        }
-        Ok(out)
     }
 
     fn difference(&self, found: &Positions, expected: &Positions) -> EquilibriumDifference {

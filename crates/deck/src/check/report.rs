@@ -97,7 +97,7 @@ impl CheckReport {
             json!({
                 "places": path.places, "asked": of(&path.limit), "difference": of(&path.small),
                 "finite": of(&path.finite), "estimate": of(&path.estimate), "known": of(&path.known()),
-                "rotation": path.rotation, "ill_conditioned": path.ill_conditioned, "causes": path.causes, "holds": path.holds(),
+                "rotation": path.rotation, "ill_conditioned": path.ill_conditioned, "without_finite": path.far, "stopped": path.stopped, "causes": path.causes, "holds": path.holds(),
             })
         });
         let count = &self.states;
@@ -133,8 +133,15 @@ fn path_lines(path: &SweepDifference, lines: &mut Vec<String>) {
     ));
     if path.ill_conditioned > 0 {
         lines.push(format!(
-            "  at {} of the positions rounding moves the equilibrium of the deck by more than 1e-8; their limit is what it can move",
+            "  at {} of the positions rounding moves the equilibrium of the deck by more than 1e-8; every equation holds there to \
+             within its rounding",
             path.ill_conditioned
+        ));
+    }
+    if path.far > 0 {
+        lines.push(format!(
+            "  at {} of the positions no equilibrium with finite rotations is near; the comparison leaves them out",
+            path.far
         ));
     }
     if small.place > limit.place {
@@ -142,6 +149,9 @@ fn path_lines(path: &SweepDifference, lines: &mut Vec<String>) {
             "  places along the rail differ by {:.1e}",
             small.place
         ));
+    }
+    if let Some(why) = &path.stopped {
+        lines.push(format!("  the comparison ends at {why}"));
     }
     lines.extend(path.causes.iter().map(|why| format!("  {why}")));
 }

@@ -200,8 +200,11 @@ fn constrain<T: Scalar>(
             }
             Equation::Normal(a, b) => {
                 let (a, b) = (column(&i.axes, a), column(&j.axes, b));
-                gaps.push(dot(&a, &b));
-                let normal = cross(&unturned(&a, turned[0]), &unturned(&b, turned[1]));
+                let (of_a, of_b) = (unturned(&a, turned[0]), unturned(&b, turned[1]));
+                // To first order in small rotations; with finite ones this is the product of a and b.
+                let turns = dot(&a, &of_b).minus(&dot(&of_a, &of_b));
+                gaps.push(turns.plus(&dot(&of_a, &b)));
+                let normal = cross(&of_a, &of_b);
                 torque = add(&torque, &scale(&normal, multiplier));
             }
             Equation::About => {

@@ -3,12 +3,12 @@
 //! The VARIABLEs are put into the expressions, and the equations are linearised there: the residuals with the best
 //! reactions say which equations do not hold, and one Newton step is the distance to the equilibrium. Further full
 //! steps find it. Since forces and displacements are both given, no loop has to be closed first: a stiff wheel is as
-//! deep in its rail at the start as its force says. Where full steps do not converge, as where a wheel opens on the
-//! way, the damped iteration of `search` goes on.
+//! deep in its rail at the start as its force says. Where full steps do not converge, as where a wheel opens and closes
+//! by turns, there is no answer: the equilibrium is not near.
 
 use super::equilibrium::Equilibrium;
 use super::iterate::{Iterate, RotationMeasure, Unknown};
-use super::search::{ROUNDING, STALLED, Search, holds, scaled_size};
+use super::search::{ROUNDING, STALLED, Search, allowed, holds, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
@@ -31,6 +31,8 @@ pub struct EquationResidual {
     pub residual: f64,
     /// The residual relative to its scale: weights, and the size of the model.
     pub scaled: f64,
+    /// Whether the equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it.
+    pub holds: bool,
 }
 
 /// How far a state is from equilibrium.
@@ -39,8 +41,9 @@ pub struct Imbalance {
     /// The equations with their residuals at the state, largest scaled residual first, with the reactions that leave
     /// the smallest residuals.
     pub equations: Vec<EquationResidual>,
-    /// The state after one Newton step, whose length is the distance from equilibrium to first order.
-    pub after: Equilibrium,
+    /// The state after one Newton step, whose length is the distance from equilibrium to first order; `None` where the
+    /// linearised equations have no solution.
+    pub after: Option<Equilibrium>,
 }
 
 impl AdamsModel {
@@ -48,7 +51,7 @@ impl AdamsModel {
     ///
     /// # Errors
     /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
-    /// finite value; [`Error::Equilibrium`] where the linearised equations have no solution.
+    /// finite value.
     pub fn imbalance(
         &self,
         guess: &ModelState,
@@ -57,99 +60,55 @@ impl AdamsModel {
     ) -> Result<Imbalance, Error> {
         let at = self.iterate_near(guess, given, measure)?;
         let search = Search::new(self, &at).holding(&given.held);
-        let (residual, matrix) = search.linearize(&at, &search.unknowns)?;
+        let (residual, matrix, by_held) = search.linearize_all(&at)?;
         let rows = search.residual_scales(&at);
+        let rounding = search.rounding(&at, [&matrix, &by_held]);
         let left = without_reactions(&search, &residual, &matrix, &rows);
         let mut equations: Vec<EquationResidual> = left
             .iter()
-            .zip(&rows)
+            .zip(rows.iter().zip(&rounding))
             .enumerate()
-            .map(|(k, (residual, scale))| {
+            .map(|(k, (residual, (scale, rounding)))| {
                 let (keyword, id) = search.statement_of(k);
                 EquationResidual {
                     statement: StatementId::new(keyword, id),
                     quantity: quantity(&search.unknowns[k]),
                     residual: *residual,
                     scaled: residual.abs() / scale,
+                    holds: residual.abs() <= allowed(*scale, *rounding),
                 }
             })
             .collect();
         equations.sort_by(|a, b| b.scaled.total_cmp(&a.scaled));
-        let none = || {
-            let (statement, residual) = equations.first().map_or_else(
-                || (StatementId::new("PART", 0), 0.0),
-                |worst| (worst.statement.clone(), worst.residual),
-            );
-            Error::Equilibrium {
-                statement,
-                residual,
-                iterations: 1,
-            }
-        };
-        let factored = search.factor(&at, matrix, 0.0).ok_or_else(none)?;
-        let step = factored.correction(&residual).ok_or_else(none)?;
-        let end = at.after(&search.unknowns, &step, 1.0);
-        let after = search.report(&end, 1, factored.rank_deficiency())?;
+        let step = search.factor(&at, matrix, 0.0).and_then(|factored| {
+            let step = factored.correction(&residual)?;
+            Some((step, factored.rank_deficiency()))
+        });
+        let after = step.map(|(step, undetermined)| {
+            search.report(&at.after(&search.unknowns, &step, 1.0), 1, undetermined)
+        });
+        let after = after.transpose()?;
         Ok(Imbalance { equations, after })
     }
 
-    /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there. Freedoms that are held
-    /// stay where they are.
+    /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there; `None` if its steps do not
+    /// converge. Freedoms that are held stay where they are.
     ///
     /// # Errors
-    /// The errors of [`AdamsModel::equilibrium`].
+    /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
+    /// finite value.
     pub fn equilibrium_near(
         &self,
         guess: &ModelState,
         given: &GivenValues,
         measure: RotationMeasure,
-    ) -> Result<Equilibrium, Error> {
+    ) -> Result<Option<Equilibrium>, Error> {
         let start = self.iterate_near(guess, given, measure)?;
         let search = Search::new(self, &start).holding(&given.held);
         if search.unknowns.is_empty() {
-            return search.report(&start, 0, 0);
+            return search.report(&start, 0, 0).map(Some);
         }
-        match search.full_steps(start.clone())? {
-            Some(found) => Ok(found),
-            None => search.run(search.closed(start)),
-        }
-    }
-
-    /// What rounding makes of an equilibrium, to first order: shows `see` the equilibrium, and then, for each equation, the
-    /// equilibrium that it would be if this equation were off by its rounding.
-    ///
-    /// # Errors
-    /// The errors of [`AdamsModel::imbalance`].
-    pub fn rounding_at(
-        &self,
-        found: &Equilibrium,
-        held: &BTreeSet<(u32, usize)>,
-        measure: RotationMeasure,
-        mut see: impl FnMut(&Equilibrium),
-    ) -> Result<(), Error> {
-        let given = GivenValues {
-            variables: found.solution.variables.clone(),
-            held: held.clone(),
-            ..GivenValues::default()
-        };
-        let at = self.iterate_near(&found.state, &given, measure)?;
-        let search = Search::new(self, &at).holding(held);
-        let (_, matrix, by_held) = search.linearize_all(&at)?;
-        let rounding = search.rounding(&at, [&matrix, &by_held]);
-        let none = || Error::Equilibrium {
-            statement: StatementId::new("PART", 0),
-            residual: 0.0,
-            iterations: 1,
-        };
-        let factored = search.factor(&at, matrix, 0.0).ok_or_else(none)?;
-        see(&search.report(&at, 0, 0)?);
-        for (k, own) in rounding.iter().enumerate() {
-            let mut residual = vec![0.0; rounding.len()];
-            residual[k] = *own;
-            let step = factored.correction(&residual).ok_or_else(none)?;
-            see(&search.report(&at.after(&search.unknowns, &step, 1.0), 1, 0)?);
-        }
-        Ok(())
+        search.full_steps(start)
     }
 
     /// The unknowns at a state with given VARIABLEs; reactions are zero.
@@ -193,7 +152,7 @@ impl Search<'_> {
             };
             let rows = self.residual_scales(&at);
             let rounding = self.rounding(&at, [&matrix, &by_held]);
-            let [balances, is_rounding] = holds(&residual, &rows, &rounding);
+            let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix, 0.0) else {
                 return Ok(None);
             };
@@ -201,7 +160,7 @@ impl Search<'_> {
                 return Ok(None);
             };
             let length = scaled_size(&step, &self.step_scales(&at, &step));
-            let stalled = (length <= STALLED || is_rounding) && length >= 0.1 * before;
+            let stalled = length <= STALLED && length >= 0.1 * before;
             if balances && (length <= ROUNDING || stalled) {
                 return self
                     .report(&at, iterations, factored.rank_deficiency())

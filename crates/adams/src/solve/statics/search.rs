@@ -29,8 +29,7 @@ use std::collections::BTreeMap;
 const MOST: usize = 400;
 /// Steps of at most this size, relative to their scale, are at the level of rounding.
 pub(super) const ROUNDING: f64 = 1e-15;
-/// Steps that no longer decrease count as rounding if they are below this size, or if every residual is rounding: the force
-/// of a stiff contact may have few digits.
+/// Steps that no longer decrease count as rounding if they are below this size.
 pub(super) const STALLED: f64 = 1e-10;
 /// Largest scaled residual of an equilibrium.
 const RESIDUAL: f64 = 1e-9;
@@ -104,7 +103,7 @@ impl Search<'_> {
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
             let rounding = self.rounding(&at, [&matrix, &by_held]);
-            let [balances, is_rounding] = holds(&residual, &rows, &rounding);
+            let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix.clone(), resistance) else {
                 break;
             };
@@ -123,7 +122,7 @@ impl Search<'_> {
             }
             let scales = self.step_scales(&at, &step);
             let length = scaled_size(&step, &scales);
-            let stalled = (length <= STALLED || is_rounding) && length >= 0.1 * before;
+            let stalled = length <= STALLED && length >= 0.1 * before;
             if (length <= ROUNDING || stalled) && balances {
                 let end = if stalled {
                     at
@@ -138,7 +137,7 @@ impl Search<'_> {
                 .filter(|_| length > ROUNDING)
             {
                 Some(next) => at = next,
-                None if (length <= STALLED || is_rounding) && balances => {
+                None if length <= STALLED && balances => {
                     return self.report(&at, iterations, factored.rank_deficiency());
                 }
                 None => (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY),
@@ -487,17 +486,19 @@ fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -
     (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
 }
 
-/// Whether every equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it, whichever is larger,
-/// since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate; and whether every residual is
-/// rounding.
-pub(super) fn holds(residual: &[f64], rows: &[f64], rounding: &[f64]) -> [bool; 2] {
-    let pairs = || residual.iter().map(|r| r.abs()).zip(rounding);
-    let allowed =
-        |((r, rounding), scale): ((f64, &f64), &f64)| r <= (RESIDUAL * scale).max(*rounding);
-    [
-        pairs().zip(rows).all(allowed),
-        pairs().all(|(r, rounding)| r <= *rounding),
-    ]
+/// Whether every equation holds within its allowed residual.
+pub(super) fn holds(residual: &[f64], rows: &[f64], rounding: &[f64]) -> bool {
+    let scales = rows.iter().zip(rounding);
+    let pairs = residual.iter().zip(scales);
+    pairs
+        .into_iter()
+        .all(|(r, (row, rounding))| r.abs() <= allowed(*row, *rounding))
+}
+
+/// The largest residual of an equation that holds: 1e-9 of its scale, or what rounding of the unknowns makes of it, whichever is
+/// larger, since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate.
+pub(super) fn allowed(scale: f64, rounding: f64) -> f64 {
+    (RESIDUAL * scale).max(rounding)
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
