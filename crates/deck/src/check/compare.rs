@@ -27,8 +27,9 @@ const FORCE: usize = 9;
 const MOMENT: usize = 12;
 /// Rounding errors of a length are at most this times the coordinates that it is computed from.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Change of penetrations, relative to the largest, at which the simulator's iteration ends (`STAGNANT` in the statics of
-/// `sim`): its force is that of its law at a penetration that differs by so much.
+/// Change of penetrations, relative to the largest, at which iterations of the simulator end (`STAGNANT` and `SETTLED` in the
+/// statics of `sim`): its force is that of its law at a penetration that differs by so much, and at rest so is its penetration
+/// that of the heights.
 const STAGNANT: f64 = 1e-9;
 /// Largest number of statements that are named in a report.
 const NAMED: usize = 3;
@@ -206,13 +207,23 @@ fn wheel(
         add(1, VariableSlot::Rise, rail.rise, by_rise);
     }
     if contact.wheels.start == w {
-        add(3, VariableSlot::Penetration, penetration, by_height);
-        // The expression is compared with the simulator's law, not with the force that its iteration leaves. This hides no
-        // difference of the deck: the force of the simulator is compared with its own law.
         let deepest = forces
             .penetration
             .iter()
             .fold(0.0_f64, |most, p| most.max(p.abs()));
+        let settled = if case.is_at_rest {
+            STAGNANT * deepest
+        } else {
+            0.0
+        };
+        add(
+            3,
+            VariableSlot::Penetration,
+            penetration,
+            by_height + settled,
+        );
+        // The expression is compared with the simulator's law, not with the force that its iteration leaves. This hides no
+        // difference of the deck: the force of the simulator is compared with its own law.
         let left = law.by_penetration.abs() * STAGNANT * deepest;
         let press = if (law.force - down).abs() <= left {
             law.force

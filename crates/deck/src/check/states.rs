@@ -43,6 +43,8 @@ pub struct CheckCase {
     /// Rate of penetration of each contact; zero where the penetration is not a state variable or the contact is
     /// open.
     pub rate: Vec<f64>,
+    /// Whether the state is a static equilibrium.
+    pub is_at_rest: bool,
 }
 
 /// Generates `count` random states with positions, speeds, spins, and penetrations that correspond to compressive
@@ -146,6 +148,7 @@ fn complete(
         instant,
         forces,
         rate,
+        is_at_rest: false,
     }))
 }
 

@@ -8,7 +8,7 @@
 
 use super::equilibrium::Equilibrium;
 use super::iterate::{Iterate, RotationMeasure, Unknown};
-use super::search::{ROUNDING, STALLED, Search, allowed, holds, scaled_size};
+use super::search::{ROUNDING, STALLED, Search, holds, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
@@ -31,8 +31,16 @@ pub struct EquationResidual {
     pub residual: f64,
     /// The residual relative to its scale: weights, and the size of the model.
     pub scaled: f64,
-    /// Whether the equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it.
-    pub holds: bool,
+    /// What rounding of the unknowns makes of the equation.
+    pub rounding: f64,
+}
+
+impl EquationResidual {
+    /// Whether the equation holds to a fraction of its scale, or to what rounding of the unknowns makes of it.
+    #[must_use]
+    pub fn holds(&self, fraction: f64) -> bool {
+        self.scaled <= fraction || self.residual.abs() <= self.rounding
+    }
 }
 
 /// How far a state is from equilibrium.
@@ -75,7 +83,7 @@ impl AdamsModel {
                     quantity: quantity(&search.unknowns[k]),
                     residual: *residual,
                     scaled: residual.abs() / scale,
-                    holds: residual.abs() <= allowed(*scale, *rounding),
+                    rounding: *rounding,
                 }
             })
             .collect();
@@ -193,9 +201,13 @@ fn without_reactions(
     if columns.is_empty() {
         return residual.to_vec();
     }
-    let scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
+    let mut scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
         matrix[(i, columns[j])] / rows[i]
     });
+    // Forces and torques differ by orders of magnitude; the residuals do not depend on the units of reactions.
+    for mut column in scaled.column_iter_mut() {
+        column.try_normalize_mut(0.0);
+    }
     let right = DVector::from_fn(residual.len(), |i, _| residual[i] / rows[i]);
     let Some(svd) = scaled.clone().try_svd(true, true, f64::EPSILON, 10_000) else {
         return residual.to_vec();

@@ -486,19 +486,11 @@ fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -
     (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
 }
 
-/// Whether every equation holds within its allowed residual.
+/// Whether every equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it, whichever is larger,
+/// since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate.
 pub(super) fn holds(residual: &[f64], rows: &[f64], rounding: &[f64]) -> bool {
-    let scales = rows.iter().zip(rounding);
-    let pairs = residual.iter().zip(scales);
-    pairs
-        .into_iter()
-        .all(|(r, (row, rounding))| r.abs() <= allowed(*row, *rounding))
-}
-
-/// The largest residual of an equation that holds: 1e-9 of its scale, or what rounding of the unknowns makes of it, whichever is
-/// larger, since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate.
-pub(super) fn allowed(scale: f64, rounding: f64) -> f64 {
-    (RESIDUAL * scale).max(rounding)
+    let mut all = residual.iter().zip(rows.iter().zip(rounding));
+    all.all(|(r, (row, rounding))| r.abs() <= (RESIDUAL * row).max(*rounding))
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
