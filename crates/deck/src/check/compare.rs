@@ -241,12 +241,28 @@ fn wheel(
         add(7, VariableSlot::Flange, side, by_flange);
     }
     if own.spin.is_some() && kind.friction.is_some() {
-        add(8, VariableSlot::Traction, along, 0.0);
+        let [vx, vy, vz, _, by_yaw, by_pitch] = case.instant.speed[own.body];
+        let speeds = vx.abs()
+            + vy.abs()
+            + vz.abs()
+            + kind.radius * (case.instant.spin[w].abs() + by_pitch.abs())
+            + by_pitch.abs() * hy.abs()
+            + by_yaw.abs() * hz.abs();
+        // Where the rails move, they turn at up to 1 rad/s, and the coordinates are multiplied by that.
+        let by_slip = kind.friction.as_ref().map_or(0.0, |friction| {
+            friction.coefficient * down.abs() / friction.slip * ROUNDING * (speeds + size)
+        });
+        add(8, VariableSlot::Traction, along, by_slip);
     }
     let slope = if plan.form == DeckForm::Factored {
         rail.along
     } else {
         0.0
+    };
+    let along_rounding = if slope == 0.0 {
+        0.0
+    } else {
+        rail.along_rounding.of(by_place)
     };
     let components = [slope - along, down, -side, arm * side, 0.0, -arm * along];
     for (k, value) in components.into_iter().enumerate() {
@@ -255,7 +271,7 @@ fn wheel(
             keyword: "GFORCE",
             id: number(w),
             value,
-            rounding: 0.0,
+            rounding: if k == 0 { along_rounding } else { 0.0 },
         });
     }
 }
@@ -269,7 +285,8 @@ struct RailDisplacement {
     shift: f64,
     /// Force along the rail due to its slopes.
     along: f64,
-    /// What `rise` and `shift` are computed from.
+    /// What `along`, `rise` and `shift` are computed from.
+    along_rounding: TermSizes,
     rise_rounding: TermSizes,
     shift_rounding: TermSizes,
 }
@@ -379,6 +396,14 @@ fn displacements(
                 _ => (out[w].rise, out[w].rise_rounding) = (moved, sizes),
             }
             out[w].along += own * of(&influence.slope);
+            // Between two stations a product of curves changes by about its size, and its slope by about that slope.
+            let stations = compliance.breaks(plan.wheels[w].rail);
+            let spacing = stations
+                .windows(2)
+                .fold(f64::INFINITY, |least, pair| least.min(pair[1] - pair[0]));
+            let rounding = &mut out[w].along_rounding;
+            rounding.sum += own.abs() * (sizes.by_place + sizes.sum / spacing);
+            rounding.by_place += own.abs() * sizes.by_place / spacing;
         }
     }
     Ok(out)

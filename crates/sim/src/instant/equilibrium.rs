@@ -14,8 +14,9 @@ const EQUAL: f64 = 1e-12;
 /// Lever of a wheel, relative to the largest radius, that is rounding.
 const LEVER: f64 = 1e-12;
 /// Change of the degrees of freedom, relative to the largest penetration, below which the positions of the wheels
-/// have converged.
-const SETTLED: f64 = 1e-9;
+/// have converged; and below which they have where rounding lets them change no less.
+const SETTLED: f64 = 1e-12;
+const STAGNANT: f64 = 1e-9;
 
 /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
 /// the structures to static equilibrium at `at.t`; the other degrees of freedom stay.
@@ -34,11 +35,14 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
             *force = 0.0;
         }
     }
+    let mut last = f64::INFINITY;
     for _ in 0..PASSES {
         let before = system.mechanics.moves_freely.then(|| at.q.clone());
         let forces = (!system.guides().is_empty()).then(|| at.force.clone());
         balance(solver, &entry, at)?;
-        let rests = before.is_none_or(|before| has_settled(&before, at));
+        let change = before.map_or(0.0, |before| change(&before, at));
+        let rests = change <= SETTLED || (change <= STAGNANT && change >= 0.5 * last);
+        last = change;
         let is_equal = forces.is_none_or(|before| {
             let pairs = before.iter().zip(at.force.iter());
             let most = at
@@ -61,9 +65,15 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
 
 /// Whether the degrees of freedom have changed by no more than the tolerance since `before`.
 pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
+    change(before, at) <= STAGNANT
+}
+
+/// The largest change of a degree of freedom since `before`, relative to the largest penetration.
+fn change(before: &DVector<f64>, at: &State) -> f64 {
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
     let pairs = before.iter().zip(at.q.iter());
-    pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
+    let most = pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs()));
+    if most == 0.0 { 0.0 } else { most / depth }
 }
 
 /// Solves the equilibrium at the positions of `at`, with ropes and stops whose forces in `at` belong to `entry`.

@@ -11,7 +11,7 @@ use crate::mechanics::wheels::WheelPoint;
 use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
 use crate::scene::dof::arm_rows;
-use crate::{Analysis, BodyDof, Channel, Error, Gauge};
+use crate::{Analysis, BodyDof, Channel, Error};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
@@ -51,10 +51,23 @@ pub(crate) struct Recorder {
     /// Degrees of freedom of each recorded structure.
     recorded: Vec<Range<usize>>,
     wheels: Vec<WheelColumns>,
-    /// Working memory for the gauges.
+    /// The structures whose displacements are recorded.
+    rails: Vec<RailColumns>,
+    /// Working memory for the displacements of gauges, and of rails under wheels.
     gauges: Vec<f64>,
+    under: Vec<(usize, f64)>,
     probes: Vec<Probe>,
     shape: Vec<f64>,
+}
+
+/// A structure whose displacements are recorded.
+struct RailColumns {
+    structure: usize,
+    /// Its gauges.
+    gauges: Vec<usize>,
+    /// The wheels on it that share their force with others. Their mean penetration says nothing of the rail under one of them,
+    /// so that its deflection is computed like that at a gauge.
+    shared: Vec<usize>,
 }
 
 /// What the columns of a wheel need, looked up once.
@@ -151,7 +164,9 @@ impl Recorder {
             lengths,
             own_columns,
             wheels,
-            gauges: Vec::new(),
+            rails: rails_of(system),
+            gauges: vec![0.0; system.scene.gauges.len()],
+            under: Vec::new(),
             probes: Vec::new(),
             shape,
         }
@@ -212,16 +227,9 @@ impl Recorder {
             OF_BODY * system.scene.bodies.len(),
             OF_WHEEL * self.wheels.len(),
         );
-        let mut moved = std::mem::take(&mut self.gauges);
-        moved.clear();
-        for gauge in &system.scene.gauges {
-            moved.push(self.displacement(system, geometry, at, gauge)?);
-        }
-        let mut sunk = Vec::new();
-        for w in 0..self.wheels.len() {
-            if let Some(gauge) = gauge_under(system, geometry, w) {
-                sunk.push((w, -self.displacement(system, geometry, at, &gauge)?));
-            }
+        self.under.clear();
+        for k in 0..self.rails.len() {
+            self.displacements(k, system, geometry, at)?;
         }
         let frame = geometry.frame(system, at);
         values.extend_from_slice(&self.blank);
@@ -258,8 +266,8 @@ impl Recorder {
         for ((w, wheel), own) in all {
             write_wheel(system, geometry, at, (w, wheel), of_bodies, own);
         }
-        for (w, sunk) in sunk {
-            others[OF_WHEEL * w + 5] = sunk;
+        for &(w, rise) in &self.under {
+            others[OF_WHEEL * w + 5] = -rise;
         }
         for &ForceColumn {
             element,
@@ -276,9 +284,8 @@ impl Recorder {
             row[1 + bodies + wheels + self.own_columns..].split_at_mut(system.scene.gauges.len());
         gauges
             .iter_mut()
-            .zip(&moved)
+            .zip(&self.gauges)
             .for_each(|(column, moved)| *column = *moved);
-        self.gauges = moved;
         let (moves, mut next) = (system.scene.analysis == Analysis::Dynamic, 0);
         for (_, range) in recorded(system) {
             let (q, a) = structures[next..next + 2 * range.len()].split_at_mut(range.len());
@@ -291,49 +298,107 @@ impl Recorder {
         Ok(())
     }
 
-    /// Displacement G F + Phi q at a gauge.
-    fn displacement(
+    /// Sets the displacements G F + Phi q at the gauges of a structure and under the wheels on it that share their force.
+    fn displacements(
         &mut self,
+        k: usize,
         system: &System,
         geometry: &Geometry,
         at: &State,
-        gauge: &Gauge,
-    ) -> Result<f64, Error> {
-        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
+    ) -> Result<(), Error> {
+        let RailColumns {
+            structure: s,
+            gauges,
+            shared,
+        } = &self.rails[k];
+        let (s, foundation) = (*s, &system.foundations[*s]);
         let failed = |source| Error::Compliance {
             structure: s,
             source,
         };
-        let mut sum = 0.0;
-        if let Some(compliance) = &foundation.compliance {
-            let entries = &system.probes.entries[s];
-            self.probes.clear();
-            self.probes.push(gauge.probe);
-            let wheels = entries.iter().map(|e| Probe {
-                x: geometry.places().x[e.wheel],
-                ..e.probe
+        let entries = &system.probes.entries[s];
+        self.probes.clear();
+        let at_gauges = gauges.iter().map(|&g| system.scene.gauges[g].probe);
+        self.probes.extend(at_gauges);
+        let under_wheels = entries.iter().map(|entry| Probe {
+            x: geometry.places().x[entry.wheel],
+            ..entry.probe
+        });
+        self.probes.extend(under_wheels);
+        let influence = match &foundation.compliance {
+            Some(compliance) => {
+                let mut influence = Influence::zeros(self.probes.len());
+                compliance
+                    .fill(&self.probes, &mut influence)
+                    .map_err(failed)?;
+                Some(influence)
+            }
+            None => None,
+        };
+        let (probes, shape) = (&self.probes, &mut self.shape);
+        let mut displacement = |i: usize| {
+            let mut sum = 0.0;
+            if let Some(influence) = &influence {
+                for (j, entry) in entries.iter().enumerate() {
+                    let value = influence.value[(i, gauges.len() + j)];
+                    sum += value * entry.weight * at.force[entry.element];
+                }
+            }
+            if let Some(structure) = &foundation.structure {
+                let range = system.mechanics.structures[s].clone();
+                let (value, slope) = shape.split_at_mut(system.mechanics.dofs);
+                let value = &mut value[..range.len()];
+                structure
+                    .shapes
+                    .row(probes[i], value, &mut slope[..range.len()])
+                    .map_err(failed)?;
+                sum += dot(value, &at.q.as_slice()[range]);
+            }
+            Ok(sum)
+        };
+        for (i, &g) in gauges.iter().enumerate() {
+            self.gauges[g] = displacement(i)?;
+        }
+        for &w in shared {
+            let groups = system.mechanics.groups_of(w);
+            let own = entries.iter().enumerate().filter(|(_, entry)| {
+                entry.wheel == w
+                    && entry.probe.axis == Axis::Vertical
+                    && groups.contains(&entry.element)
             });
-            self.probes.extend(wheels);
-            let mut influence = Influence::zeros(self.probes.len());
-            compliance
-                .fill(&self.probes, &mut influence)
-                .map_err(failed)?;
-            for (j, entry) in entries.iter().enumerate() {
-                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.element];
+            let most = own.max_by(|(_, a), (_, b)| {
+                let share = |element: usize| geometry.fraction(element);
+                share(a.element).total_cmp(&share(b.element))
+            });
+            if let Some((j, _)) = most {
+                self.under.push((w, displacement(gauges.len() + j)?));
             }
         }
-        if let Some(structure) = &foundation.structure {
-            let range = system.mechanics.structures[s].clone();
-            let (value, slope) = self.shape.split_at_mut(system.mechanics.dofs);
-            let value = &mut value[..range.len()];
-            structure
-                .shapes
-                .row(gauge.probe, value, &mut slope[..range.len()])
-                .map_err(failed)?;
-            sum += dot(value, &at.q.as_slice()[range]);
-        }
-        Ok(sum)
+        Ok(())
     }
+}
+
+/// The structures that have gauges, or wheels that share their force with others.
+fn rails_of(system: &System) -> Vec<RailColumns> {
+    let mechanics = &system.mechanics;
+    let of = |structure: usize| {
+        let gauges = system.scene.gauges.iter().enumerate();
+        let gauges = gauges.filter(|(_, gauge)| gauge.structure == structure);
+        let shared = (0..mechanics.wheels.len()).filter(|&w| {
+            let first = mechanics.groups_of(w).start;
+            let contact = &system.scene.contacts[mechanics.wheels[w].contact];
+            contact.structure == structure && mechanics.groups[first].wheels.len() > 1
+        });
+        RailColumns {
+            structure,
+            gauges: gauges.map(|(g, _)| g).collect(),
+            shared: shared.collect(),
+        }
+    };
+    (0..system.foundations.len())
+        .map(of)
+        .filter(|own| !own.gauges.is_empty() || !own.shared.is_empty())
+        .collect()
 }
 
 /// All channels of a scene, in the order of each sample.
@@ -372,31 +437,6 @@ fn channels_of(system: &System) -> Vec<Channel> {
         channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
     }
     channels
-}
-
-/// The place of the rail under a wheel that shares its force with others. Their mean penetration says nothing of the rail under
-/// one of them, so that its deflection is computed like that at a gauge. `None` for a wheel of its own.
-fn gauge_under(system: &System, geometry: &Geometry, w: usize) -> Option<Gauge> {
-    let mechanics = &system.mechanics;
-    let groups = mechanics.groups_of(w);
-    if mechanics.groups[groups.start].wheels.len() == 1 {
-        return None;
-    }
-    let structure = system.scene.contacts[mechanics.wheels[w].contact].structure;
-    let under = system.probes.entries[structure].iter().filter(|entry| {
-        entry.wheel == w && entry.probe.axis == Axis::Vertical && groups.contains(&entry.element)
-    });
-    let most = under.max_by(|a, b| {
-        let share = |element: usize| geometry.fraction(element);
-        share(a.element).total_cmp(&share(b.element))
-    })?;
-    Some(Gauge {
-        structure,
-        probe: Probe {
-            x: geometry.places().x[w],
-            ..most.probe
-        },
-    })
 }
 
 /// Writes the columns of wheel `w`, whose body has its displacements in the columns `of_bodies`. The forces are left: they are

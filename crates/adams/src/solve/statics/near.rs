@@ -1,23 +1,21 @@
 //! Static equilibrium near a state whose VARIABLEs are known, such as an equilibrium of another program.
 //!
-//! The VARIABLEs are put into the expressions, and the equations are linearised there: the residuals with the best
-//! reactions say which equations do not hold, and one Newton step is the distance to the equilibrium. Further full
+//! The VARIABLEs are put into the expressions, and the equations are linearised there: one Newton step is the distance to
+//! the equilibrium, and the residuals with its reactions say which equations do not hold. Further full
 //! steps find it. Since forces and displacements are both given, no loop has to be closed first: a stiff wheel is as
 //! deep in its rail at the start as its force says. Where full steps do not converge, as where a wheel opens and closes
 //! by turns, there is no answer: the equilibrium is not near.
 
 use super::equilibrium::Equilibrium;
 use super::iterate::{Iterate, RotationMeasure, Unknown};
-use super::search::{ROUNDING, STALLED, Search, holds, scaled_size};
+use super::search::{Linearized, ROUNDING, STALLED, Search, holds, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use std::collections::BTreeSet;
 
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
-/// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
-const SINGULAR: f64 = 1e-11;
 
 /// An equation of statics that does not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,8 +44,7 @@ impl EquationResidual {
 /// How far a state is from equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imbalance {
-    /// The equations with their residuals at the state, largest scaled residual first, with the reactions that leave
-    /// the smallest residuals.
+    /// The equations with their residuals at the state, largest scaled residual first, with the reactions of the step.
     pub equations: Vec<EquationResidual>,
     /// The state after one Newton step, whose length is the distance from equilibrium to first order; `None` where the
     /// linearised equations have no solution.
@@ -68,10 +65,26 @@ impl AdamsModel {
     ) -> Result<Imbalance, Error> {
         let at = self.iterate_near(guess, given, measure)?;
         let search = Search::new(self, &at).holding(&given.held);
-        let (residual, matrix, by_held) = search.linearize_all(&at)?;
+        let all = search.linearize_all(&at)?;
         let rows = search.residual_scales(&at);
-        let rounding = search.rounding(&at, [&matrix, &by_held]);
-        let left = without_reactions(&search, &residual, &matrix, &rows);
+        let rounding = search.rounding(&at, &all);
+        let Linearized {
+            residual, matrix, ..
+        } = all;
+        let step = search
+            .factor(&at, matrix.clone(), 0.0)
+            .and_then(|factored| {
+                let step = factored.correction(&residual)?;
+                Some((step, factored.rank_deficiency()))
+            });
+        let mut left = DVector::from_column_slice(&residual);
+        if let Some((step, _)) = &step {
+            for (k, d) in step.iter().enumerate() {
+                if matches!(search.unknowns[k], Unknown::Reaction(..)) {
+                    left.axpy(*d, &matrix.column(k), 1.0);
+                }
+            }
+        }
         let mut equations: Vec<EquationResidual> = left
             .iter()
             .zip(rows.iter().zip(&rounding))
@@ -88,10 +101,6 @@ impl AdamsModel {
             })
             .collect();
         equations.sort_by(|a, b| b.scaled.total_cmp(&a.scaled));
-        let step = search.factor(&at, matrix, 0.0).and_then(|factored| {
-            let step = factored.correction(&residual)?;
-            Some((step, factored.rank_deficiency()))
-        });
         let after = step.map(|(step, undetermined)| {
             search.report(&at.after(&search.unknowns, &step, 1.0), 1, undetermined)
         });
@@ -155,11 +164,14 @@ impl Search<'_> {
     fn full_steps(&self, mut at: Iterate) -> Result<Option<Equilibrium>, Error> {
         let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
         for iterations in 1..=STEPS {
-            let Ok((residual, matrix, by_held)) = self.linearize_all(&at) else {
+            let Ok(all) = self.linearize_all(&at) else {
                 return Ok(None);
             };
             let rows = self.residual_scales(&at);
-            let rounding = self.rounding(&at, [&matrix, &by_held]);
+            let rounding = self.rounding(&at, &all);
+            let Linearized {
+                residual, matrix, ..
+            } = all;
             let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix, 0.0) else {
                 return Ok(None);
@@ -185,43 +197,6 @@ impl Search<'_> {
             at = at.after(&self.unknowns, &step, 1.0);
         }
         Ok(None)
-    }
-}
-
-/// The residuals after the reactions that make the scaled residuals as small as they can be.
-fn without_reactions(
-    search: &Search<'_>,
-    residual: &[f64],
-    matrix: &DMatrix<f64>,
-    rows: &[f64],
-) -> Vec<f64> {
-    let columns: Vec<usize> = (0..search.unknowns.len())
-        .filter(|k| matches!(search.unknowns[*k], Unknown::Reaction(..)))
-        .collect();
-    if columns.is_empty() {
-        return residual.to_vec();
-    }
-    let mut scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
-        matrix[(i, columns[j])] / rows[i]
-    });
-    // Forces and torques differ by orders of magnitude; the residuals do not depend on the units of reactions.
-    for mut column in scaled.column_iter_mut() {
-        column.try_normalize_mut(0.0);
-    }
-    let right = DVector::from_fn(residual.len(), |i, _| residual[i] / rows[i]);
-    let Some(svd) = scaled.clone().try_svd(true, true, f64::EPSILON, 10_000) else {
-        return residual.to_vec();
-    };
-    let least = SINGULAR * svd.singular_values.max();
-    match svd.solve(&right, least) {
-        Ok(reactions) => {
-            let left = right - scaled * reactions;
-            left.iter()
-                .zip(rows)
-                .map(|(left, row)| left * row)
-                .collect()
-        }
-        Err(_) => residual.to_vec(),
     }
 }
 

@@ -55,6 +55,15 @@ pub(super) fn search(
     search.run(search.closed(start))
 }
 
+/// The equations at an iterate and their derivatives.
+pub(super) struct Linearized {
+    pub residual: Vec<f64>,
+    /// By the unknowns.
+    pub matrix: DMatrix<f64>,
+    /// By the freedoms of parts that are held.
+    pub by_held: DMatrix<f64>,
+}
+
 /// Largest scaled residual of linear equations that have a solution.
 const SOLVED: f64 = 1e-6;
 /// A search and the scales of its quantities.
@@ -98,11 +107,14 @@ impl Search<'_> {
         let mut iterations = 0;
         while iterations < MOST {
             iterations += 1;
-            let (residual, matrix, by_held) = self.linearize_all(&at)?;
+            let all = self.linearize_all(&at)?;
             let rows = self.residual_scales(&at);
+            let rounding = self.rounding(&at, &all);
+            let Linearized {
+                residual, matrix, ..
+            } = all;
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
-            let rounding = self.rounding(&at, [&matrix, &by_held]);
             let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix.clone(), resistance) else {
                 break;
@@ -341,16 +353,17 @@ impl Search<'_> {
     }
 
     /// The residuals, their Jacobian, and their derivatives by the freedoms that are held.
-    pub fn linearize_all(
-        &self,
-        at: &Iterate,
-    ) -> Result<(Vec<f64>, DMatrix<f64>, DMatrix<f64>), Error> {
+    pub fn linearize_all(&self, at: &Iterate) -> Result<Linearized, Error> {
         let (count, held) = (self.unknowns.len(), self.held.len());
         let every = [&self.unknowns[..], &self.held[..]].concat();
         let (mut residual, matrix) = self.linearize(at, &every)?;
         residual.truncate(count);
         let by_held = matrix.view((0, count), (count, held)).into_owned();
-        Ok((residual, matrix.resize(count, count, 0.0), by_held))
+        Ok(Linearized {
+            residual,
+            matrix: matrix.resize(count, count, 0.0),
+            by_held,
+        })
     }
 
     /// The scale of each unknown, relative to which its steps are measured.
@@ -385,9 +398,8 @@ impl Search<'_> {
         self.unknowns.iter().zip(step).map(scale).collect()
     }
 
-    /// What rounding of the unknowns and of the freedoms that are held makes of each equation; `derivatives` are those of
-    /// [`linearize_all`](Self::linearize_all).
-    pub fn rounding(&self, at: &Iterate, [matrix, by_held]: [&DMatrix<f64>; 2]) -> Vec<f64> {
+    /// What rounding of the unknowns and of the freedoms that are held makes of each equation.
+    pub fn rounding(&self, at: &Iterate, all: &Linearized) -> Vec<f64> {
         let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
         let held = self.held.iter().map(|unknown| match unknown {
             Unknown::Rotation(..) => 1.0,
@@ -399,7 +411,9 @@ impl Search<'_> {
             terms.map(|(j, size)| (of[(i, j)] * size).abs()).sum()
         };
         (0..self.unknowns.len())
-            .map(|i| (terms(matrix, &sizes, i) + terms(by_held, &held, i)) * 8.0 * f64::EPSILON)
+            .map(|i| {
+                (terms(&all.matrix, &sizes, i) + terms(&all.by_held, &held, i)) * 8.0 * f64::EPSILON
+            })
             .collect()
     }
 
