@@ -162,6 +162,55 @@ fn products_of_inertia_turn_the_principal_axes() {
     assert!(refused(&large).contains("less than the square root"));
 }
 
+/// MSC Nastran Quick Reference Guide 2022.4, PBAR, remark 5: K1 and K2 are ignored where I12 is not 0. The same is in
+/// NASTRAN-95 (`mis/kbar.f`) and MYSTRAN (`BAR1.f90`).
+#[test]
+fn bars_with_a_product_of_inertia_are_rigid_in_shear() {
+    // a cantilever of 2 m bends by L^3 I2 / (3 E (I1 I2 - I12^2)) in plane 1
+    let unit = 1e4 * 8.0 / (3.0 * 2e11);
+    let (i1, i2, i12) = (1e-4, 2e-4, 5e-5);
+    for (factors, warnings) in [(".5,.5", 2), (".5,.8", 2), ("0.,.8", 1), (",", 0)] {
+        let text = format!(
+            "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,{factors},5.-5\n"
+        );
+        let found = moved(&text, &["GRID 2"], [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        close(found[1], unit * i2 / (i1 * i2 - i12 * i12));
+        let warned = told(&good(&text).warnings);
+        let ignored = warned.matches("is ignored, because I12 is not 0").count();
+        assert_eq!(ignored, warnings, "{factors}: {warned}");
+    }
+    // the sum of the second moments of two arms of 0.1 by 0.01 about the centroid of an angle, with I1 = I2
+    let angle = "L,,,,,\n,.1,.1,.01,.01\n";
+    let (leg, wall): (f64, f64) = (0.1, 0.01);
+    let (a, b) = (leg * wall, (leg - wall) * wall);
+    let centre = (a * leg / 2.0 + b * wall / 2.0) / (a + b);
+    let across = |y: f64, area: f64| area * (y - centre).powi(2);
+    let i = leg.powi(3) * wall / 12.0
+        + wall.powi(3) * (leg - wall) / 12.0
+        + across(leg / 2.0, a)
+        + across(wall / 2.0, b);
+    let product = a * (leg / 2.0 - centre) * (wall / 2.0 - centre)
+        + b * (wall / 2.0 - centre) * ((leg + wall) / 2.0 - centre);
+    let exact = unit * i / (i * i - product * product);
+    let of = |kind: &str| {
+        let text = format!("{STEEL}{LINE}C{kind},1,5,1,2,0.,1.,0.\nP{kind}L,5,1,,{angle}");
+        let found = moved(&text, &["GRID 2"], [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        (found[1], told(&good(&text).warnings))
+    };
+    let (bar, warned) = of("BAR");
+    close(bar, exact);
+    assert!(
+        warned.contains("has a product of inertia: its members are rigid in shear"),
+        "{warned}"
+    );
+    // beams keep their shear factors
+    let (beam, warned) = of("BEAM");
+    assert!(
+        beam > exact * (1.0 + 1e-6) && !warned.contains("rigid in shear"),
+        "{warned}"
+    );
+}
+
 #[test]
 fn neutral_axes_are_off_the_shear_centre_by_their_offset() {
     let text = format!(
