@@ -212,6 +212,75 @@ fn bars_with_a_product_of_inertia_are_rigid_in_shear() {
 }
 
 #[test]
+fn poissons_ratio_may_have_any_value_where_both_moduli_are_given() {
+    let deck_with = |material: &str| {
+        format!("{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMAT1,1,{material}\n")
+    };
+    let imported = good(&deck_with("2.+11,8.+10,16.76,7850."));
+    let material = &json(&imported)["materials"][0];
+    assert_eq!(
+        (&material["E"], &material["G"]),
+        (&value!(2e11), &value!(8e10))
+    );
+    assert!(
+        told(&imported.warnings).contains(
+            "MAT1 1: NU: must be greater than -1 and at most 0.5; it is ignored, got 16.76"
+        ),
+        "{}",
+        told(&imported.warnings)
+    );
+    for material in ["2.+11,,16.76", ",8.+10,16.76"] {
+        let wrong = refused(&deck_with(material));
+        assert!(
+            wrong.contains("MAT1 1: NU: must be greater than -1"),
+            "{wrong}"
+        );
+    }
+}
+
+/// Decks of NASTRAN-95 have blanks before the exponent, such as `10.4 +6`.
+#[test]
+fn blanks_may_stand_before_the_exponent_in_fixed_fields() {
+    let bar = "CBAR    1       5       1       2       0.      1.      0.\n\
+               PBAR    5       1       .02     1. -4   2.   -4 1. E-4\n";
+    let deck_with = |material: &str| format!("{LINE}{bar}MAT1    1       {material}\n");
+    let spec = json(&good(&deck_with("10.4 +6 4.  +6          .056")));
+    assert_eq!(spec["materials"][0]["E"], value!(1.04e7));
+    assert_eq!(spec["materials"][0]["G"], value!(4e6));
+    assert_eq!(spec["sections"][0]["Iy"], value!(2e-4));
+    assert_eq!(spec["sections"][0]["J"], value!(1e-4));
+    let wrong = refused(&deck_with("10.4  6 4.  +6"));
+    assert!(
+        wrong.contains("MAT1 1: E: must be a real number"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn positions_that_are_rounding_errors_are_zero() {
+    let text = |z: &str, area: &str| {
+        format!(
+            "{STEEL}GRID,1,,0.,0.,{z},,123456\nGRID,2,,2.,0.,0.\nCBAR,1,5,1,2,{z},1.,0.\n,,,0.,{z},0.\n\
+             PBAR,5,1,{area},1.-4,2.-4,1.-4\n"
+        )
+    };
+    let exact = good(&text("0.", ".02")).text;
+    for z in ["5.65-32", "-1.E-300"] {
+        assert_eq!(good(&text(z, ".02")).text, exact, "{z}");
+    }
+    let wrong = refused(&text("0.", "5.65-32"));
+    assert!(
+        wrong.contains("PBAR 5: A: must be 0, or between 1e-30"),
+        "{wrong}"
+    );
+    let wrong = refused(&text("1.+31", ".02"));
+    assert!(
+        wrong.contains("GRID 1: X3: must be 0, or between 1e-30"),
+        "{wrong}"
+    );
+}
+
+#[test]
 fn neutral_axes_are_off_the_shear_centre_by_their_offset() {
     let text = format!(
         "{STEEL}{LINE}CBEAM,1,5,1,2,0.,1.,0.\nPBEAM,5,1,.02,1.-4,2.-4,,1.-4\n,\n,0.,0.\n,,,,,.1,.2\n"

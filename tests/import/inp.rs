@@ -199,6 +199,34 @@ fn circles_have_the_dimension_of_their_program() {
 }
 
 #[test]
+fn coordinates_that_are_rounding_errors_are_zero() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    let text = cantilever("B31", beam);
+    let exact = good(&text).text;
+    for z in ["5.6527705662195241E-32", "-1.d-300"] {
+        let nearly = text
+            .replace("1, 0., 0., 0.", &format!("1, 0., 0., {z}"))
+            .replace("0., 0., -1.", &format!("{z}, 0., -1."));
+        assert_eq!(good(&nearly).text, exact, "{z}");
+    }
+    for (from, to, part) in [
+        (
+            "2.1e11",
+            "2.1e-31",
+            "*ELASTIC: E: must be 0, or between 1e-30",
+        ),
+        (
+            "2, 2., 0.",
+            "2, 2.e31, 0.",
+            "*NODE: x: must be 0, or between 1e-30",
+        ),
+    ] {
+        let wrong = told(&input(&text.replace(from, to), &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+}
+
+#[test]
 fn sets_of_elements_that_are_left_out_are_empty() {
     let text = second_order("B32", 1.0).replace(
         "*Material",
