@@ -176,7 +176,7 @@ fn circles_have_the_dimension_of_their_program() {
             of("B32", "0.2"),
             "must not be CIRC, because its dimension is the radius in Abaqus",
         ),
-        (of("B32R", "0.2, 0.1"), "ellipses are not supported"),
+        (of("B32R", "0.2, 0.1, 0.1"), "must have 2 dimensions"),
         (
             of("B32R", "0.2").replace("section=CIRC", "section=CIRC, offset1=0.5"),
             "OFFSET1: is not supported",
@@ -196,6 +196,43 @@ fn circles_have_the_dimension_of_their_program() {
     let centred =
         second_order("B32R", 1.0).replace("section=RECT", "section=RECT, offset1=0., offset2=0");
     assert!(input(&centred, &plain()).is_ok());
+}
+
+/// CalculiX 2.20 reads two diameters along n1 and the 2-axis: its own displacements of 20 elements of B32R are within 3 % of
+/// these, and it reads one side of a rectangle as that of a square, RECTANGULAR as RECT, each with equal digits.
+#[test]
+fn shapes_of_calculix_have_all_its_forms() {
+    let of = |shape: &str| second_order("B32R", 1.0).replace("section=RECT\n0.1, 0.3\n", shape);
+    let pi = std::f64::consts::PI;
+    let (e, g, a, b) = (2.1e11_f64, 8.4e10, 0.1_f64, 0.3_f64);
+    let ellipse = of("section=CIRC\n0.1, 0.3\n");
+    // n1 is -z, the 2-axis y; a and b are the diameters along them
+    let bend = |i: f64| 8.0 / (3.0 * e * i) + 2.0 / (0.89 * g * pi * a * b / 4.0);
+    let found = tip(&ellipse, [1.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    close(found[0], 2.0 / (e * pi * a * b / 4.0));
+    close(found[1], bend(pi * a * b.powi(3) / 64.0));
+    close(found[2], bend(pi * a.powi(3) * b / 64.0));
+    let j = pi * a.powi(3) * b.powi(3) / (16.0 * (a * a + b * b));
+    close(found[3], 2.0 / (g * j));
+    let spec = |text: &str| {
+        let spec = json(&good(text));
+        (spec["sections"].clone(), spec["cell_data"].clone())
+    };
+    assert_eq!(
+        spec(&of("section=rectangular\n0.1, 0.3\n")),
+        spec(&second_order("B32R", 1.0))
+    );
+    let square = spec(&of("section=RECT\n0.1, 0.1\n"));
+    for kind in ["B32R", "B32"] {
+        let one = of("section=RECT\n0.1\n").replace("B32R", kind);
+        assert_eq!(spec(&one), square, "{kind}");
+    }
+    // Abaqus needs both sides
+    let part = of("section=RECT\n0.1\n")
+        .replace("B32R", "B32")
+        .replace("*Heading\n", "*Preprint, echo=NO\n*Heading\n");
+    let wrong = told(&input(&part, &plain()).expect_err("one side"));
+    assert!(wrong.contains("*BEAM SECTION: b: is missing"), "{wrong}");
 }
 
 #[test]
