@@ -263,6 +263,78 @@ fn coordinates_that_are_rounding_errors_are_zero() {
     }
 }
 
+/// Abaqus Analysis User's Guide, "Springs": SPRINGA acts along the line between its nodes.
+#[test]
+fn springs_between_two_nodes_act_along_their_line() {
+    let rect = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    let spring = "*Node\n3, 2.6, 0.8, 0.\n4, 2., 5., 0.\n*Element, type=SPRINGA, elset=tie\n7, 2, 3\n8, 4, 2\n\
+                  *Spring, elset=tie\n\n2.e7\n*Boundary\n3, 1, 3\n4, 1, 3\n";
+    let text = cantilever("B33", rect) + spring;
+    // the tip has the stiffness E A / L along the beam, 3 E I / L^3 across, and that of springs along (0.6, 0.8) and (0, 1)
+    let (e, k) = (2.1e11, 2e7);
+    let along = e * 0.03 / 2.0 + 0.36 * k;
+    let across = 3.0 * e * (0.1 * 0.027 / 12.0) / 8.0 + 0.64 * k + k;
+    let both = 0.48 * k;
+    let det = along * across - both * both;
+    for text in [
+        text.clone(),
+        text.replace("\n\n2.e7", "\n2.e7"),
+        text.replace("\n\n2.e7", "\n,\n2.e7"),
+    ] {
+        let found = tip(&text, [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        close(found[1], 1e4 * along / det);
+        close(found[0], -1e4 * both / det);
+    }
+    let spec = json(&good(&text));
+    assert_eq!(
+        spec["cell_data"]["kind"],
+        value!([["beam", "truss", "truss"]])
+    );
+    assert_eq!(spec["materials"][1].get("density"), None);
+    for (from, to, part) in [
+        (
+            "elset=tie\n\n2.e7",
+            "elset=tie, nonlinear\n\n0., 0.\n2.e7, 1.",
+            "*SPRING: NONLINEAR: is not supported",
+        ),
+        (
+            "\n2.e7\n",
+            "\n2.e7,,0.\n1.e7,,99.\n3.e7,,200.\n",
+            "one stiffness",
+        ),
+        ("*Spring, elset=tie\n\n2.e7\n", "", "must have a stiffness"),
+        (
+            "3, 2.6, 0.8, 0.",
+            "3, 2., 0., 0.",
+            "must have a positive length",
+        ),
+        (
+            "*Boundary\n3",
+            "*Spring, elset=tie\n\n1.e7\n*Boundary\n3",
+            "must not assign a second stiffness",
+        ),
+        (
+            "type=SPRINGA, elset=tie\n7, 2, 3\n8, 4, 2",
+            "type=SPRING1, elset=tie\n7, 2",
+            "must have a degree of freedom from 1 to 6",
+        ),
+    ] {
+        let wrong = told(&input(&text.replacen(from, to, 1), &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+    let options = ImportOptions {
+        length: Some(Length::Metre),
+        sections: Some(Source {
+            name: "sections.json".to_owned(),
+            text: self::text("meshes/portal.json"),
+        }),
+        ..ImportOptions::default()
+    };
+    let mesh = "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT,TYPE=SPRINGA,ELSET=girder\n1,1,2\n";
+    let wrong = told(&input(mesh, &options).expect_err("a spring with --sections"));
+    assert!(wrong.contains("must not be SPRINGA"), "{wrong}");
+}
+
 #[test]
 fn sets_of_elements_that_are_left_out_are_empty() {
     let text = second_order("B32", 1.0).replace(

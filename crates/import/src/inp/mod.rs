@@ -87,6 +87,15 @@ pub fn read_mesh(
         );
         findings.error(finding.hint("omit --sections: the file contains its own sections"));
     }
+    if let Some(element) = model
+        .elements
+        .values()
+        .find(|element| element.kind == InpKind::AxialSpring)
+    {
+        let expected = "must not be SPRINGA in a file that is read with --sections";
+        let finding = ImportFinding::new(element.at, "*ELEMENT: TYPE", expected);
+        findings.error(finding.hint("omit --sections and assign sections in the file"));
+    }
     if findings.has_errors() {
         return Ok(empty);
     }

@@ -22,10 +22,23 @@ pub enum InpKind {
     Truss,
     /// A spring to ground.
     Spring,
+    /// A spring along the line between two nodes.
+    AxialSpring,
     /// A point mass.
     Mass,
     /// Rotary inertia of a point.
     Rotary,
+}
+
+impl InpKind {
+    /// Whether it becomes a member.
+    #[must_use]
+    pub fn is_member(self) -> bool {
+        matches!(
+            self,
+            InpKind::Beam { .. } | InpKind::Truss | InpKind::AxialSpring
+        )
+    }
 }
 
 /// An element.
@@ -59,7 +72,7 @@ pub struct InpMaterial {
 pub struct SetValues {
     /// The name of the set.
     pub set: InpField,
-    /// The values: degree of freedom and stiffness, mass, or moments of inertia.
+    /// The values: degree of freedom (0 if none is stated) and stiffness, mass, or moments of inertia.
     pub values: Vec<f64>,
 }
 
@@ -235,28 +248,7 @@ impl InpModel {
             "RIGID BODY" => self.read_rigid_body(block, findings),
             "MPC" => self.read_mpc(block, findings),
             "RELEASE" => self.read_release(block, findings),
-            "SPRING" => {
-                let dof = block
-                    .data
-                    .first()
-                    .and_then(|line| whole(block, line, 0, "degree of freedom", findings));
-                let k = block
-                    .data
-                    .get(1)
-                    .and_then(|line| positive(block, line, 0, "stiffness", findings));
-                match (block.required("ELSET", findings), dof, k) {
-                    (Some(set), Some(dof @ 1..=6), Some(k)) => {
-                        self.springs.push(SetValues {
-                            set: set.clone(),
-                            values: vec![dof as f64, k],
-                        });
-                    }
-                    _ => {
-                        let expected = "must have a degree of freedom from 1 to 6 and, on the next line, a stiffness";
-                        findings.error(ImportFinding::new(block.at, block.label(), expected));
-                    }
-                }
-            }
+            "SPRING" => self.read_spring(block, findings),
             "MASS" | "ROTARY INERTIA" => self.read_mass(block, findings),
             "PART" => {}
             "INSTANCE" => {
@@ -272,6 +264,41 @@ impl InpModel {
             _ => return false,
         }
         true
+    }
+
+    /// Reads the degree of freedom and the stiffness of springs. The first line is blank, and is then left out of the data,
+    /// for springs along the line between their nodes.
+    fn read_spring(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
+        if let Some(parameter) = block.parameter("NONLINEAR") {
+            let about = format!("{}: NONLINEAR", block.label());
+            let finding = ImportFinding::new(parameter.at, about, "is not supported");
+            findings.error(finding.hint("state the stiffness of a linear spring"));
+            return;
+        }
+        let (dof, stiffness) = match block.data.as_slice() {
+            [stiffness] => (Some(0), Some(stiffness)),
+            [first, stiffness] if first.iter().all(|field| field.text.is_empty()) => {
+                (Some(0), Some(stiffness))
+            }
+            [first, stiffness] => (
+                whole(block, first, 0, "degree of freedom", findings),
+                Some(stiffness),
+            ),
+            _ => (None, None),
+        };
+        let k = stiffness.and_then(|line| positive(block, line, 0, "stiffness", findings));
+        match (block.required("ELSET", findings), dof, k) {
+            (Some(set), Some(dof @ 0..=6), Some(k)) => self.springs.push(SetValues {
+                set: set.clone(),
+                values: vec![dof as f64, k],
+            }),
+            _ => {
+                let expected = "must have a degree of freedom from 1 to 6 and, on the next line, one stiffness";
+                let hint = "the degree of freedom is blank for SPRINGA; stiffnesses that depend on temperature are not \
+                            supported";
+                findings.error(ImportFinding::new(block.at, block.label(), expected).hint(hint));
+            }
+        }
     }
 
     fn read_nodes(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
@@ -330,6 +357,7 @@ impl InpModel {
             "T3D2" | "T3D2H" => (InpKind::Truss, 2, 2),
             "T3D3" | "T3D3H" => (InpKind::Truss, 3, 3),
             "SPRING1" => (InpKind::Spring, 1, 1),
+            "SPRINGA" => (InpKind::AxialSpring, 2, 2),
             "MASS" => (InpKind::Mass, 1, 1),
             "ROTARYI" => (InpKind::Rotary, 1, 1),
             _ => {

@@ -111,7 +111,7 @@ pub fn advice(name: &str) -> &'static str {
             "shells and membranes are not supported"
         }
         "CONNECTOR SECTION" | "CONNECTOR BEHAVIOR" | "CONNECTOR ELASTICITY" => {
-            "supported springs are SPRING1"
+            "supported springs are SPRING1 and SPRINGA"
         }
         "BEAM SECTION OFFSET" | "BEAM ADDED INERTIA" | "BEAM FLUID INERTIA" => {
             "the nodes of beams must be on their centroidal axes"
