@@ -438,13 +438,13 @@ fn rods_may_be_two_on_a_card_and_tubes_are_rods() {
 #[test]
 fn cards_that_cannot_change_statics_are_left_out_on_request_and_listed() {
     let deck_text = format!(
-        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMAT4,1,200.\nDESVAR,1,A,1.\nDESVAR,2,B,1.\n\
+        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMATT2,1,200\nDESVAR,1,A,1.\nDESVAR,2,B,1.\n\
          SUPORT,2,1\nAERO,,1.,1.,1.\nSPLINE1,1,1,1,1,1\nCDAMP2,3,1.,2,1\nMDLPRM,HDF5,0\nSPC,1,2,3,.5\n"
     );
     let wrong = refused(&deck_text);
     for part in [
         "DESVAR: is not supported (2 cards)",
-        "MAT4",
+        "MATT2",
         "SUPORT",
         "ignore it with --skip-unused",
         "SPC 1: D",
@@ -490,6 +490,31 @@ fn cards_that_cannot_change_statics_are_left_out_on_request_and_listed() {
         )
     };
     assert!(selected("").is_ok() && selected("MPC=1\n").is_err());
+}
+
+#[test]
+fn materials_of_heat_transfer_are_left_out_like_loads() {
+    let bar = format!("{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n");
+    let heat = "MAT4,1,200.\nMAT4,2,100.\nMAT5,3,200.\nMATT4,1,9\n";
+    let imported = good(&format!("{STEEL}{bar}{heat}"));
+    let warned = told(&imported.warnings);
+    for part in [
+        "MAT4: is ignored (2 cards)",
+        "MAT5: is ignored (1 card)",
+        "MATT4: is ignored",
+    ] {
+        assert!(warned.contains(part), "{part}: {warned}");
+    }
+    assert_eq!(
+        json(&imported)["materials"].as_array().map(Vec::len),
+        Some(1)
+    );
+    // they are no materials of members
+    let wrong = refused(&format!("{bar}{heat}"));
+    assert!(
+        wrong.contains("must be the number of a MAT1, got 1"),
+        "{wrong}"
+    );
 }
 
 #[test]

@@ -336,6 +336,29 @@ fn springs_between_two_nodes_act_along_their_line() {
 }
 
 #[test]
+fn supports_of_temperatures_are_left_out_like_loads() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
+    let model = cantilever("B31", beam);
+    let wanted = good(&model).text;
+    for more in [
+        "*Boundary\n1, 11, 11, 25.\n2, 11, , 25.\n",
+        "*Step\n*Static\n*End Step\n*Step\n*Static\n*Boundary\n1, 11, 11, 25.\n*End Step\n",
+    ] {
+        let imported = good(&format!("{model}{more}"));
+        assert_eq!(imported.text, wanted, "{more}");
+        let warned = told(&imported.warnings);
+        assert!(
+            warned.contains("*BOUNDARY: is ignored at degrees of freedom from 11 on"),
+            "{warned}"
+        );
+    }
+    for more in ["*Boundary\n2, 1, 11\n", "*Boundary\n2, 8, 8\n"] {
+        let wrong = told(&input(&format!("{model}{more}"), &plain()).expect_err(more));
+        assert!(wrong.contains("degrees of freedom from 1 to 6"), "{wrong}");
+    }
+}
+
+#[test]
 fn sets_of_elements_that_are_left_out_are_empty() {
     let text = second_order("B32", 1.0).replace(
         "*Material",
