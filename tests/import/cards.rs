@@ -281,6 +281,37 @@ fn positions_that_are_rounding_errors_are_zero() {
 }
 
 #[test]
+fn a_deck_without_members_names_its_elements() {
+    let skip = ImportOptions {
+        skip: vec!["CQUAD4".to_owned()],
+        ..plain()
+    };
+    let text = format!(
+        "{LINE}CQUAD4,1,1,1,2,3,4\nCQUAD4,2,1,1,2,3,4\nCONM2,3,2,,5.\nCORD2R,9,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+    );
+    let wrong = told(&deck(&text, &skip).expect_err("no members"));
+    assert!(
+        wrong.contains("contains no members; its elements are CONM2 (1), CQUAD4 (2)"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn springs_of_scalar_points_are_refused_by_name() {
+    let bar = format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n");
+    for spring in ["CELAS2,7,1.+5,2,0", "CELAS2,7,1.+5,2"] {
+        let wrong = refused(&format!("{bar}{spring}\n"));
+        assert!(
+            wrong.contains("CELAS2 7: C: must be a single digit from 1 to 6")
+                && wrong.contains("scalar point, which is not supported"),
+            "{wrong}"
+        );
+    }
+    let wrong = refused(&format!("{bar}CELAS2,7,1.+5,2,12\n"));
+    assert!(!wrong.contains("scalar point"), "{wrong}");
+}
+
+#[test]
 fn neutral_axes_are_off_the_shear_centre_by_their_offset() {
     let text = format!(
         "{STEEL}{LINE}CBEAM,1,5,1,2,0.,1.,0.\nPBEAM,5,1,.02,1.-4,2.-4,,1.-4\n,\n,0.,0.\n,,,,,.1,.2\n"

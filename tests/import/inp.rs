@@ -359,6 +359,30 @@ fn supports_of_temperatures_are_left_out_like_loads() {
 }
 
 #[test]
+fn a_file_without_members_names_its_elements_and_normals_are_said_to_turn_them() {
+    let skip = ImportOptions {
+        skip: vec!["S4".to_owned()],
+        ..plain()
+    };
+    let text = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT,TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n\
+                *ELEMENT,TYPE=MASS,ELSET=m\n9,1\n*MASS,ELSET=m\n5.\n";
+    let wrong = told(&input(text, &skip).expect_err("no members"));
+    assert!(
+        wrong.contains("contains no members; its elements are MASS (1), S4 (2)"),
+        "{wrong}"
+    );
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
+    let text = cantilever("B31", beam) + "*Normal\n1, 1, 0., 1., 0.\n";
+    let wrong = told(&input(&text, &plain()).expect_err("a normal"));
+    assert!(
+        wrong.contains("the normal turns the sections of beams at its nodes")
+            && wrong.contains("--skip NORMAL changes the model")
+            && !wrong.contains("if it can be ignored"),
+        "{wrong}"
+    );
+}
+
+#[test]
 fn sets_of_elements_that_are_left_out_are_empty() {
     let text = second_order("B32", 1.0).replace(
         "*Material",

@@ -81,6 +81,13 @@ pub fn role(name: &str) -> Option<CardRole> {
     }
 }
 
+/// Whether a card is an element that is not a member.
+#[must_use]
+pub fn is_other_element(name: &str) -> bool {
+    let is_member = matches!(name, "CBAR" | "CBEAM" | "CROD" | "CTUBE" | "CONROD");
+    name.starts_with('C') && !name.starts_with("CORD") && !is_member && role(name).is_none()
+}
+
 /// Whether a card that may be left out has mass, so that its omission changes natural frequencies and inertia.
 #[must_use]
 pub fn has_mass(name: &str) -> bool {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::keyword::{InpField, KeywordBlock};
-use super::roles::{KeywordRole, advice, role};
+use super::roles::{KeywordRole, advice, loss, role};
 use super::section::{self, InpOrigin, InpSection};
 use super::sets::InpSets;
 use super::values::{key_of, positive, real, vector, whole};
@@ -125,6 +125,8 @@ pub struct InpModel {
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Elements.
     pub elements: BTreeMap<u64, InpElement>,
+    /// Number of elements of each type that is not a member, of those that are left out too.
+    pub others: BTreeMap<String, usize>,
     /// Sets of nodes.
     pub node_sets: InpSets,
     /// Sets of elements.
@@ -199,6 +201,8 @@ impl InpModel {
                 format!(
                     "it does not affect the stiffness: ignore it with --skip-unused or --skip \"{word}\""
                 )
+            } else if let Some(loss) = loss(word) {
+                format!("{}; {loss}", advice(word))
             } else {
                 format!(
                     "{}; if it can be ignored, add --skip \"{word}\"",
@@ -361,12 +365,16 @@ impl InpModel {
             "MASS" => (InpKind::Mass, 1, 1),
             "ROTARYI" => (InpKind::Rotary, 1, 1),
             _ => {
+                *self.others.entry(word.clone()).or_insert(0) += block.data.len();
                 if !omit.skips(&word) {
                     unknown.entry(word).or_insert((block.at, 0)).1 += block.data.len();
                 }
                 return;
             }
         };
+        if !kind.is_member() {
+            *self.others.entry(word.clone()).or_insert(0) += block.data.len();
+        }
         let has_middle = word.starts_with("B32") || word.starts_with("T3D3");
         for line in &block.data {
             let Some(number) = whole(block, line, 0, "element", findings) else {

@@ -10,7 +10,7 @@ use super::keyword::InpField;
 use super::model::{InpElement, InpKind, InpModel, Joint};
 use super::values::number_of;
 use crate::axes::LocalAxes;
-use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings, no_members};
 use crate::halves::{check_straight, push_halves};
 use crate::links::{self, PartialLink};
 use crate::structure::{
@@ -121,7 +121,7 @@ impl Resolver<'_, '_> {
                 line: 1,
                 column: 1,
             };
-            let finding = ImportFinding::new(at, "", "contains no members");
+            let finding = ImportFinding::new(at, "", no_members(&model.others));
             self.findings
                 .error(finding.hint("supported members are B31, B32, B33, T3D2, T3D3 and SPRINGA"));
         }
