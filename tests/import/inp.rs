@@ -322,17 +322,6 @@ fn springs_between_two_nodes_act_along_their_line() {
         let wrong = told(&input(&text.replacen(from, to, 1), &plain()).expect_err(part));
         assert!(wrong.contains(part), "{part}: {wrong}");
     }
-    let options = ImportOptions {
-        length: Some(Length::Metre),
-        sections: Some(Source {
-            name: "sections.json".to_owned(),
-            text: self::text("meshes/portal.json"),
-        }),
-        ..ImportOptions::default()
-    };
-    let mesh = "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT,TYPE=SPRINGA,ELSET=girder\n1,1,2\n";
-    let wrong = told(&input(mesh, &options).expect_err("a spring with --sections"));
-    assert!(wrong.contains("must not be SPRINGA"), "{wrong}");
 }
 
 #[test]
@@ -679,6 +668,47 @@ fn files_of_gmsh_and_meshio_need_sections_by_the_names_of_their_sets() {
         );
         let wrong = told(&read(&plain()).expect_err("no sections"));
         assert!(wrong.contains("--sections"), "{file}: {wrong}");
+    }
+}
+
+#[test]
+fn a_file_read_with_a_sections_file_loses_nothing_silently() {
+    let options = |skip: &[&str]| ImportOptions {
+        length: Some(Length::Millimetre),
+        up: Some([0.0, 0.0, 1.0]),
+        sections: Some(Source {
+            name: "sections.json".to_owned(),
+            text: text("meshes/portal.json").replace("runway girder", "girder"),
+        }),
+        skip: skip.iter().map(|name| (*name).to_owned()).collect(),
+        ..ImportOptions::default()
+    };
+    let lines = text("meshes/meshio.inp");
+    let lines = lines.trim_end();
+    for (more, name, skip) in [
+        ("*BOUNDARY\n1, 1, 6\n", "*BOUNDARY", &["BOUNDARY"][..]),
+        ("*MPC\nBEAM, 1, 2\n", "*MPC or *RIGID BODY", &["MPC"]),
+        ("*RELEASE\n1, S1, M1\n", "*RELEASE", &["RELEASE"]),
+        (
+            "*ELEMENT, TYPE=SPRING1, ELSET=s\n901, 1\n*SPRING, ELSET=s\n3\n1.e6\n",
+            "SPRING1",
+            &["SPRING1", "SPRING"],
+        ),
+        (
+            "*ELEMENT, TYPE=SPRINGA, ELSET=s\n901, 1, 2\n",
+            "SPRINGA",
+            &["SPRINGA"],
+        ),
+        ("*ELEMENT, TYPE=MASS, ELSET=s\n901, 1\n", "MASS", &["MASS"]),
+    ] {
+        let whole = format!("{lines}\n{more}");
+        let wrong = told(&input(&whole, &options(&[])).expect_err(more));
+        let expected = format!("{name}: is not supported in a file that is read with --sections");
+        assert!(wrong.contains(&expected), "{more}: {wrong}");
+        let taken = input(&whole, &options(skip))
+            .map(|_| ())
+            .map_err(|wrong| told(&wrong));
+        assert_eq!(taken, Ok(()), "{more}");
     }
 }
 

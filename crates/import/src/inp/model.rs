@@ -125,7 +125,7 @@ pub struct InpModel {
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Elements.
     pub elements: BTreeMap<u64, InpElement>,
-    /// Number of elements of each type that is not a member, of those that are left out too.
+    /// Number of elements of each type that is not a member or is left out.
     pub others: BTreeMap<String, usize>,
     /// Sets of nodes.
     pub node_sets: InpSets,
@@ -353,6 +353,10 @@ impl InpModel {
         if let Some(set) = &set {
             self.element_sets.define(set);
         }
+        if omit.skips(&word) {
+            *self.others.entry(word).or_insert(0) += block.data.len();
+            return;
+        }
         let sheared = InpKind::Beam { sheared: true };
         let (kind, least, most) = match word.as_str() {
             "B31" | "B31H" | "B31R" => (sheared, 2, 3),
@@ -366,9 +370,7 @@ impl InpModel {
             "ROTARYI" => (InpKind::Rotary, 1, 1),
             _ => {
                 *self.others.entry(word.clone()).or_insert(0) += block.data.len();
-                if !omit.skips(&word) {
-                    unknown.entry(word).or_insert((block.at, 0)).1 += block.data.len();
-                }
+                unknown.entry(word).or_insert((block.at, 0)).1 += block.data.len();
                 return;
             }
         };
