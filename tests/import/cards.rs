@@ -162,6 +162,155 @@ fn products_of_inertia_turn_the_principal_axes() {
     assert!(refused(&large).contains("less than the square root"));
 }
 
+/// MSC Nastran Quick Reference Guide 2022.4, PBAR, remark 5: K1 and K2 are ignored where I12 is not 0. The same is in
+/// NASTRAN-95 (`mis/kbar.f`) and MYSTRAN (`BAR1.f90`).
+#[test]
+fn bars_with_a_product_of_inertia_are_rigid_in_shear() {
+    // a cantilever of 2 m bends by L^3 I2 / (3 E (I1 I2 - I12^2)) in plane 1
+    let unit = 1e4 * 8.0 / (3.0 * 2e11);
+    let (i1, i2, i12) = (1e-4, 2e-4, 5e-5);
+    for (factors, warnings) in [(".5,.5", 2), (".5,.8", 2), ("0.,.8", 1), (",", 0)] {
+        let text = format!(
+            "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n,\n,{factors},5.-5\n"
+        );
+        let found = moved(&text, &["GRID 2"], [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        close(found[1], unit * i2 / (i1 * i2 - i12 * i12));
+        let warned = told(&good(&text).warnings);
+        let ignored = warned.matches("is ignored, because I12 is not 0").count();
+        assert_eq!(ignored, warnings, "{factors}: {warned}");
+    }
+    // the sum of the second moments of two arms of 0.1 by 0.01 about the centroid of an angle, with I1 = I2
+    let angle = "L,,,,,\n,.1,.1,.01,.01\n";
+    let (leg, wall): (f64, f64) = (0.1, 0.01);
+    let (a, b) = (leg * wall, (leg - wall) * wall);
+    let centre = (a * leg / 2.0 + b * wall / 2.0) / (a + b);
+    let across = |y: f64, area: f64| area * (y - centre).powi(2);
+    let i = leg.powi(3) * wall / 12.0
+        + wall.powi(3) * (leg - wall) / 12.0
+        + across(leg / 2.0, a)
+        + across(wall / 2.0, b);
+    let product = a * (leg / 2.0 - centre) * (wall / 2.0 - centre)
+        + b * (wall / 2.0 - centre) * ((leg + wall) / 2.0 - centre);
+    let exact = unit * i / (i * i - product * product);
+    let of = |kind: &str| {
+        let text = format!("{STEEL}{LINE}C{kind},1,5,1,2,0.,1.,0.\nP{kind}L,5,1,,{angle}");
+        let found = moved(&text, &["GRID 2"], [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        (found[1], told(&good(&text).warnings))
+    };
+    let (bar, warned) = of("BAR");
+    close(bar, exact);
+    assert!(
+        warned.contains("has a product of inertia: its members are rigid in shear"),
+        "{warned}"
+    );
+    // beams keep their shear factors
+    let (beam, warned) = of("BEAM");
+    assert!(
+        beam > exact * (1.0 + 1e-6) && !warned.contains("rigid in shear"),
+        "{warned}"
+    );
+}
+
+#[test]
+fn poissons_ratio_may_have_any_value_where_both_moduli_are_given() {
+    let deck_with = |material: &str| {
+        format!("{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMAT1,1,{material}\n")
+    };
+    let imported = good(&deck_with("2.+11,8.+10,16.76,7850."));
+    let material = &json(&imported)["materials"][0];
+    assert_eq!(
+        (&material["E"], &material["G"]),
+        (&value!(2e11), &value!(8e10))
+    );
+    assert!(
+        told(&imported.warnings).contains(
+            "MAT1 1: NU: must be greater than -1 and at most 0.5; it is ignored, got 16.76"
+        ),
+        "{}",
+        told(&imported.warnings)
+    );
+    for material in ["2.+11,,16.76", ",8.+10,16.76"] {
+        let wrong = refused(&deck_with(material));
+        assert!(
+            wrong.contains("MAT1 1: NU: must be greater than -1"),
+            "{wrong}"
+        );
+    }
+}
+
+/// Decks of NASTRAN-95 have blanks before the exponent, such as `10.4 +6`.
+#[test]
+fn blanks_may_stand_before_the_exponent_in_fixed_fields() {
+    let bar = "CBAR    1       5       1       2       0.      1.      0.\n\
+               PBAR    5       1       .02     1. -4   2.   -4 1. E-4\n";
+    let deck_with = |material: &str| format!("{LINE}{bar}MAT1    1       {material}\n");
+    let spec = json(&good(&deck_with("10.4 +6 4.  +6          .056")));
+    assert_eq!(spec["materials"][0]["E"], value!(1.04e7));
+    assert_eq!(spec["materials"][0]["G"], value!(4e6));
+    assert_eq!(spec["sections"][0]["Iy"], value!(2e-4));
+    assert_eq!(spec["sections"][0]["J"], value!(1e-4));
+    let wrong = refused(&deck_with("10.4  6 4.  +6"));
+    assert!(
+        wrong.contains("MAT1 1: E: must be a real number"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn positions_that_are_rounding_errors_are_zero() {
+    let text = |z: &str, area: &str| {
+        format!(
+            "{STEEL}GRID,1,,0.,0.,{z},,123456\nGRID,2,,2.,0.,0.\nCBAR,1,5,1,2,{z},1.,0.\n,,,0.,{z},0.\n\
+             PBAR,5,1,{area},1.-4,2.-4,1.-4\n"
+        )
+    };
+    let exact = good(&text("0.", ".02")).text;
+    for z in ["5.65-32", "-1.E-300"] {
+        assert_eq!(good(&text(z, ".02")).text, exact, "{z}");
+    }
+    let wrong = refused(&text("0.", "5.65-32"));
+    assert!(
+        wrong.contains("PBAR 5: A: must be 0, or between 1e-30"),
+        "{wrong}"
+    );
+    let wrong = refused(&text("1.+31", ".02"));
+    assert!(
+        wrong.contains("GRID 1: X3: must be 0, or between 1e-30"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn a_deck_without_members_names_its_elements() {
+    let skip = ImportOptions {
+        skip: vec!["CQUAD4".to_owned()],
+        ..plain()
+    };
+    let text = format!(
+        "{LINE}CQUAD4,1,1,1,2,3,4\nCQUAD4,2,1,1,2,3,4\nCONM2,3,2,,5.\nCORD2R,9,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+    );
+    let wrong = told(&deck(&text, &skip).expect_err("no members"));
+    assert!(
+        wrong.contains("contains no members; its elements are CONM2 (1), CQUAD4 (2)"),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn springs_of_scalar_points_are_refused_by_name() {
+    let bar = format!("{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n");
+    for spring in ["CELAS2,7,1.+5,2,0", "CELAS2,7,1.+5,2"] {
+        let wrong = refused(&format!("{bar}{spring}\n"));
+        assert!(
+            wrong.contains("CELAS2 7: C: must be a single digit from 1 to 6")
+                && wrong.contains("scalar point, which is not supported"),
+            "{wrong}"
+        );
+    }
+    let wrong = refused(&format!("{bar}CELAS2,7,1.+5,2,12\n"));
+    assert!(!wrong.contains("scalar point"), "{wrong}");
+}
+
 #[test]
 fn neutral_axes_are_off_the_shear_centre_by_their_offset() {
     let text = format!(
@@ -320,13 +469,13 @@ fn rods_may_be_two_on_a_card_and_tubes_are_rods() {
 #[test]
 fn cards_that_cannot_change_statics_are_left_out_on_request_and_listed() {
     let deck_text = format!(
-        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMAT4,1,200.\nDESVAR,1,A,1.\nDESVAR,2,B,1.\n\
+        "{STEEL}{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nMATT2,1,200\nDESVAR,1,A,1.\nDESVAR,2,B,1.\n\
          SUPORT,2,1\nAERO,,1.,1.,1.\nSPLINE1,1,1,1,1,1\nCDAMP2,3,1.,2,1\nMDLPRM,HDF5,0\nSPC,1,2,3,.5\n"
     );
     let wrong = refused(&deck_text);
     for part in [
         "DESVAR: is not supported (2 cards)",
-        "MAT4",
+        "MATT2",
         "SUPORT",
         "ignore it with --skip-unused",
         "SPC 1: D",
@@ -372,6 +521,31 @@ fn cards_that_cannot_change_statics_are_left_out_on_request_and_listed() {
         )
     };
     assert!(selected("").is_ok() && selected("MPC=1\n").is_err());
+}
+
+#[test]
+fn materials_of_heat_transfer_are_left_out_like_loads() {
+    let bar = format!("{LINE}CBAR,1,5,1,2,0.,1.,0.\nPBAR,5,1,.02,1.-4,2.-4,1.-4\n");
+    let heat = "MAT4,1,200.\nMAT4,2,100.\nMAT5,3,200.\nMATT4,1,9\n";
+    let imported = good(&format!("{STEEL}{bar}{heat}"));
+    let warned = told(&imported.warnings);
+    for part in [
+        "MAT4: is ignored (2 cards)",
+        "MAT5: is ignored (1 card)",
+        "MATT4: is ignored",
+    ] {
+        assert!(warned.contains(part), "{part}: {warned}");
+    }
+    assert_eq!(
+        json(&imported)["materials"].as_array().map(Vec::len),
+        Some(1)
+    );
+    // they are no materials of members
+    let wrong = refused(&format!("{bar}{heat}"));
+    assert!(
+        wrong.contains("must be the number of a MAT1, got 1"),
+        "{wrong}"
+    );
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn circles_have_the_dimension_of_their_program() {
             of("B32", "0.2"),
             "must not be CIRC, because its dimension is the radius in Abaqus",
         ),
-        (of("B32R", "0.2, 0.1"), "ellipses are not supported"),
+        (of("B32R", "0.2, 0.1, 0.1"), "must have 2 dimensions"),
         (
             of("B32R", "0.2").replace("section=CIRC", "section=CIRC, offset1=0.5"),
             "OFFSET1: is not supported",
@@ -196,6 +196,179 @@ fn circles_have_the_dimension_of_their_program() {
     let centred =
         second_order("B32R", 1.0).replace("section=RECT", "section=RECT, offset1=0., offset2=0");
     assert!(input(&centred, &plain()).is_ok());
+}
+
+/// CalculiX 2.20 reads two diameters along n1 and the 2-axis: its own displacements of 20 elements of B32R are within 3 % of
+/// these, and it reads one side of a rectangle as that of a square, RECTANGULAR as RECT, each with equal digits.
+#[test]
+fn shapes_of_calculix_have_all_its_forms() {
+    let of = |shape: &str| second_order("B32R", 1.0).replace("section=RECT\n0.1, 0.3\n", shape);
+    let pi = std::f64::consts::PI;
+    let (e, g, a, b) = (2.1e11_f64, 8.4e10, 0.1_f64, 0.3_f64);
+    let ellipse = of("section=CIRC\n0.1, 0.3\n");
+    // n1 is -z, the 2-axis y; a and b are the diameters along them
+    let bend = |i: f64| 8.0 / (3.0 * e * i) + 2.0 / (0.89 * g * pi * a * b / 4.0);
+    let found = tip(&ellipse, [1.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    close(found[0], 2.0 / (e * pi * a * b / 4.0));
+    close(found[1], bend(pi * a * b.powi(3) / 64.0));
+    close(found[2], bend(pi * a.powi(3) * b / 64.0));
+    let j = pi * a.powi(3) * b.powi(3) / (16.0 * (a * a + b * b));
+    close(found[3], 2.0 / (g * j));
+    let spec = |text: &str| {
+        let spec = json(&good(text));
+        (spec["sections"].clone(), spec["cell_data"].clone())
+    };
+    assert_eq!(
+        spec(&of("section=rectangular\n0.1, 0.3\n")),
+        spec(&second_order("B32R", 1.0))
+    );
+    let square = spec(&of("section=RECT\n0.1, 0.1\n"));
+    for kind in ["B32R", "B32"] {
+        let one = of("section=RECT\n0.1\n").replace("B32R", kind);
+        assert_eq!(spec(&one), square, "{kind}");
+    }
+    // Abaqus needs both sides
+    let part = of("section=RECT\n0.1\n")
+        .replace("B32R", "B32")
+        .replace("*Heading\n", "*Preprint, echo=NO\n*Heading\n");
+    let wrong = told(&input(&part, &plain()).expect_err("one side"));
+    assert!(wrong.contains("*BEAM SECTION: b: is missing"), "{wrong}");
+}
+
+#[test]
+fn coordinates_that_are_rounding_errors_are_zero() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    let text = cantilever("B31", beam);
+    let exact = good(&text).text;
+    for z in ["5.6527705662195241E-32", "-1.d-300"] {
+        let nearly = text
+            .replace("1, 0., 0., 0.", &format!("1, 0., 0., {z}"))
+            .replace("0., 0., -1.", &format!("{z}, 0., -1."));
+        assert_eq!(good(&nearly).text, exact, "{z}");
+    }
+    for (from, to, part) in [
+        (
+            "2.1e11",
+            "2.1e-31",
+            "*ELASTIC: E: must be 0, or between 1e-30",
+        ),
+        (
+            "2, 2., 0.",
+            "2, 2.e31, 0.",
+            "*NODE: x: must be 0, or between 1e-30",
+        ),
+    ] {
+        let wrong = told(&input(&text.replace(from, to), &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+}
+
+/// Abaqus Analysis User's Guide, "Springs": SPRINGA acts along the line between its nodes.
+#[test]
+fn springs_between_two_nodes_act_along_their_line() {
+    let rect = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    let spring = "*Node\n3, 2.6, 0.8, 0.\n4, 2., 5., 0.\n*Element, type=SPRINGA, elset=tie\n7, 2, 3\n8, 4, 2\n\
+                  *Spring, elset=tie\n\n2.e7\n*Boundary\n3, 1, 3\n4, 1, 3\n";
+    let text = cantilever("B33", rect) + spring;
+    // the tip has the stiffness E A / L along the beam, 3 E I / L^3 across, and that of springs along (0.6, 0.8) and (0, 1)
+    let (e, k) = (2.1e11, 2e7);
+    let along = e * 0.03 / 2.0 + 0.36 * k;
+    let across = 3.0 * e * (0.1 * 0.027 / 12.0) / 8.0 + 0.64 * k + k;
+    let both = 0.48 * k;
+    let det = along * across - both * both;
+    for text in [
+        text.clone(),
+        text.replace("\n\n2.e7", "\n2.e7"),
+        text.replace("\n\n2.e7", "\n,\n2.e7"),
+    ] {
+        let found = tip(&text, [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+        close(found[1], 1e4 * along / det);
+        close(found[0], -1e4 * both / det);
+    }
+    let spec = json(&good(&text));
+    assert_eq!(
+        spec["cell_data"]["kind"],
+        value!([["beam", "truss", "truss"]])
+    );
+    assert_eq!(spec["materials"][1].get("density"), None);
+    for (from, to, part) in [
+        (
+            "elset=tie\n\n2.e7",
+            "elset=tie, nonlinear\n\n0., 0.\n2.e7, 1.",
+            "*SPRING: NONLINEAR: is not supported",
+        ),
+        (
+            "\n2.e7\n",
+            "\n2.e7,,0.\n1.e7,,99.\n3.e7,,200.\n",
+            "one stiffness",
+        ),
+        ("*Spring, elset=tie\n\n2.e7\n", "", "must have a stiffness"),
+        (
+            "3, 2.6, 0.8, 0.",
+            "3, 2., 0., 0.",
+            "must have a positive length",
+        ),
+        (
+            "*Boundary\n3",
+            "*Spring, elset=tie\n\n1.e7\n*Boundary\n3",
+            "must not assign a second stiffness",
+        ),
+        (
+            "type=SPRINGA, elset=tie\n7, 2, 3\n8, 4, 2",
+            "type=SPRING1, elset=tie\n7, 2",
+            "must have a degree of freedom from 1 to 6",
+        ),
+    ] {
+        let wrong = told(&input(&text.replacen(from, to, 1), &plain()).expect_err(part));
+        assert!(wrong.contains(part), "{part}: {wrong}");
+    }
+}
+
+#[test]
+fn supports_of_temperatures_are_left_out_like_loads() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
+    let model = cantilever("B31", beam);
+    let wanted = good(&model).text;
+    for more in [
+        "*Boundary\n1, 11, 11, 25.\n2, 11, , 25.\n",
+        "*Step\n*Static\n*End Step\n*Step\n*Static\n*Boundary\n1, 11, 11, 25.\n*End Step\n",
+    ] {
+        let imported = good(&format!("{model}{more}"));
+        assert_eq!(imported.text, wanted, "{more}");
+        let warned = told(&imported.warnings);
+        assert!(
+            warned.contains("*BOUNDARY: is ignored at degrees of freedom from 11 on"),
+            "{warned}"
+        );
+    }
+    for more in ["*Boundary\n2, 1, 11\n", "*Boundary\n2, 8, 8\n"] {
+        let wrong = told(&input(&format!("{model}{more}"), &plain()).expect_err(more));
+        assert!(wrong.contains("degrees of freedom from 1 to 6"), "{wrong}");
+    }
+}
+
+#[test]
+fn a_file_without_members_names_its_elements_and_normals_are_said_to_turn_them() {
+    let skip = ImportOptions {
+        skip: vec!["S4".to_owned()],
+        ..plain()
+    };
+    let text = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT,TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n\
+                *ELEMENT,TYPE=MASS,ELSET=m\n9,1\n*MASS,ELSET=m\n5.\n";
+    let wrong = told(&input(text, &skip).expect_err("no members"));
+    assert!(
+        wrong.contains("contains no members; its elements are MASS (1), S4 (2)"),
+        "{wrong}"
+    );
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
+    let text = cantilever("B31", beam) + "*Normal\n1, 1, 0., 1., 0.\n";
+    let wrong = told(&input(&text, &plain()).expect_err("a normal"));
+    assert!(
+        wrong.contains("the normal turns the sections of beams at its nodes")
+            && wrong.contains("--skip NORMAL changes the model")
+            && !wrong.contains("if it can be ignored"),
+        "{wrong}"
+    );
 }
 
 #[test]
@@ -495,6 +668,47 @@ fn files_of_gmsh_and_meshio_need_sections_by_the_names_of_their_sets() {
         );
         let wrong = told(&read(&plain()).expect_err("no sections"));
         assert!(wrong.contains("--sections"), "{file}: {wrong}");
+    }
+}
+
+#[test]
+fn a_file_read_with_a_sections_file_loses_nothing_silently() {
+    let options = |skip: &[&str]| ImportOptions {
+        length: Some(Length::Millimetre),
+        up: Some([0.0, 0.0, 1.0]),
+        sections: Some(Source {
+            name: "sections.json".to_owned(),
+            text: text("meshes/portal.json").replace("runway girder", "girder"),
+        }),
+        skip: skip.iter().map(|name| (*name).to_owned()).collect(),
+        ..ImportOptions::default()
+    };
+    let lines = text("meshes/meshio.inp");
+    let lines = lines.trim_end();
+    for (more, name, skip) in [
+        ("*BOUNDARY\n1, 1, 6\n", "*BOUNDARY", &["BOUNDARY"][..]),
+        ("*MPC\nBEAM, 1, 2\n", "*MPC or *RIGID BODY", &["MPC"]),
+        ("*RELEASE\n1, S1, M1\n", "*RELEASE", &["RELEASE"]),
+        (
+            "*ELEMENT, TYPE=SPRING1, ELSET=s\n901, 1\n*SPRING, ELSET=s\n3\n1.e6\n",
+            "SPRING1",
+            &["SPRING1", "SPRING"],
+        ),
+        (
+            "*ELEMENT, TYPE=SPRINGA, ELSET=s\n901, 1, 2\n",
+            "SPRINGA",
+            &["SPRINGA"],
+        ),
+        ("*ELEMENT, TYPE=MASS, ELSET=s\n901, 1\n", "MASS", &["MASS"]),
+    ] {
+        let whole = format!("{lines}\n{more}");
+        let wrong = told(&input(&whole, &options(&[])).expect_err(more));
+        let expected = format!("{name}: is not supported in a file that is read with --sections");
+        assert!(wrong.contains(&expected), "{more}: {wrong}");
+        let taken = input(&whole, &options(skip))
+            .map(|_| ())
+            .map_err(|wrong| told(&wrong));
+        assert_eq!(taken, Ok(()), "{more}");
     }
 }
 

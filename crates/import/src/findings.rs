@@ -150,6 +150,23 @@ impl ImportFindings {
     }
 }
 
+/// The error of a file without members. `others` is the number of its elements of each other type.
+#[must_use]
+pub fn no_members(others: &BTreeMap<String, usize>) -> String {
+    let counted = others
+        .iter()
+        .map(|(name, number)| format!("{name} ({number})"));
+    let counted: Vec<String> = counted.collect();
+    if counted.is_empty() {
+        "contains no members".to_owned()
+    } else {
+        format!(
+            "contains no members; its elements are {}",
+            counted.join(", ")
+        )
+    }
+}
+
 /// Least number of errors of one kind that are reported as one.
 const GROUP: usize = 3;
 

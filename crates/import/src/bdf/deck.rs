@@ -13,7 +13,7 @@ use super::lump::{self, MassCard, SpringCard};
 use super::material::{MaterialCard, material};
 use super::property::{self, Property};
 use super::rigid::{self, Rigid};
-use super::roles::{CardRole, advice, has_mass, role};
+use super::roles::{CardRole, advice, has_mass, is_other_element, role};
 use super::support::{self, SupportCard};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
@@ -32,6 +32,8 @@ pub struct BulkDeck {
     pub properties: BTreeMap<u64, Property>,
     /// CBAR, CBEAM, CROD, CTUBE and CONROD cards by number.
     pub elements: BTreeMap<u64, ElementCard>,
+    /// Number of cards of each type of element that is not a member, of those that are left out too.
+    pub others: BTreeMap<String, usize>,
     /// RBE2 and RBAR cards.
     pub rigid: Vec<Rigid>,
     /// CONM2 cards.
@@ -80,6 +82,9 @@ impl BulkDeck {
         let mut deck = BulkDeck::default();
         let bulk = deck.control(lines, omit, findings);
         let cards = cards(bulk, findings);
+        for card in cards.iter().filter(|card| is_other_element(&card.name)) {
+            *deck.others.entry(card.name.clone()).or_insert(0) += 1;
+        }
         let cards: Vec<&Card> = cards
             .iter()
             .filter(|card| !omit.skips(&card.name))

@@ -11,7 +11,9 @@ pub enum Number {
     Huge,
 }
 
-/// Reads a number such as `12`, `-3.5`, `1.+7`, `2.5-3`, `.5E4` or `1.D+7`; returns `None` for any other text.
+/// Reads a number such as `12`, `-3.5`, `1.+7`, `2.5-3`, `.5E4` or `1.D+7`; returns `None` for any other text. Blanks may
+/// separate the mantissa of a real number from an exponent with a sign, as in `10.4 +6` or `1.2 E-3`. Fields in free
+/// format have no blanks.
 #[must_use]
 pub fn number(text: &str) -> Option<Number> {
     let body = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -24,6 +26,16 @@ pub fn number(text: &str) -> Option<Number> {
     if points > 1 || mantissa.len() == points {
         return None;
     }
+    let exponent = match exponent.trim_start_matches(' ') {
+        apart if apart.len() < exponent.len() => {
+            let signed = apart.strip_prefix(['E', 'e', 'D', 'd']).unwrap_or(apart);
+            if points == 0 || !signed.starts_with(['+', '-']) {
+                return None;
+            }
+            apart
+        }
+        adjacent => adjacent,
+    };
     if exponent.is_empty() && points == 0 {
         return format!("{sign}{mantissa}")
             .parse()
@@ -86,6 +98,10 @@ mod tests {
             ("1.E7", 1e7),
             ("0.", 0.0),
             ("1.-400", 0.0),
+            ("10.4 +6", 10.4e6),
+            ("-4.  -6", -4e-6),
+            ("1.2 E-3", 1.2e-3),
+            ("4. D+6", 4e6),
         ];
         for (text, value) in reals {
             assert_eq!(number(text), Some(Number::Real(value)), "{text}");
@@ -129,6 +145,11 @@ mod tests {
             "1+7",
             "12-3",
             "1. 5",
+            "1. E5",
+            "10 +6",
+            "1. + 6",
+            "1. +",
+            "1. +6.",
             "--1.",
             "1.5x",
             "nan",

@@ -209,11 +209,20 @@ impl CardFields<'_, '_> {
         (value >= 0.0).then_some(value)
     }
 
-    /// Reads three real numbers from consecutive fields; blank fields are 0.
+    /// Reads a component of a position, an offset or a direction; returns 0 if the field is blank. A magnitude below the
+    /// smallest one of a spec is a rounding error of a program that wrote the deck, and is 0.
+    pub fn component(&mut self, index: usize, name: &str) -> Option<f64> {
+        match number(self.text(index)) {
+            Some(Number::Real(value)) if value.abs() < MAGNITUDES[0] => Some(0.0),
+            _ => self.real_or(index, name, 0.0),
+        }
+    }
+
+    /// Reads three components of a vector from consecutive fields; blank fields are 0.
     pub fn vector(&mut self, index: usize, names: [&str; 3]) -> Option<[f64; 3]> {
-        let x = self.real_or(index, names[0], 0.0);
-        let y = self.real_or(index + 1, names[1], 0.0);
-        let z = self.real_or(index + 2, names[2], 0.0);
+        let x = self.component(index, names[0]);
+        let y = self.component(index + 1, names[1]);
+        let z = self.component(index + 2, names[2]);
         Some([x?, y?, z?])
     }
 

@@ -99,7 +99,13 @@ pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
             _ => None,
         };
         let Some(dof) = dof else {
-            card.refuse(first + 1, "C", "must be a single digit from 1 to 6", "");
+            let hint = match card.text(first + 1) {
+                "" | "0" => {
+                    "a component that is 0 or blank belongs to a scalar point, which is not supported"
+                }
+                _ => "",
+            };
+            card.refuse(first + 1, "C", "must be a single digit from 1 to 6", hint);
             return None;
         };
         ends[end] = Some((grid, dof));

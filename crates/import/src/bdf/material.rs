@@ -16,7 +16,8 @@ pub struct MaterialCard {
     pub density: f64,
 }
 
-/// Reads MAT1. A missing modulus is computed from the other one and NU: E = 2 (1 + NU) G.
+/// Reads MAT1. A missing modulus is computed from the other one and NU: E = 2 (1 + NU) G. Beside both of them NU has no
+/// effect on members.
 pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
     let id = card.id(1, "MID")?;
     let e = card.optional(2, "E");
@@ -36,8 +37,14 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
         }
     }
     if nu.is_some_and(|nu| !(nu > -1.0 && nu <= 0.5)) {
-        card.refuse(4, "NU", "must be greater than -1 and at most 0.5", "");
-        return None;
+        let expected = "must be greater than -1 and at most 0.5";
+        if e.is_none() || g.is_none() {
+            card.refuse(4, "NU", expected, "");
+            return None;
+        }
+        let fault = card.fault(4, "NU", format!("{expected}; it is ignored"));
+        card.findings
+            .warn(fault.hint("E and G are used as they are"));
     }
     let ratio = |nu: f64| 2.0 * (1.0 + nu);
     let (e, g) = match (e, g, nu) {

@@ -6,7 +6,7 @@ use super::property::Property;
 use super::resolve::Resolver;
 use super::section::{is_lumped, mass_per_length};
 use crate::axes::{LocalAxes, combined};
-use crate::findings::{FilePlace, ImportFinding};
+use crate::findings::{FilePlace, ImportFinding, no_members};
 use crate::structure::ImportedMember;
 use fea::{Dof, MemberKind};
 use formats::vector::{minus, parallel};
@@ -23,7 +23,7 @@ impl<'d> Resolver<'d, '_> {
                     file: 0,
                 },
                 "",
-                "contains no members",
+                no_members(&deck.others),
             );
             self.findings
                 .error(finding.hint("supported members are CBAR, CBEAM, CROD, CTUBE and CONROD"));

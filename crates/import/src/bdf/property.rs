@@ -1,9 +1,10 @@
 //! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE and PELAS.
 //!
 //! PBAR and PBEAM define areas and second moments directly. PBARL and PBEAML define a shape with dimensions DIM1 to
-//! DIMn; `formats` computes the section properties. Second moments with a product I12 are replaced by the principal ones,
-//! whose axes are turned against those of the element (see [`principal`]). A beam has values at end A, at intermediate stations and at end B. It must be uniform or vary linearly
-//! from end A to end B: the intermediate stations must have the values of end A.
+//! DIMn; `formats` computes the section properties. Second moments with a product I12 are replaced by the principal
+//! ones, whose axes are turned against those of the element (see [`principal`]). Bars with I12 are rigid in shear. A
+//! beam has values at end A, at intermediate stations and at end B. It must be uniform or vary linearly from end A to
+//! end B: the intermediate stations must have the values of end A.
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
@@ -76,7 +77,9 @@ impl Property {
 const NO_PRODUCT: &str =
     "specify the principal second moments of area, and rotate the orientation of the elements";
 const SHEAR: &str =
-    "sections with a product of inertia require equal shear factors K1 and K2, or neither";
+    "beams with a product of inertia require equal shear factors K1 and K2, or neither";
+const RIGID_IN_SHEAR: &str = "a bar with a product of inertia I12 is rigid in shear; use CBEAM with PBEAM or PBEAML \
+                              if shear deformation matters";
 
 /// Principal second moments of a section with I1, I2 and the product I12, and the angle from the y axis to the axis of
 /// the first of them: tan 2a = 2 I12 / (I1 - I2). `None` if they are not positive.
@@ -173,7 +176,10 @@ pub fn positive(card: &mut CardFields<'_, '_>, index: usize, name: &str) -> Opti
     (value > 0.0).then_some(value)
 }
 
-/// Reads PBAR.
+/// Reads PBAR. K1 and K2 have no effect where I12 is not 0.
+///
+/// # Source
+/// MSC Nastran Quick Reference Guide 2022.4, PBAR, remark 5; NASTRAN-95, `mis/kbar.f`; MYSTRAN, `BAR1.f90`.
 pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
@@ -186,7 +192,15 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     card.end(20);
     let [i1, i2] = bending;
     let [k1, k2] = shear;
-    let (product, k) = (product?, [k1?, k2?]);
+    let (product, mut k) = (product?, [k1?, k2?]);
+    if product != 0.0 {
+        let given = [(17, "K1"), (18, "K2")].into_iter().zip(k);
+        for ((index, name), _) in given.filter(|(_, k)| *k > 0.0) {
+            let fault = card.fault(index, name, "is ignored, because I12 is not 0");
+            card.findings.warn(fault.hint(RIGID_IN_SHEAR));
+        }
+        k = [0.0; 2];
+    }
     let mut property = Property {
         card: card.card.at,
         kind: card.card.name.clone(),
@@ -476,6 +490,16 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     };
     let material = material?;
     let mut property = section(card, &shape, &dimensions, material, nsm)?;
+    if card.card.name == "PBARL" && property.turn != 0.0 {
+        // the PBAR that NASTRAN makes of it has I12
+        property.shear = [0.0; 2];
+        let fault = card.fault(
+            4,
+            "TYPE",
+            "has a product of inertia: its members are rigid in shear",
+        );
+        card.findings.warn(fault.hint(RIGID_IN_SHEAR));
+    }
     if let Some(other) = other {
         let end = section(card, &shape, &other, material, nsm)?;
         if property.turn != 0.0 || end.turn != 0.0 {

@@ -5,7 +5,8 @@
 pub enum CardRole {
     /// It is left out with a warning: loads, solution and output requests.
     Request,
-    /// It is left out with a warning: properties and materials, which have no effect without the elements that use them.
+    /// It is left out with a warning: properties and materials, which have no effect without the elements that use them,
+    /// and materials of heat transfer, which have none beside the MAT1 of members.
     Property,
     /// It cannot change the stiffness of the structure, and is left out where the user asks for this.
     NoStiffness,
@@ -22,10 +23,10 @@ const REQUESTS: &[&str] = &[
     "SET3", "PLOTEL", "SEQGP", "CBARAO", "ECHOON", "ECHOOFF", "DCONADD", "MATT1",
 ];
 
-/// Properties and materials of elements that cannot be imported.
+/// Properties and materials of elements that cannot be imported, and materials of heat transfer.
 const PROPERTIES: &[&str] = &[
     "PSHELL", "PSOLID", "PCOMP", "PCOMPG", "PSHEAR", "PBUSH", "PGAP", "PMASS", "MAT2", "MAT8",
-    "MAT9", "MAT10",
+    "MAT9", "MAT10", "MAT4", "MAT5", "MATT4", "MATT5",
 ];
 
 /// Cards of optimisation, aeroelasticity, heat transfer, damping, dynamics, nonlinear solutions and output, more
@@ -43,11 +44,10 @@ const NO_STIFFNESS: &[&str] = &[
     "MONPNT2", "MONPNT3", "MONDSP1", "PANLST1", "PANLST2", "PANLST3", "PAFOIL7", "AEROZ", "ACOORD",
     "BODY7", "SEGMESH", "FIXMACH", "PLTAERO", "PLTMODE", "PLTVG", "PLTTRIM",
     "PLTFLUT", // heat transfer and temperature
-    "MAT4", "MAT5", "MATT2", "MATT4", "MATT5", "MATT8", "MATT9", "CHBDY", "CHBDYE", "CHBDYG",
-    "CHBDYP", "PHBDY", "CONV", "CONVM", "PCONV", "PCONVM", "RADM", "RADMT", "RADBC", "RADSET",
-    "RADCAV", "RADLST", "RADMTX", "VIEW", "VIEW3D", "QBDY1", "QBDY2", "QBDY3", "QHBDY", "QVECT",
-    "QVOL", "TEMPBC", "TEMPN1", "TEMPG", "TEMPP2", "TEMPP3", "TEMPAX",
-    "TEMPRB1", // damping, mass and dynamics
+    "MATT2", "MATT8", "MATT9", "CHBDY", "CHBDYE", "CHBDYG", "CHBDYP", "PHBDY", "CONV", "CONVM",
+    "PCONV", "PCONVM", "RADM", "RADMT", "RADBC", "RADSET", "RADCAV", "RADLST", "RADMTX", "VIEW",
+    "VIEW3D", "QBDY1", "QBDY2", "QBDY3", "QHBDY", "QVECT", "QVOL", "TEMPBC", "TEMPN1", "TEMPG",
+    "TEMPP2", "TEMPP3", "TEMPAX", "TEMPRB1", // damping, mass and dynamics
     "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "CDAMP5", "PDAMP", "PDAMP5", "CVISC", "PVISC",
     "DAMPING", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CONM1", "TIC", "TF", "NOLIN1", "NOLIN2",
     "NOLIN3", "NOLIN4", "TSTEP1", "TABDMP2", "RANDT1", "RANDT2", "RANDVAR", "ACSRCE", "EIGP",
@@ -79,6 +79,13 @@ pub fn role(name: &str) -> Option<CardRole> {
             .contains(&name)
             .then_some(CardRole::NoStiffness)
     }
+}
+
+/// Whether a card is an element that is not a member.
+#[must_use]
+pub fn is_other_element(name: &str) -> bool {
+    let is_member = matches!(name, "CBAR" | "CBEAM" | "CROD" | "CTUBE" | "CONROD");
+    name.starts_with('C') && !name.starts_with("CORD") && !is_member && role(name).is_none()
 }
 
 /// Whether a card that may be left out has mass, so that its omission changes natural frequencies and inertia.

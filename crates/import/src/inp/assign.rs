@@ -1,11 +1,16 @@
 //! Sections with their materials, and their assignment to elements.
 
-use super::model::{InpKind, InpModel};
+use super::model::{InpElement, InpKind, InpModel};
 use super::resolve::Resolver;
 use super::section::{InpSection, MaterialOf};
 use super::values::key_of;
 use crate::findings::ImportFinding;
 use crate::structure::{ImportedMaterial, ImportedSection};
+use formats::limits::MAGNITUDES;
+use formats::vector::length;
+
+/// The name of the material of springs along the line between their nodes.
+const SPRING_MATERIAL: &str = "springs, without mass";
 
 impl Resolver<'_, '_> {
     /// Adds the sections with their materials, and assigns them to elements.
@@ -165,6 +170,88 @@ impl Resolver<'_, '_> {
             });
         }
         Some(name)
+    }
+
+    /// Assigns stiffnesses to the springs along the line between their nodes.
+    pub(super) fn assign_springs(&mut self) {
+        let model = self.model;
+        for (place, spring) in model.springs.iter().enumerate() {
+            let &[_, k] = spring.values.as_slice() else {
+                continue;
+            };
+            let elements = InpModel::targets(
+                &model.element_sets,
+                &model.elements,
+                &spring.set,
+                "*SPRING",
+                self.findings,
+            );
+            let is_axial = |number: &u64| {
+                let element = model.elements.get(number);
+                element.is_some_and(|element| element.kind == InpKind::AxialSpring)
+            };
+            for number in elements.into_iter().filter(is_axial) {
+                if self.stiffness_of.insert(number, (k, place)).is_some() {
+                    let expected = "must not assign a second stiffness to an element";
+                    let finding = ImportFinding::new(spring.set.at, "*SPRING: ELSET", expected);
+                    self.findings
+                        .error(finding.with_found(format!("element {number}")));
+                }
+            }
+        }
+    }
+
+    /// The section of a truss that replaces a spring along the line between its nodes: E A / L is the stiffness. E is that
+    /// of another material of the file, so that A has the order of other sections.
+    pub(super) fn spring_section(
+        &mut self,
+        number: u64,
+        element: &InpElement,
+        along: [f64; 3],
+    ) -> Option<usize> {
+        let Some(&(k, place)) = self.stiffness_of.get(&number) else {
+            let finding = ImportFinding::new(element.at, "element", "must have a stiffness");
+            let hint = "assign *SPRING to a set that contains the element";
+            self.findings.error(finding.hint(hint));
+            return None;
+        };
+        let known = self.structure.materials.iter();
+        let own = known.clone().find(|known| known.name == SPRING_MATERIAL);
+        let e = own.or(known.clone().next()).map_or(1.0, |known| known.e);
+        let area = k / e * length(along);
+        let set = &self.model.springs[place].set;
+        if !(MAGNITUDES[0]..=MAGNITUDES[1]).contains(&area) {
+            let expected = "must have a stiffness within the range of double precision";
+            let about = format!("element {number}");
+            self.findings
+                .error(ImportFinding::new(set.at, about, expected).with_found(k));
+            return None;
+        }
+        if own.is_none() {
+            self.structure.materials.push(ImportedMaterial {
+                name: SPRING_MATERIAL.to_owned(),
+                e,
+                g: None,
+                density: None,
+            });
+        }
+        let of_set = format!("spring {} ", set.text);
+        let sections = &mut self.structure.sections;
+        let is_same = |section: &ImportedSection| {
+            section.material == SPRING_MATERIAL
+                && section.name.starts_with(&of_set)
+                && section.area == Some(area)
+        };
+        if let Some(known) = sections.iter().position(is_same) {
+            return Some(known);
+        }
+        sections.push(ImportedSection {
+            name: format!("{of_set}{}", sections.len() + 1),
+            material: SPRING_MATERIAL.to_owned(),
+            area: Some(area),
+            ..ImportedSection::default()
+        });
+        Some(sections.len() - 1)
     }
 
     /// The section without shear areas, for beams of Euler and Bernoulli that share it with others.

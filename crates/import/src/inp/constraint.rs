@@ -6,6 +6,12 @@ use super::values::{field, real, whole};
 use crate::bdf::Omissions;
 use crate::findings::{ImportFinding, ImportFindings};
 
+/// Degrees of freedom that are temperatures: of solids and beams, and of further points in the thickness of shells.
+///
+/// # Source
+/// Abaqus Analysis User's Guide, "Conventions"; CalculiX user's manual, *BOUNDARY.
+const TEMPERATURES: std::ops::RangeInclusive<u64> = 11..=30;
+
 impl InpModel {
     pub(super) fn read_boundary(
         &mut self,
@@ -13,6 +19,19 @@ impl InpModel {
         omit: Omissions<'_>,
         findings: &mut ImportFindings,
     ) {
+        // from degree of freedom 11 on they are temperatures
+        let is_thermal = |line: &&Vec<InpField>| {
+            let dof = line.get(1).and_then(|field| field.text.parse::<u64>().ok());
+            dof.is_some_and(|dof| TEMPERATURES.contains(&dof))
+        };
+        let thermal: Vec<&Vec<InpField>> = block.data.iter().filter(is_thermal).collect();
+        if let Some(first) = thermal.first().and_then(|line| line.first()) {
+            let message = "is ignored at degrees of freedom from 11 on, which are temperatures";
+            findings.warn(ImportFinding::new(first.at, block.label(), message));
+            if thermal.len() == block.data.len() {
+                return;
+            }
+        }
         if self.steps > 1 {
             let message =
                 "is ignored in later steps: supports are those of the model and the first step";
@@ -37,7 +56,7 @@ impl InpModel {
             findings.error(finding.with_found(&kind.text));
             return;
         }
-        for line in &block.data {
+        for line in block.data.iter().filter(|line| !is_thermal(line)) {
             let Some(target) = field(block, line, 0, "node or set", findings) else {
                 continue;
             };

@@ -21,11 +21,12 @@ mod section;
 mod sets;
 mod values;
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
 use super::bdf::Omissions;
-use super::findings::{ImportFinding, ImportFindings};
+use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::includes::OpenFile;
 use super::msh::{Mesh, MeshLine, structure_of};
 use super::structure::ImportedStructure;
@@ -87,6 +88,7 @@ pub fn read_mesh(
         );
         findings.error(finding.hint("omit --sections: the file contains its own sections"));
     }
+    refuse_beside_lines(&model, findings);
     if findings.has_errors() {
         return Ok(empty);
     }
@@ -121,4 +123,42 @@ pub fn read_mesh(
         mesh.points.insert(group, set.numbers(&mesh.nodes));
     }
     Ok(structure_of(&mesh, factor, groups, empty, findings))
+}
+
+/// Adds an error for each type of content of a file without sections that would be lost, because only its lines, points and
+/// sets are read.
+fn refuse_beside_lines(model: &InpModel, findings: &mut ImportFindings) {
+    let other = |kind: InpKind| match kind {
+        InpKind::Spring => Some("SPRING1"),
+        InpKind::AxialSpring => Some("SPRINGA"),
+        InpKind::Mass => Some("MASS"),
+        InpKind::Rotary => Some("ROTARYI"),
+        InpKind::Beam { .. } | InpKind::Truss => None,
+    };
+    let elements = model.elements.values();
+    let elements = elements.filter_map(|element| Some((other(element.kind)?, element.at)));
+    let supports = model.boundaries.iter();
+    let supports = supports.map(|support| ("*BOUNDARY", support.target.at));
+    let joints = model.joints.iter();
+    let joints = joints.map(|joint| ("*MPC or *RIGID BODY", joint.leader.at));
+    let releases = model.releases.iter();
+    let releases = releases.map(|release| ("*RELEASE", release.target.at));
+    let all = elements.chain(supports).chain(joints).chain(releases);
+    let first: BTreeMap<&str, FilePlace> = all.rev().collect();
+    for (name, at) in first {
+        let hint = match name {
+            "*BOUNDARY" => "state supports with --fix, and add --skip BOUNDARY",
+            "*RELEASE" => {
+                "state releases in `members` of the sections file, and add --skip RELEASE"
+            }
+            "*MPC or *RIGID BODY" => {
+                "assign sections in the file and omit --sections, or leave these out: --skip MPC,\"RIGID BODY\""
+            }
+            _ => {
+                "assign sections in the file and omit --sections, or leave these elements out with --skip"
+            }
+        };
+        let expected = "is not supported in a file that is read with --sections";
+        findings.error(ImportFinding::new(at, name, expected).hint(hint));
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::keyword::{InpField, KeywordBlock};
-use super::roles::{KeywordRole, advice, role};
+use super::roles::{KeywordRole, advice, loss, role};
 use super::section::{self, InpOrigin, InpSection};
 use super::sets::InpSets;
 use super::values::{key_of, positive, real, vector, whole};
@@ -22,10 +22,23 @@ pub enum InpKind {
     Truss,
     /// A spring to ground.
     Spring,
+    /// A spring along the line between two nodes.
+    AxialSpring,
     /// A point mass.
     Mass,
     /// Rotary inertia of a point.
     Rotary,
+}
+
+impl InpKind {
+    /// Whether it becomes a member.
+    #[must_use]
+    pub fn is_member(self) -> bool {
+        matches!(
+            self,
+            InpKind::Beam { .. } | InpKind::Truss | InpKind::AxialSpring
+        )
+    }
 }
 
 /// An element.
@@ -59,7 +72,7 @@ pub struct InpMaterial {
 pub struct SetValues {
     /// The name of the set.
     pub set: InpField,
-    /// The values: degree of freedom and stiffness, mass, or moments of inertia.
+    /// The values: degree of freedom (0 if none is stated) and stiffness, mass, or moments of inertia.
     pub values: Vec<f64>,
 }
 
@@ -112,6 +125,8 @@ pub struct InpModel {
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Elements.
     pub elements: BTreeMap<u64, InpElement>,
+    /// Number of elements of each type that is not a member or is left out.
+    pub others: BTreeMap<String, usize>,
     /// Sets of nodes.
     pub node_sets: InpSets,
     /// Sets of elements.
@@ -186,6 +201,8 @@ impl InpModel {
                 format!(
                     "it does not affect the stiffness: ignore it with --skip-unused or --skip \"{word}\""
                 )
+            } else if let Some(loss) = loss(word) {
+                format!("{}; {loss}", advice(word))
             } else {
                 format!(
                     "{}; if it can be ignored, add --skip \"{word}\"",
@@ -235,28 +252,7 @@ impl InpModel {
             "RIGID BODY" => self.read_rigid_body(block, findings),
             "MPC" => self.read_mpc(block, findings),
             "RELEASE" => self.read_release(block, findings),
-            "SPRING" => {
-                let dof = block
-                    .data
-                    .first()
-                    .and_then(|line| whole(block, line, 0, "degree of freedom", findings));
-                let k = block
-                    .data
-                    .get(1)
-                    .and_then(|line| positive(block, line, 0, "stiffness", findings));
-                match (block.required("ELSET", findings), dof, k) {
-                    (Some(set), Some(dof @ 1..=6), Some(k)) => {
-                        self.springs.push(SetValues {
-                            set: set.clone(),
-                            values: vec![dof as f64, k],
-                        });
-                    }
-                    _ => {
-                        let expected = "must have a degree of freedom from 1 to 6 and, on the next line, a stiffness";
-                        findings.error(ImportFinding::new(block.at, block.label(), expected));
-                    }
-                }
-            }
+            "SPRING" => self.read_spring(block, findings),
             "MASS" | "ROTARY INERTIA" => self.read_mass(block, findings),
             "PART" => {}
             "INSTANCE" => {
@@ -272,6 +268,41 @@ impl InpModel {
             _ => return false,
         }
         true
+    }
+
+    /// Reads the degree of freedom and the stiffness of springs. The first line is blank, and is then left out of the data,
+    /// for springs along the line between their nodes.
+    fn read_spring(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
+        if let Some(parameter) = block.parameter("NONLINEAR") {
+            let about = format!("{}: NONLINEAR", block.label());
+            let finding = ImportFinding::new(parameter.at, about, "is not supported");
+            findings.error(finding.hint("state the stiffness of a linear spring"));
+            return;
+        }
+        let (dof, stiffness) = match block.data.as_slice() {
+            [stiffness] => (Some(0), Some(stiffness)),
+            [first, stiffness] if first.iter().all(|field| field.text.is_empty()) => {
+                (Some(0), Some(stiffness))
+            }
+            [first, stiffness] => (
+                whole(block, first, 0, "degree of freedom", findings),
+                Some(stiffness),
+            ),
+            _ => (None, None),
+        };
+        let k = stiffness.and_then(|line| positive(block, line, 0, "stiffness", findings));
+        match (block.required("ELSET", findings), dof, k) {
+            (Some(set), Some(dof @ 0..=6), Some(k)) => self.springs.push(SetValues {
+                set: set.clone(),
+                values: vec![dof as f64, k],
+            }),
+            _ => {
+                let expected = "must have a degree of freedom from 1 to 6 and, on the next line, one stiffness";
+                let hint = "the degree of freedom is blank for SPRINGA; stiffnesses that depend on temperature are not \
+                            supported";
+                findings.error(ImportFinding::new(block.at, block.label(), expected).hint(hint));
+            }
+        }
     }
 
     fn read_nodes(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
@@ -322,6 +353,10 @@ impl InpModel {
         if let Some(set) = &set {
             self.element_sets.define(set);
         }
+        if omit.skips(&word) {
+            *self.others.entry(word).or_insert(0) += block.data.len();
+            return;
+        }
         let sheared = InpKind::Beam { sheared: true };
         let (kind, least, most) = match word.as_str() {
             "B31" | "B31H" | "B31R" => (sheared, 2, 3),
@@ -330,15 +365,18 @@ impl InpModel {
             "T3D2" | "T3D2H" => (InpKind::Truss, 2, 2),
             "T3D3" | "T3D3H" => (InpKind::Truss, 3, 3),
             "SPRING1" => (InpKind::Spring, 1, 1),
+            "SPRINGA" => (InpKind::AxialSpring, 2, 2),
             "MASS" => (InpKind::Mass, 1, 1),
             "ROTARYI" => (InpKind::Rotary, 1, 1),
             _ => {
-                if !omit.skips(&word) {
-                    unknown.entry(word).or_insert((block.at, 0)).1 += block.data.len();
-                }
+                *self.others.entry(word.clone()).or_insert(0) += block.data.len();
+                unknown.entry(word).or_insert((block.at, 0)).1 += block.data.len();
                 return;
             }
         };
+        if !kind.is_member() {
+            *self.others.entry(word.clone()).or_insert(0) += block.data.len();
+        }
         let has_middle = word.starts_with("B32") || word.starts_with("T3D3");
         for line in &block.data {
             let Some(number) = whole(block, line, 0, "element", findings) else {

@@ -10,7 +10,7 @@ use super::keyword::InpField;
 use super::model::{InpElement, InpKind, InpModel, Joint};
 use super::values::number_of;
 use crate::axes::LocalAxes;
-use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings, no_members};
 use crate::halves::{check_straight, push_halves};
 use crate::links::{self, PartialLink};
 use crate::structure::{
@@ -28,6 +28,8 @@ pub(super) struct Resolver<'m, 'f> {
     held_middles: BTreeSet<u64>,
     /// Index of the section of each element, in the structure and in the file.
     pub(super) section_of: BTreeMap<u64, [usize; 2]>,
+    /// Stiffness of each spring along the line between its nodes, and the index of its *SPRING.
+    pub(super) stiffness_of: BTreeMap<u64, (f64, usize)>,
     pub(super) structure: ImportedStructure,
     pub(super) findings: &'f mut ImportFindings,
 }
@@ -43,12 +45,14 @@ pub fn resolve(
         index: BTreeMap::new(),
         held_middles: BTreeSet::new(),
         section_of: BTreeMap::new(),
+        stiffness_of: BTreeMap::new(),
         structure: empty,
         findings,
     };
     resolver.points();
     resolver.held_middles = resolver.held_middles();
     resolver.assign_sections();
+    resolver.assign_springs();
     resolver.members();
     resolver.releases();
     resolver.supports();
@@ -63,11 +67,7 @@ impl Resolver<'_, '_> {
         let model = self.model;
         let mut used: BTreeSet<u64> = BTreeSet::new();
         for element in model.elements.values() {
-            let count = if matches!(element.kind, InpKind::Beam { .. } | InpKind::Truss) {
-                2
-            } else {
-                1
-            };
+            let count = if element.kind.is_member() { 2 } else { 1 };
             used.extend(element.nodes.iter().take(count));
             used.extend(
                 element
@@ -110,7 +110,7 @@ impl Resolver<'_, '_> {
         let model = self.model;
         let mut count = 0;
         for (&number, element) in &model.elements {
-            if matches!(element.kind, InpKind::Beam { .. } | InpKind::Truss) {
+            if element.kind.is_member() {
                 count += 1;
                 self.member(number, element);
             }
@@ -121,9 +121,9 @@ impl Resolver<'_, '_> {
                 line: 1,
                 column: 1,
             };
-            let finding = ImportFinding::new(at, "", "contains no members");
+            let finding = ImportFinding::new(at, "", no_members(&model.others));
             self.findings
-                .error(finding.hint("supported members are B31, B32, B33, T3D2 and T3D3"));
+                .error(finding.hint("supported members are B31, B32, B33, T3D2, T3D3 and SPRINGA"));
         }
     }
 
@@ -150,6 +150,20 @@ impl Resolver<'_, '_> {
             Some(middle) => self.middle(middle, element, [a, b], &about)?,
             None => None,
         };
+        if element.kind == InpKind::AxialSpring {
+            let section = self.spring_section(number, element, along)?;
+            self.structure.members.push(ImportedMember {
+                id: number,
+                points: [a, b],
+                kind: MemberKind::Truss,
+                section,
+                section_b: None,
+                orientation: None,
+                offsets: [[0.0; 3]; 2],
+                releases: [[false; 6]; 2],
+            });
+            return Some(());
+        }
         let Some(&[section, place]) = self.section_of.get(&number) else {
             let finding = ImportFinding::new(element.at, "element", "must have a section");
             let hint = "assign *BEAM SECTION or *SOLID SECTION to a set that contains the element; a file without \
@@ -410,7 +424,15 @@ impl Resolver<'_, '_> {
             let &[dof, k] = spring.values.as_slice() else {
                 continue;
             };
-            for point in self.points_of(&spring.set, InpKind::Spring, "*SPRING") {
+            let points = self.points_of(&spring.set, InpKind::Spring, "*SPRING");
+            if dof == 0.0 && !points.is_empty() {
+                let expected =
+                    "must have a degree of freedom from 1 to 6 on its first line for SPRING1";
+                self.findings
+                    .error(ImportFinding::new(spring.set.at, "*SPRING", expected));
+                continue;
+            }
+            for point in points {
                 self.structure.springs.push(ImportedSpring {
                     point,
                     dof: dof as usize - 1,

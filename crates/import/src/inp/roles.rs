@@ -97,6 +97,15 @@ pub fn role(name: &str) -> Option<KeywordRole> {
     }
 }
 
+/// What a keyword that is refused does to the model if it is left out; `None` if only the user can know this.
+#[must_use]
+pub fn loss(name: &str) -> Option<&'static str> {
+    (name == "NORMAL").then_some(
+        "the normal turns the sections of beams at its nodes, so that --skip NORMAL changes the model unless the normals \
+         agree with n1 of the sections",
+    )
+}
+
 /// Advice for a keyword that is refused: what the reader supports instead.
 #[must_use]
 pub fn advice(name: &str) -> &'static str {
@@ -104,14 +113,15 @@ pub fn advice(name: &str) -> &'static str {
         "EQUATION" | "COUPLING" | "KINEMATIC" | "DISTRIBUTING" | "KINEMATIC COUPLING" | "TIE" => {
             "supported links are *RIGID BODY with NSET and *MPC BEAM, TIE and PIN"
         }
-        "NORMAL" | "ORIENTATION" | "SYSTEM" | "TRANSFORM" => {
+        "NORMAL" => "state the direction n1 on the second data line of the section",
+        "ORIENTATION" | "SYSTEM" | "TRANSFORM" => {
             "coordinates and directions must refer to the global axes"
         }
         "SHELL SECTION" | "SHELL GENERAL SECTION" | "MEMBRANE SECTION" => {
             "shells and membranes are not supported"
         }
         "CONNECTOR SECTION" | "CONNECTOR BEHAVIOR" | "CONNECTOR ELASTICITY" => {
-            "supported springs are SPRING1"
+            "supported springs are SPRING1 and SPRINGA"
         }
         "BEAM SECTION OFFSET" | "BEAM ADDED INERTIA" | "BEAM FLUID INERTIA" => {
             "the nodes of beams must be on their centroidal axes"

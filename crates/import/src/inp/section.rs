@@ -4,7 +4,9 @@
 //! bending about the 1-axis, the integral of the square of the 2-coordinate. Areas and second moments of shapes are exact;
 //! torsion constants are those of `formats`. Shear areas are k A with the factors k of the Abaqus guide.
 //!
-//! CalculiX has the same shapes, but states the diameter of a circle where Abaqus states the radius.
+//! CalculiX has the same shapes, but states the diameter of a circle where Abaqus states the radius, takes two different
+//! diameters as those of an ellipse along n1 and the 2-axis, and one dimension of a rectangle as that of a square. A shape
+//! whose word begins with RECT is a rectangle.
 //!
 //! # Source
 //! Abaqus Analysis User's Guide, "Beam cross-section library" (dimensions) and "Choosing a beam element" (transverse
@@ -13,7 +15,8 @@
 use super::keyword::{InpField, KeywordBlock};
 use super::values::{positive, real, vector};
 use crate::findings::{ImportFinding, ImportFindings};
-use formats::spec::cross_section::section_properties;
+use formats::spec::cross_section::{Properties, section_properties};
+use std::f64::consts::PI;
 
 /// The material of a section.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +85,7 @@ impl InpOrigin {
                 .parameter("TYPE")
                 .is_some_and(|kind| ["B31R", "B32R"].contains(&kind.text.to_uppercase().as_str())),
             "BEAM SECTION" => {
-                is_circle(block) && block.data.first().is_some_and(|line| line.len() > 1)
+                is_shape(block, "CIRC") && block.data.first().is_some_and(|line| line.len() > 1)
             }
             _ => false,
         };
@@ -93,21 +96,38 @@ impl InpOrigin {
             }),
             _ => false,
         };
+        let is_square = |block: &KeywordBlock| {
+            block.name == "BEAM SECTION"
+                && is_shape(block, "RECT")
+                && block.data.first().is_some_and(|line| line.len() == 1)
+        };
         if blocks.iter().any(is_of_calculix) {
             InpOrigin::Calculix
         } else if blocks.iter().any(is_of_abaqus) {
             InpOrigin::Abaqus
+        } else if blocks.iter().any(is_square) {
+            InpOrigin::Calculix
         } else {
             InpOrigin::Unknown
         }
     }
 }
 
-/// Whether a section is a circle.
-fn is_circle(block: &KeywordBlock) -> bool {
+/// Whether a section has a shape.
+fn is_shape(block: &KeywordBlock, wanted: &str) -> bool {
     block
         .parameter("SECTION")
-        .is_some_and(|shape| shape.text.eq_ignore_ascii_case("CIRC"))
+        .is_some_and(|shape| shape_of(&shape.text) == wanted)
+}
+
+/// The shape that a word names, in capital letters. Words such as RECTANGULAR are RECT, as in CalculiX.
+fn shape_of(word: &str) -> String {
+    let word = word.to_uppercase();
+    if word.starts_with("RECT") {
+        "RECT".to_owned()
+    } else {
+        word
+    }
 }
 
 /// Adds an error for each parameter that moves the section or its axes.
@@ -164,7 +184,7 @@ pub fn beam(
     refuse_parameters(block, findings);
     let set = block.required("ELSET", findings)?.clone();
     let shape = match block.parameter("SECTION") {
-        Some(shape) => shape.text.to_uppercase(),
+        Some(shape) => shape_of(&shape.text),
         None if general => "GENERAL".to_owned(),
         None => {
             let _missing = block.required("SECTION", findings);
@@ -251,9 +271,12 @@ fn shape_numbers(
     origin: InpOrigin,
     findings: &mut ImportFindings,
 ) -> Option<SectionNumbers> {
+    let is_of_calculix = origin == InpOrigin::Calculix;
     let names: &[&str] = match shape {
+        "RECT" if is_of_calculix && line.len() == 1 => &["a"],
         "RECT" => &["a", "b"],
-        "CIRC" if origin == InpOrigin::Calculix => &["d"],
+        "CIRC" if is_of_calculix && line.len() > 1 => &["a", "b"],
+        "CIRC" if is_of_calculix => &["d"],
         "CIRC" => &["r"],
         "PIPE" => &["r", "t"],
         "BOX" => &["a", "b", "t1", "t2", "t3", "t4"],
@@ -281,24 +304,19 @@ fn shape_numbers(
     for (index, name) in names.iter().enumerate() {
         d.push(positive(block, line, index, name, findings)?);
     }
-    let beyond = line.iter().skip(names.len()).find(|field| {
-        let is_same =
-            shape == "CIRC" && origin == InpOrigin::Calculix && field.text == line[0].text;
-        !field.text.is_empty() && !is_same
-    });
-    if let Some(field) = beyond {
-        let expected = if shape == "CIRC" {
-            "must have equal diameters: ellipses are not supported".to_owned()
-        } else {
-            format!("must have {} dimensions", names.len())
-        };
+    let mut beyond = line.iter().skip(names.len());
+    if let Some(field) = beyond.find(|field| !field.text.is_empty()) {
+        let expected = format!("must have {} dimensions", names.len());
         let finding = ImportFinding::new(field.at, block.label(), expected);
         findings.error(finding.with_found(&field.text));
         return None;
     }
-    // CalculiX states the diameter, Abaqus the radius
-    if shape == "CIRC" && origin == InpOrigin::Calculix {
-        d[0] *= 0.5;
+    match (shape, d.as_slice()) {
+        ("RECT", &[a]) => d.push(a),
+        ("CIRC", &[a, b]) if a == b => d = vec![0.5 * a],
+        // CalculiX states the diameter, Abaqus the radius
+        ("CIRC", &[a]) if is_of_calculix => d = vec![0.5 * a],
+        _ => {}
     }
     let mut refuse = |what: &str, expected: &str, hint: &str| {
         let at = line.first().map_or(block.at, |field| field.at);
@@ -307,6 +325,7 @@ fn shape_numbers(
     };
     let (found, k, is_turned) = match *d.as_slice() {
         [a, b] if shape == "RECT" => (section_properties("BAR", &[b, a]), 0.85, false),
+        [a, b] if shape == "CIRC" => (Ok(ellipse(a, b)), 0.89, false),
         [r] => (section_properties("ROD", &[r]), 0.89, false),
         [r, t] => (section_properties("TUBE2", &[r, t]), 0.53, false),
         [a, b, t1, t2, t3, t4] => {
@@ -361,4 +380,17 @@ fn shape_numbers(
         j: found.j,
         k,
     })
+}
+
+/// An ellipse with the diameter `a` along the 1-axis and `b` along the 2-axis.
+fn ellipse(a: f64, b: f64) -> Properties {
+    Properties {
+        area: PI * a * b / 4.0,
+        i1: PI * a.powi(3) * b / 64.0,
+        i2: PI * a * b.powi(3) / 64.0,
+        turn: 0.0,
+        j: PI * a.powi(3) * b.powi(3) / (16.0 * (a * a + b * b)),
+        k1: 0.9,
+        k2: 0.9,
+    }
 }

@@ -77,12 +77,7 @@ pub fn real(
         return Some(default);
     }
     let field = field(block, line, index, what, findings)?;
-    let value = field
-        .text
-        .replace(['d', 'D'], "e")
-        .parse::<f64>()
-        .ok()
-        .filter(|value| value.is_finite());
+    let value = parsed(&field.text);
     let [least, most] = MAGNITUDES;
     let expected = match value {
         None => "must be a finite number".to_owned(),
@@ -92,6 +87,12 @@ pub fn real(
     let finding = ImportFinding::new(field.at, about(block, what), expected);
     findings.error(finding.with_found(ascii(&field.text)));
     None
+}
+
+/// A finite number, whose exponent may have the letter d.
+fn parsed(text: &str) -> Option<f64> {
+    let value = text.replace(['d', 'D'], "e").parse::<f64>().ok();
+    value.filter(|value| value.is_finite())
 }
 
 /// Reads a positive real number from a data line.
@@ -112,7 +113,8 @@ pub fn positive(
     (value > 0.0).then_some(value)
 }
 
-/// Reads a vector from a data line; missing components are 0.
+/// Reads a vector from a data line; missing components are 0, as are magnitudes below the smallest one of a spec, which
+/// are rounding errors of the program that wrote the file.
 pub fn vector(
     block: &KeywordBlock,
     line: &[InpField],
@@ -121,6 +123,10 @@ pub fn vector(
     findings: &mut ImportFindings,
 ) -> Option<[f64; 3]> {
     let part = |k: usize, findings: &mut ImportFindings| {
+        let value = line.get(first + k).and_then(|field| parsed(&field.text));
+        if value.is_some_and(|value| value.abs() < MAGNITUDES[0]) {
+            return Some(0.0);
+        }
         real(block, line, first + k, (names[k], Some(0.0)), findings)
     };
     let (x, y, z) = (part(0, findings), part(1, findings), part(2, findings));
