@@ -91,7 +91,8 @@ fn forces_at(
         let touches = !system.law(i).has_memory() && solver.geometry().approach(i, &at.q) > 0.0;
         solver.set_active(i, is_given || touches || system.law(i).bilateral);
     }
-    for round in 0..TOGETHER + 4 * count + 8 {
+    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    for _ in 0..MOST + 4 * count {
         if !solve_rates(solver, instant, at)? {
             return Err(none);
         }
@@ -105,7 +106,12 @@ fn forces_at(
         if opening.is_empty() && closing.is_empty() {
             return Ok(answer(solver, at));
         }
-        if round >= TOGETHER {
+        let wrong = opening.len() + closing.len();
+        if wrong < fewest {
+            (fewest, patience) = (wrong, PATIENCE);
+        } else if patience > 0 {
+            patience -= 1;
+        } else {
             // one at a time: the weakest, or else the deepest
             opening.sort_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
             closing.sort_by(|&i, &j| at.p[j].total_cmp(&at.p[i]));
@@ -122,8 +128,11 @@ fn forces_at(
     Err(none)
 }
 
-/// Number of rounds in which all contacts that open or close do so together.
-const TOGETHER: usize = 6;
+/// Number of rounds in which all contacts that open or close do so together although they do not become fewer (block principal
+/// pivoting: Judice and Pires, Computers and Operations Research 21, 1994).
+const PATIENCE: usize = 6;
+/// Largest number of rounds, with four more for each contact.
+const MOST: usize = 40;
 
 /// Copies the values of the instant to the state.
 fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
