@@ -38,10 +38,10 @@ pub const CARRIED_FORCE_LIMIT: f64 = 1e-9;
 const SAMPLE: usize = 1000;
 
 /// Least number of random states where none is given.
-const LEAST: f64 = 1000.0;
+const LEAST: f64 = 200.0;
 
 /// Number of random states that are checked where none is given: 10000 with up to three wheels, and fewer with more, down
-/// to 1000, because the work for each grows with the square of the wheels.
+/// to 200, because the work for each grows with the square of the wheels.
 #[must_use]
 pub fn default_states(plan: &DeckPlan<'_>) -> usize {
     let crowd = (3.0 / plan.wheels.len().max(1) as f64).min(1.0);
@@ -133,7 +133,7 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     let mut carried = set.clone();
     let part = poses::mount_rails(&mut carried);
     let mut random = Random::new(2);
-    let moving = cases[..count.min(SAMPLE)].iter().map(|case| {
+    let moving = cases[..cases.len().min(SAMPLE)].iter().map(|case| {
         let by = poses::random_carrier(part, &mut random);
         let expected = expected_values(plan, &foundations, case, CARRIER + reach(case))?;
         Ok((state(plan, case, Some(by)), expected))
