@@ -1,7 +1,7 @@
 //! Static equilibrium near a state whose VARIABLEs are known, such as an equilibrium of another program.
 //!
 //! The VARIABLEs are put into the expressions, and the equations are linearised there: one Newton step is the distance to
-//! the equilibrium, and the residuals with its reactions say which equations do not hold. Further full
+//! the equilibrium, and the residuals with the best reactions say which equations do not hold. Further full
 //! steps find it. Since forces and displacements are both given, no loop has to be closed first: a stiff wheel is as
 //! deep in its rail at the start as its force says. Where full steps do not converge, as where a wheel opens and closes
 //! by turns, there is no answer: the equilibrium is not near.
@@ -11,11 +11,14 @@ use super::iterate::{Iterate, RotationMeasure, Unknown};
 use super::search::{Linearized, ROUNDING, STALLED, Search, holds, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
+
+/// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
+const SINGULAR: f64 = 1e-11;
 
 /// An equation of statics that does not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,22 +32,15 @@ pub struct EquationResidual {
     pub residual: f64,
     /// The residual relative to its scale: weights, and the size of the model.
     pub scaled: f64,
-    /// What rounding of the unknowns makes of the equation.
-    pub rounding: f64,
-}
-
-impl EquationResidual {
-    /// Whether the equation holds to a fraction of its scale, or to what rounding of the unknowns makes of it.
-    #[must_use]
-    pub fn holds(&self, fraction: f64) -> bool {
-        self.scaled <= fraction || self.residual.abs() <= self.rounding
-    }
+    /// Whether the equation holds: to a fraction of its scale, or to what rounding of the unknowns makes of it.
+    pub holds: bool,
 }
 
 /// How far a state is from equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imbalance {
-    /// The equations with their residuals at the state, largest scaled residual first, with the reactions of the step.
+    /// The equations with their residuals at the state, largest scaled residual first, with the reactions that leave
+    /// the least sum of squares of residuals relative to what is allowed.
     pub equations: Vec<EquationResidual>,
     /// The state after one Newton step, whose length is the distance from equilibrium to first order; `None` where the
     /// linearised equations have no solution.
@@ -52,7 +48,9 @@ pub struct Imbalance {
 }
 
 impl AdamsModel {
-    /// How far a state with given VARIABLEs is from static equilibrium.
+    /// How far a state with given VARIABLEs is from static equilibrium. An equation holds to `fraction` of its scale, or to what
+    /// rounding makes of it; balances of parts, between which reactions distribute what is left, to the root of their number
+    /// times that.
     ///
     /// # Errors
     /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
@@ -62,6 +60,7 @@ impl AdamsModel {
         guess: &ModelState,
         given: &GivenValues,
         measure: RotationMeasure,
+        fraction: f64,
     ) -> Result<Imbalance, Error> {
         let at = self.iterate_near(guess, given, measure)?;
         let search = Search::new(self, &at).holding(&given.held);
@@ -77,26 +76,35 @@ impl AdamsModel {
                 let step = factored.correction(&residual)?;
                 Some((step, factored.rank_deficiency()))
             });
-        let mut left = DVector::from_column_slice(&residual);
-        if let Some((step, _)) = &step {
-            for (k, d) in step.iter().enumerate() {
-                if matches!(search.unknowns[k], Unknown::Reaction(..)) {
-                    left.axpy(*d, &matrix.column(k), 1.0);
-                }
-            }
-        }
+        let allowed: Vec<f64> = rows
+            .iter()
+            .zip(&rounding)
+            .map(|(row, rounding)| (fraction * row).max(*rounding))
+            .collect();
+        let left = without_reactions(&search, &residual, &matrix, &allowed);
+        let is_balance = |k: usize| {
+            matches!(
+                search.unknowns[k],
+                Unknown::Translation(..) | Unknown::Rotation(..)
+            )
+        };
+        let balances = (0..left.len()).filter(|&k| is_balance(k)).count();
+        let most = |k: usize| match is_balance(k) {
+            true => (balances as f64).sqrt() * allowed[k],
+            false => allowed[k],
+        };
         let mut equations: Vec<EquationResidual> = left
             .iter()
-            .zip(rows.iter().zip(&rounding))
+            .zip(&rows)
             .enumerate()
-            .map(|(k, (residual, (scale, rounding)))| {
+            .map(|(k, (residual, scale))| {
                 let (keyword, id) = search.statement_of(k);
                 EquationResidual {
                     statement: StatementId::new(keyword, id),
                     quantity: quantity(&search.unknowns[k]),
                     residual: *residual,
                     scaled: residual.abs() / scale,
-                    rounding: *rounding,
+                    holds: residual.abs() <= most(k),
                 }
             })
             .collect();
@@ -198,6 +206,42 @@ impl Search<'_> {
         }
         Ok(None)
     }
+}
+
+/// The residuals with the reactions that leave the least sum of squares of residuals relative to what is allowed.
+fn without_reactions(
+    search: &Search<'_>,
+    residual: &[f64],
+    matrix: &DMatrix<f64>,
+    allowed: &[f64],
+) -> Vec<f64> {
+    let columns: Vec<usize> = (0..search.unknowns.len())
+        .filter(|k| matches!(search.unknowns[*k], Unknown::Reaction(..)))
+        .collect();
+    if columns.is_empty() {
+        return residual.to_vec();
+    }
+    let mut scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
+        matrix[(i, columns[j])] / allowed[i]
+    });
+    // Forces and torques differ by orders of magnitude; what is left does not depend on the units of reactions.
+    for mut column in scaled.column_iter_mut() {
+        column.try_normalize_mut(0.0);
+    }
+    let mut left = DVector::from_fn(residual.len(), |i, _| residual[i] / allowed[i]);
+    if let Some(svd) = scaled.clone().try_svd(true, true, f64::EPSILON, 10_000) {
+        let least = SINGULAR * svd.singular_values.max();
+        // The second time it removes what rounding left.
+        for _ in 0..2 {
+            if let Ok(reactions) = svd.solve(&left, least) {
+                left -= &scaled * reactions;
+            }
+        }
+    }
+    left.iter()
+        .zip(allowed)
+        .map(|(left, row)| left * row)
+        .collect()
 }
 
 /// What the residual of an unknown's equation measures.
