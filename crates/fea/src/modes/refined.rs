@@ -359,8 +359,9 @@ pub fn check_full_modes(
     few_enough(Part::moved_by(forces, loads, &stiffness, &mass).len())
 }
 
-/// Whether a member may be cut: a beam with every axial and bending stiffness that any beam has. Without torsional
-/// stiffness the points between its parts turn freely about its axis, a rotation that is left out.
+/// Whether a member may be cut: a beam with mass, and with every axial and bending stiffness that any beam has. Without
+/// torsional stiffness the points between its parts turn freely about its axis, a rotation that is left out. Without mass the
+/// member is exact as it is, and its parts have no modes.
 fn divisible(m: &Model, member: &Member) -> bool {
     let sizes = |section: &CrossSection| [section.area, section.iy, section.iz];
     let own = sizes(&m.sections[member.section]);
@@ -370,6 +371,7 @@ fn divisible(m: &Model, member: &Member) -> bool {
             .filter(|other| other.kind == MemberKind::Beam)
     };
     member.kind == MemberKind::Beam
+        && m.sections[member.section].mass > 0.0
         && (0..3).all(|k| {
             own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0)
         })

@@ -4,8 +4,8 @@ use crate::common;
 
 use common::{mill, paper};
 use fea::{
-    BeamTheory, Error, ExcitingForces, FactoredFrame, Girder, Model, Modes, Rail, excited_modes,
-    modes,
+    BeamTheory, Error, ExcitingForces, FactoredFrame, Girder, Model, Modes, PointMass, Rail,
+    excited_modes, modes,
 };
 use splines::{Axis, Probe};
 
@@ -55,6 +55,39 @@ fn vertical_forces_excite_the_vertical_modes_and_no_others() {
                 .all(|motion| [0, 2, 3, 4].iter().all(|&k| motion[k] == 0.0))
         );
     }
+}
+
+/// Members without mass have no modes of their own, however they are cut.
+#[test]
+fn members_without_mass_are_not_cut() {
+    let given = Girder {
+        overhangs: [0.0, 9.0],
+        mass_per_length: None,
+        ..girder()
+    };
+    let (mut model, rail) = given.model_and_rail().expect("a girder on two supports");
+    let along = |point: usize| model.points[point][0];
+    let tip = (0..model.points.len()).max_by(|&a, &b| along(a).total_cmp(&along(b)));
+    model.masses.push(PointMass {
+        point: tip.expect("it has points"),
+        mass: 7.0,
+        inertia: [0.0; 3],
+        offset: [0.0; 3],
+    });
+    let found =
+        excited_modes(&model, &[rail], &ExcitingForces::vertical(), 24, 1e-4).expect("it has mass");
+    assert_eq!(found.parts, vec![1; model.members.len()]);
+    // Closed form: a force at the tip moves it by a^2 (L + a)/(3 E I) for an overhang a of a span L.
+    let flexibility = 9.0_f64.powi(2) * (60.0 + 9.0) / (3.0 * given.e * given.i_vertical);
+    let [mode] = found.modes.modes.as_slice() else {
+        panic!("one mass moves vertically: {:?}", found.modes.modes.len());
+    };
+    let exact = (7.0 * flexibility).sqrt().recip();
+    assert!(
+        (mode.omega / exact - 1.0).abs() < 1e-9,
+        "{} {exact}",
+        mode.omega
+    );
 }
 
 /// The two searches share the matrices, not the unknowns: a mode that moves the rail vertically must be in both.
