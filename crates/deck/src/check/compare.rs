@@ -31,6 +31,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// statics of `sim`): its force is that of its law at a penetration that differs by so much, and at rest so is its penetration
 /// that of the heights.
 const STAGNANT: f64 = 1e-9;
+/// Difference of a flange force of the simulator from its law at the answer, relative to itself: the height of the wheel, by
+/// which it is released, follows by iteration.
+const LAW: f64 = 1e-6;
 /// Largest number of statements that are named in a report.
 const NAMED: usize = 3;
 
@@ -186,7 +189,11 @@ fn wheel(
         .map_or(0.0, |flange| flange.stiffness * by_side);
     let mut add = |quantity: usize, slot: VariableSlot, value: f64, rounding: f64| {
         let id = variable(w, slot);
-        let given = if quantity == 6 { down } else { value };
+        let given = match quantity {
+            6 => down,
+            7 => side,
+            _ => value,
+        };
         out.given.variables.insert(id, given);
         out.values.push(ExpectedValue {
             quantity,
@@ -238,7 +245,17 @@ fn wheel(
         }
         let from_rail = z + roll * (hy - arm) - yaw * hx - rail.shift;
         add(5, VariableSlot::Sideways, from_rail, by_side);
-        add(7, VariableSlot::Flange, side, by_flange);
+        // As with the vertical force, the expression is compared with the law.
+        let law = kind.flange.as_ref().map_or(0.0, |flange| {
+            flange.stiffness * flange.fraction(arm).0 * flange.overlap(from_rail)
+        });
+        let is_law = (law - side).abs() <= LAW * law.abs();
+        add(
+            7,
+            VariableSlot::Flange,
+            if is_law { law } else { side },
+            by_flange,
+        );
     }
     if own.spin.is_some() && kind.friction.is_some() {
         let [vx, vy, vz, _, by_yaw, by_pitch] = case.instant.speed[own.body];
