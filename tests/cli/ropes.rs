@@ -49,3 +49,41 @@ fn a_hung_ladle_presses_the_wheels_of_its_bogie() {
         }
     }
 }
+
+/// Analytic: a ladle on the floor below a rope that is still taut is held by both. Where the floor is stiff, a small motion of the
+/// girder moves all of its weight from one to the other.
+#[test]
+fn a_ladle_stands_and_hangs_at_the_same_time() {
+    let folder = folder();
+    fs::copy(
+        example("bogie").join("spec.json"),
+        folder.path().join("spec.json"),
+    )
+    .expect("a copy");
+    let with_floor = SCENE.replace(
+        r#""end": {"time": 0.5}"#,
+        r#""stops": [{"name": "floor", "body": "ladle", "Y": -39.41, "k": 1e9}], "end": {"time": 1e-3}"#,
+    );
+    let scene = with_floor.replace(r#""dt": 0.1"#, r#""dt": 1e-3"#);
+    fs::write(folder.path().join("scene.json"), scene).expect("written");
+    let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
+    let mut lines = history.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let first: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let value = |name: &str| -> f64 {
+        let at = header.iter().position(|column| *column == name);
+        first[at.expect("a column")].parse().expect("a number")
+    };
+    let [tension, floor] = ["hoist.tension", "floor.force"].map(value);
+    assert!(tension > 1e4 && floor > 1e4, "{tension} {floor}");
+    for (found, wanted) in [
+        (tension + floor, 1e6),
+        (value("hoist.length"), 40.0 * (1.0 + tension / 2.8e8)),
+        (value("ladle.Y"), -39.41 - floor / 1e9),
+        (value("girder.rail.reaction"), 4.8e6 + tension),
+    ] {
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
+    }
+}

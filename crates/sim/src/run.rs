@@ -7,9 +7,9 @@ use piecewise::Side;
 
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
-use crate::instant::balance::acting_springs;
 use crate::instant::hang::{equilibrate, place_below_ropes};
 use crate::instant::settle::{settle, settle_start};
+use crate::instant::springs::acting_springs;
 use crate::instant::uneven::{follow_rigid_rails, locate_wheels};
 use crate::mechanics::state::State;
 use crate::record::energy::Audit;

@@ -26,6 +26,7 @@ use smallvec::SmallVec;
 
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
+use crate::instant::springs::followed;
 use crate::mechanics::state::State;
 use crate::numerics::lu::{Entries, LuFactors};
 use crate::numerics::nonnegative::nonnegative;
@@ -72,7 +73,7 @@ pub(crate) struct Balance<'a> {
     rows: Entries,
     constant: Values,
     weight: Values,
-    /// Stiffness K of ropes and stops by the unknown degrees of freedom ([`stiffness_of_springs`]), and K q0, with q0 where
+    /// Stiffness K of ropes and stops by the unknown degrees of freedom ([`followed`]), and K q0, with q0 where
     /// their forces are part of the weight; empty without such springs.
     springs: Entries,
     pull: Values,
@@ -313,7 +314,7 @@ impl<'a> Balance<'a> {
             true => constant.clone(),
             false => laws.iter().map(|law| law.penetration(each)).collect(),
         };
-        let springs = stiffness_of_springs(solver, &moving, at);
+        let springs = followed(solver, &moving, at);
         let begun: Values = moving.iter().map(|&k| entry[k]).collect();
         let pull = springs
             .chunks(moving.len().max(1))
@@ -716,43 +717,4 @@ fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
         .iter()
         .map(|&i| -rows.approach_row(i)[number] * at.force[i])
         .sum()
-}
-
-/// Ropes and stops that act at `at` between bodies none of which hangs. A load on a rope follows the body that carries it, so
-/// that the rope is no spring of it.
-pub(crate) fn acting_springs(solver: &Solver, at: &State) -> impl Iterator<Item = usize> {
-    let system = solver.system();
-    let hangs = move |i: usize| {
-        let points = system.elements[i].points();
-        points.is_some_and(|points| {
-            system
-                .scene
-                .actuators
-                .hanging
-                .iter()
-                .any(|&b| points.is_on(b))
-        })
-    };
-    system
-        .springs()
-        .iter()
-        .copied()
-        .filter(move |&i| at.force[i] > 0.0 && !hangs(i))
-}
-
-/// Stiffness of [`acting_springs`] by the `moving` degrees of freedom; empty without such springs.
-fn stiffness_of_springs(solver: &Solver, moving: &[usize], at: &State) -> Entries {
-    let mut sum = Entries::new();
-    for i in acting_springs(solver, at) {
-        sum.resize(moving.len() * moving.len(), 0.0);
-        let row = solver.geometry().rows().approach_row(i);
-        let stiffness = solver.geometry().local()[i].spring.stiffness;
-        let pairs = moving
-            .iter()
-            .flat_map(|&k| moving.iter().map(move |&l| row[k] * row[l]));
-        sum.iter_mut()
-            .zip(pairs)
-            .for_each(|(entry, pair)| *entry += stiffness * pair);
-    }
-    sum
 }

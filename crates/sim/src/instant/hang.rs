@@ -1,21 +1,23 @@
 //! Static equilibrium of bodies without wheels that carry them: below their ropes or on their floors.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::Error;
 use crate::contact::solver::Solver;
-use crate::contact::system::System;
 use crate::instant::equilibrium::{balance_wheels, has_settled};
-use crate::mechanics::point::{Point, scalar};
+use crate::instant::springs::{hanging, regular, stiffness};
+use crate::mechanics::point::Point;
 use crate::mechanics::state::State;
 
 /// Largest number of Newton iterations, and of alternations between hanging bodies and bodies on rails.
 const ITERATIONS: usize = 200;
 const SWEEPS: usize = 100;
+/// Smallest part of the way to the equilibrium of the wheels.
+const SHORTEST: f64 = 1.0 / 64.0;
 
 /// Moves all bodies and structures to static equilibrium at `at.t`. Bodies on rails are balanced by
-/// [`balance_wheels`] and hanging bodies are moved to the minimum of their potential energy, in alternation, until
-/// the tensions and the displacements no longer change.
+/// [`balance_wheels`], with the stiffness of ropes and stops by which hanging bodies hold them, and hanging bodies are moved
+/// to the minimum of their potential energy, in alternation, until the tensions and the displacements no longer change.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] if the tensions do not converge, and any error of [`balance_wheels`].
@@ -28,6 +30,7 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
     let mut before = vec![f64::INFINITY; system.springs().len()];
     let mut places = at.q.clone();
     at.v.fill(0.0);
+    let (mut share, mut last, mut rests) = (1.0, f64::INFINITY, false);
     for _ in 0..SWEEPS {
         // The carriers have moved, and a slack rope would not show where its load hangs, so the loads are placed
         // again.
@@ -46,12 +49,25 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
             .springs()
             .iter()
             .fold(0.0_f64, |most, &i| most.max(local[i].spring.noise));
-        if moved <= (1e-12 * scale).max(noise) && has_settled(&places, at) {
+        if rests && moved <= (1e-12 * scale).max(noise) {
             return Ok(());
         }
+        // Where loads hang and stand by turns, bodies on rails move by a part of the way only.
+        share = if moved < last || last == 0.0 || last.is_infinite() {
+            (2.0_f64 * share).min(1.0)
+        } else {
+            (0.5 * share).max(SHORTEST)
+        };
+        last = moved;
         before.copy_from_slice(&tensions);
         places.copy_from(&at.q);
         balance_wheels(solver, at)?;
+        rests = has_settled(&places, at);
+        if share < 1.0 {
+            at.q -= &places;
+            at.q *= share;
+            at.q += &places;
+        }
     }
     Err(Error::NoEquilibrium {
         time: at.t,
@@ -125,44 +141,14 @@ fn static_load(solver: &Solver, number: usize, t: f64) -> f64 {
 
 /// Newton step of the `hanging` degrees of freedom; `None` if they have no stiffness.
 fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64>> {
-    let system = solver.system();
-    let n = system.mechanics.dofs;
-    let size = hanging.len();
-    let mut force = DVector::from_fn(size, |r, _| static_load(solver, hanging[r], at.t));
-    let mut matrix = DMatrix::zeros(size, size);
-    let mut row = vec![0.0; n];
-    for &i in system.springs() {
-        let (hold, own) = (
-            &solver.geometry().local()[i].spring,
-            solver.geometry().rows().approach_row(i),
-        );
-        if at.force[i] <= 0.0 {
-            continue;
-        }
-        let pull = DVector::from_fn(size, |r, _| own[hanging[r]]);
-        force -= &pull * at.force[i];
-        matrix += &pull * pull.transpose() * hold.stiffness;
-        if let Some(points) = system.elements[i].points().filter(|points| points.swings) {
-            for axis in 0..3 {
-                let mut unit = [0.0; 3];
-                unit[axis] = 1.0;
-                let lean = scalar(unit, hold.direction);
-                row.fill(0.0);
-                points.add_row(&system.mechanics, (at.t, &at.q), unit, &mut row);
-                let across =
-                    DVector::from_fn(size, |r, _| row[hanging[r]] - lean * own[hanging[r]]);
-                matrix += &across * across.transpose() * (at.force[i] / hold.length);
-            }
+    let mut force = DVector::from_fn(hanging.len(), |r, _| static_load(solver, hanging[r], at.t));
+    for &i in solver.system().springs() {
+        let own = solver.geometry().rows().approach_row(i);
+        for (force, &k) in force.iter_mut().zip(hanging) {
+            *force -= own[k] * at.force[i];
         }
     }
-    let stiffest = matrix.diagonal().amax();
-    if size == 0 || stiffest <= 0.0 {
-        return None;
-    }
-    for k in 0..size {
-        matrix[(k, k)] += 1e-14 * stiffest;
-    }
-    matrix.cholesky().map(|factor| factor.solve(&force))
+    regular(stiffness(solver, hanging, at)).map(|factor| factor.solve(&force))
 }
 
 /// Places hanging bodies below the ends of their ropes, which are stretched by the weight of the bodies.
@@ -199,26 +185,4 @@ pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(
         }
     }
     solver.update(at)
-}
-
-/// Translational degrees of freedom of the hanging bodies that are attached to ropes or stops.
-fn hanging(system: &System) -> Vec<usize> {
-    let is_joined = |b: usize| {
-        let mut points = system
-            .springs()
-            .iter()
-            .filter_map(|&i| system.elements[i].points());
-        points.any(|points| points.is_on(b))
-    };
-    let bodies = system.scene.actuators.hanging.iter();
-    bodies
-        .filter(|&&b| is_joined(b))
-        .flat_map(|&b| {
-            system.mechanics.kinematics.numbers[b]
-                .iter()
-                .take(3)
-                .flatten()
-                .copied()
-        })
-        .collect()
 }

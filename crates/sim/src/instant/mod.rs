@@ -10,4 +10,5 @@ pub(crate) mod hang;
 pub(crate) mod natural;
 pub(crate) mod rates;
 pub(crate) mod settle;
+pub(crate) mod springs;
 pub(crate) mod uneven;
