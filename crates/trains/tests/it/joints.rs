@@ -1,0 +1,204 @@
+//! Ends of members and of rails, and members that slope: closed forms.
+
+use fea::{CrossSection, Dof, Member, Model, Rail, RailSegment, Support};
+use trains::{
+    CaseEnvelopes, DeadLoads, EnvelopeValue, GirderResponse, Request, SpanExtreme, Structure,
+    Train, TrainCase, TrainWheel, envelopes,
+};
+
+const SECTION: CrossSection = CrossSection {
+    e: 2.1e8,
+    g: 8.1e7,
+    area: 0.02,
+    iy: 1e-4,
+    iz: 1e-2,
+    j: 1e-5,
+    shear_y: None,
+    shear_z: None,
+    mass: 0.157,
+};
+
+fn wheel(x: f64, vertical: f64, longitudinal: f64) -> TrainWheel {
+    TrainWheel {
+        rail: 0,
+        x,
+        vertical,
+        lateral: 0.0,
+        longitudinal,
+        eccentricity: 0.0,
+    }
+}
+
+fn train(wheels: Vec<TrainWheel>) -> Train {
+    Train {
+        wheels,
+        ends: [0.0; 2],
+        turned: false,
+        reverses: false,
+        enters: false,
+    }
+}
+
+/// Members one behind another with a rail over them, each with its offset.
+fn chain(
+    points: &[[f64; 3]],
+    orientation: [f64; 3],
+    offsets: &[[f64; 3]],
+    supports: &[(usize, &[Dof])],
+) -> (Model, Rail) {
+    let members = 0..offsets.len();
+    let model = Model {
+        points: points.to_vec(),
+        sections: vec![SECTION],
+        members: members
+            .clone()
+            .map(|k| Member::beam([k, k + 1], 0, orientation))
+            .collect(),
+        supports: supports
+            .iter()
+            .map(|&(point, held)| Support {
+                point,
+                fixed: Dof::ALL.map(|dof| held.contains(&dof)),
+            })
+            .collect(),
+        up: [0.0, 1.0, 0.0],
+        ..Model::default()
+    };
+    let segment = |member| RailSegment {
+        member,
+        offset: offsets[member],
+    };
+    let rail = Rail {
+        origin: offsets[0],
+        axis: [1.0, 0.0, 0.0],
+        segments: members.map(segment).collect(),
+        ..Rail::default()
+    };
+    (model, rail)
+}
+
+fn solved(
+    (model, rail): &(Model, Rail),
+    dead: &DeadLoads,
+    train: Train,
+    ends: Vec<f64>,
+    places: Vec<f64>,
+) -> CaseEnvelopes {
+    let structure = Structure::new(model, std::slice::from_ref(rail), false);
+    let structure = structure.expect("the frame is stable");
+    let request = Request {
+        spans: vec![ends],
+        places: vec![places],
+        ..Request::default()
+    };
+    let case = TrainCase {
+        trains: vec![train],
+        dead: if dead.is_empty() { 0.0 } else { 1.0 },
+        ..TrainCase::default()
+    };
+    let found = envelopes(&structure, dead, &[case], &request);
+    found.expect("the train fits").remove(0)
+}
+
+fn extreme(found: &CaseEnvelopes, quantity: GirderResponse, is_max: bool) -> &SpanExtreme {
+    let same = |e: &&SpanExtreme| (e.quantity, e.is_max) == (quantity, is_max);
+    found
+        .extremes
+        .iter()
+        .find(same)
+        .expect("there is one of every quantity")
+}
+
+fn envelope(
+    found: &CaseEnvelopes,
+    x: f64,
+    quantity: GirderResponse,
+    is_max: bool,
+) -> (usize, &EnvelopeValue) {
+    let same = |(_, e): &(usize, &EnvelopeValue)| {
+        (e.governing.x - x).abs() < 1e-9 && (e.quantity, e.is_max) == (quantity, is_max)
+    };
+    let all = found.envelopes.iter().enumerate();
+    all.into_iter().find(same).expect("the place was asked for")
+}
+
+/// A bar with both ends clamped, 4 m along and 3 m up, under its own weight q. The part across it bends it, and the part along
+/// it stretches the upper half and shortens the lower one: q cos^2 L^4/384 EI + q sin^2 L^2/8 EA downwards at its middle.
+#[test]
+fn weight_along_a_sloping_member_stretches_it() {
+    let bar = chain(
+        &[[0.0; 3], [4.0, 3.0, 0.0]],
+        [0.0, 1.0, 0.0],
+        &[[0.0; 3]],
+        &[(0, &Dof::ALL), (1, &Dof::ALL)],
+    );
+    let dead = DeadLoads {
+        gravity: 10.0,
+        lines: Vec::new(),
+    };
+    let idle = train(vec![wheel(0.0, 0.0, 0.0)]);
+    let found = solved(&bar, &dead, idle, vec![0.0, 4.0], vec![2.0]);
+    let (q, l) = (10.0 * SECTION.mass, 5.0_f64);
+    let known = q * 0.64 * l.powi(4) / (384.0 * SECTION.e * SECTION.iz)
+        + q * 0.36 * l.powi(2) / (8.0 * SECTION.e * SECTION.area);
+    let sag = extreme(&found, GirderResponse::VerticalDeflection, true);
+    assert!(
+        (sag.governing.value / known - 1.0).abs() < 1e-9,
+        "{sag:?}, not {known}"
+    );
+    assert!(sag.bound >= sag.governing.value && sag.bound < known * (1.0 + 2e-9));
+}
+
+/// The same bar with axes of its section at 45 degrees and a rail 1 m above it. In the plane of each axis it deflects by
+/// v = q s^2 (L - s)^2/24 EI, turns by v', and moves along itself by q s (L - s)/2 EA. The rail moves by the rotation times
+/// its arm as well, and so along +z where the bar turns about the normal in its vertical plane.
+#[test]
+fn a_rail_above_a_sloping_member_moves_with_its_rotation() {
+    let half = 0.5_f64.sqrt();
+    let bar = chain(
+        &[[0.0; 3], [4.0, 3.0, 0.0]],
+        [-0.6 * half, 0.8 * half, half],
+        &[[0.0, 1.0, 0.0]],
+        &[(0, &Dof::ALL), (1, &Dof::ALL)],
+    );
+    let dead = DeadLoads {
+        gravity: 10.0,
+        lines: Vec::new(),
+    };
+    let idle = train(vec![wheel(0.0, 0.0, 0.0)]);
+    let places = vec![0.5, 1.0, 2.0, 3.0];
+    let found = solved(&bar, &dead, idle, vec![0.0, 4.0], places.clone());
+    let (q, l) = (10.0 * SECTION.mass, 5.0_f64);
+    let stiffness = [SECTION.iz, SECTION.iy].map(|i| SECTION.e * i);
+    for x in places {
+        let s = x / 0.8;
+        // Along local y and z the weight has the parts -0.8 q cos 45 and 0.8 q cos 45.
+        let [vy, vz] = [0, 1].map(|k| {
+            let load = [-0.8, 0.8][k] * half * q;
+            let slope = 2.0 * s * (l - s) * (l - 2.0 * s);
+            [(s * (l - s)).powi(2), slope].map(|of| load * of / (24.0 * stiffness[k]))
+        });
+        let along = -0.6 * q * s * (l - s) / (2.0 * SECTION.e * SECTION.area);
+        // y = (u + z)/sqrt 2 and z = (z - u)/sqrt 2 with u = (-0.6, 0.8, 0). The arm times the rotation theta_u about u,
+        // u x (0, 1, 0) = (0, 0, -0.6), and about z, (-1, 0, 0).
+        let down = -(0.8 * half * (vy[0] - vz[0]) + 0.6 * along);
+        let turned = half * (-vz[1] - vy[1]);
+        let aside = half * (vy[0] + vz[0]) - 0.6 * turned;
+        for (quantity, known) in [
+            (GirderResponse::VerticalDeflection, down),
+            (GirderResponse::LateralDeflection, aside),
+        ] {
+            let (_, own) = envelope(&found, x, quantity, true);
+            let value = own.governing.value;
+            assert!(
+                (value - known).abs() < 1e-9 * down.abs().max(aside.abs()),
+                "{quantity:?} at {x}: {value}, not {known}"
+            );
+        }
+    }
+    for is_max in [true, false] {
+        let most = extreme(&found, GirderResponse::LateralDeflection, is_max);
+        let beyond = if is_max { 1.0 } else { -1.0 } * (most.bound - most.governing.value);
+        assert!((0.0..1e-13).contains(&beyond), "{most:?}");
+    }
+}
