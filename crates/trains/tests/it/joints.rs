@@ -1,9 +1,9 @@
 //! Ends of members and of rails, and members that slope: closed forms.
 
-use fea::{CrossSection, Dof, Member, Model, Rail, RailSegment, Support};
+use fea::{CrossSection, Dof, Effect, ForceComponent, Member, Model, Rail, RailSegment, Support};
 use trains::{
     CaseEnvelopes, DeadLoads, EnvelopeValue, GirderResponse, Request, SpanExtreme, Structure,
-    Train, TrainCase, TrainWheel, envelopes,
+    Train, TrainCase, TrainWheel, effects, envelopes,
 };
 
 const SECTION: CrossSection = CrossSection {
@@ -200,5 +200,45 @@ fn a_rail_above_a_sloping_member_moves_with_its_rotation() {
         let most = extreme(&found, GirderResponse::LateralDeflection, is_max);
         let beyond = if is_max { 1.0 } else { -1.0 } * (most.bound - most.governing.value);
         assert!((0.0..1e-13).contains(&beyond), "{most:?}");
+    }
+}
+
+/// Two hinged spans of 6 m under tractions of 12 at 0.5 m above the axis, 3 m apart. The traction on one span leaves
+/// the other without moment. With one just before the hinge the other one is at the middle of the second span, where its
+/// couple of 6 makes the moment jump from -3 to 3. With both on the second span these are 0 and 6.
+#[test]
+fn an_envelope_at_a_wheel_has_both_sides_of_a_joint_under_another() {
+    let above = [0.0, 0.5, 0.0];
+    let mut girder = chain(
+        &[[0.0; 3], [6.0, 0.0, 0.0], [12.0, 0.0, 0.0]],
+        [0.0, 1.0, 0.0],
+        &[above; 2],
+        &[
+            (0, &[Dof::Ux, Dof::Uy, Dof::Uz, Dof::Rx]),
+            (1, &[Dof::Uy, Dof::Uz, Dof::Rx]),
+            (2, &[Dof::Uy, Dof::Uz, Dof::Rx]),
+        ],
+    );
+    girder.0.members[0].releases[1][Dof::Rz as usize] = true;
+    for (force, known) in [(12.0, [6.0, -3.0]), (-12.0, [3.0, -6.0])] {
+        // The last wheel, without load, keeps the second one from the far half of the span.
+        let wheels = vec![
+            wheel(0.0, 0.0, force),
+            wheel(3.0, 0.0, force),
+            wheel(5.9, 0.0, 0.0),
+        ];
+        let ends = vec![0.0, 6.0, 12.0];
+        let found = solved(
+            &girder,
+            &DeadLoads::default(),
+            train(wheels),
+            ends,
+            vec![9.0],
+        );
+        for (is_max, known) in [true, false].into_iter().zip(known) {
+            let (_, own) = envelope(&found, 9.0, GirderResponse::VerticalMoment, is_max);
+            let value = own.governing.value;
+            assert!((value - known).abs() < 1e-9, "{value}, not {known}");
+        }
     }
 }
