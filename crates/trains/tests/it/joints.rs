@@ -242,3 +242,61 @@ fn an_envelope_at_a_wheel_has_both_sides_of_a_joint_under_another() {
         }
     }
 }
+
+/// A bar that is clamped at one end carries a wheel of 100 at its tip as a shear force of 100 in the section there, or
+/// not at all, whichever side of the section the wheel is on; at the clamped end always. It counts whatever the train may
+/// go on to.
+#[test]
+fn a_wheel_at_the_end_of_a_rail_counts_on_both_sides_of_a_section_there() {
+    for (clamped, reversed) in [(0, false), (1, false), (0, true), (1, true)] {
+        let (mut model, rail) = chain(
+            &[[0.0; 3], [2.0, 0.0, 0.0]],
+            [0.0, 1.0, 0.0],
+            &[[0.0; 3]],
+            &[(clamped, &Dof::ALL)],
+        );
+        if reversed {
+            model.members[0].points.reverse();
+        }
+        let structure = Structure::new(&model, &[rail], false).expect("the bar is stable");
+        for enters in [false, true] {
+            let case = TrainCase {
+                trains: vec![Train {
+                    enters,
+                    ..train(vec![wheel(0.0, 100.0, 0.0)])
+                }],
+                ..TrainCase::default()
+            };
+            let shear = |point: usize| {
+                let effect = Effect::InternalForce {
+                    member: 0,
+                    place: if (point == 1) != reversed { 1.0 } else { 0.0 },
+                    component: ForceComponent::ShearY,
+                };
+                let found = effects(
+                    &structure,
+                    &DeadLoads::default(),
+                    std::slice::from_ref(&case),
+                    &[vec![effect]],
+                );
+                let found = found.expect("the train fits");
+                let [most, least] = &found[0][0];
+                [most, least].map(|of| (of.value, of.trains[0].position))
+            };
+            let tip = shear(1 - clamped);
+            let sides = tip.map(|(value, _)| value.abs());
+            let known = [sides[0].max(sides[1]), sides[0].min(sides[1])];
+            assert!(
+                (known[0] - 100.0).abs() < 1e-9 && known[1].abs() < 1e-9,
+                "{tip:?} at the tip, {clamped} {reversed} {enters}"
+            );
+            // The force is that which the whole bar has with the wheel there.
+            let inside = shear(clamped);
+            let largest = |of: [(f64, f64); 2]| if of[0].0 > -of[1].0 { of[0] } else { of[1] };
+            let (value, position) = largest(tip);
+            let x = 2.0 * (1 - clamped) as f64;
+            assert!((position - x).abs() < 1e-12, "{position}");
+            assert!((value - largest(inside).0).abs() < 1e-9, "{inside:?}");
+        }
+    }
+}
