@@ -231,7 +231,7 @@ impl Structure {
             DEFLECTIONS.map(|quantity| resists[deflection_axis(quantity).0.component()])
         };
         let probes = |carrier: &Carrier| {
-            let (rail, ends) = (carrier.rail, carrier.x);
+            let (rail, ends) = (carrier.rail, self.just_within(carrier.x));
             let all = DEFLECTIONS
                 .into_iter()
                 .zip(resisted(carrier))
@@ -259,8 +259,9 @@ impl Structure {
                     continue;
                 };
                 let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
+                let within = self.just_within(carrier.x);
                 if carrier.bent.is_some() {
-                    for (end, x) in ends.iter_mut().zip(carrier.x) {
+                    for (end, x) in ends.iter_mut().zip(within) {
                         *end += sign
                             * self.held_deflection(
                                 dead,
@@ -273,7 +274,7 @@ impl Structure {
                             )?;
                     }
                 }
-                for (end, x) in ends.iter_mut().zip(carrier.x) {
+                for (end, x) in ends.iter_mut().zip(within) {
                     if dead.lines.iter().all(|line| *line == 0.0) {
                         break;
                     }

@@ -686,6 +686,13 @@ impl Structure {
         Ok(out)
     }
 
+    /// Coordinates just within a stretch of rail between two others: where it meets the next one, the two need not move
+    /// alike.
+    pub(crate) fn just_within(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        let slack = 2.0 * self.slack();
+        [from + slack, to - slack]
+    }
+
     /// Influence line of a sum of effects.
     pub(crate) fn effect_line(
         &self,

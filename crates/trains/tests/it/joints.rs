@@ -300,3 +300,67 @@ fn a_wheel_at_the_end_of_a_rail_counts_on_both_sides_of_a_section_there() {
         }
     }
 }
+
+/// A cantilever of two members of length L under P at the tip of a rail that runs over its axis as far as the first, and b
+/// beside it along the second. Over the first member w = P s^2 (6 L - s)/6 EI, and w - w(L) s/L is least at
+/// s = L (6 - sqrt 21)/3, however far the second one moves as it twists by P b L/GJ.
+#[test]
+fn a_chord_ends_on_its_own_side_of_a_step_of_the_rail() {
+    let (l, b, p) = (3.0, 0.4, 50.0);
+    let points = [[0.0; 3], [l, 0.0, 0.0], [2.0 * l, 0.0, 0.0]];
+    for clamped in [0, 2] {
+        let beside = [0.0, 0.0, b];
+        let mut offsets = [[0.0; 3], beside];
+        let mut ends = vec![0.0, l];
+        let mut forces = [0.0, p];
+        if clamped == 2 {
+            offsets.reverse();
+            ends = vec![l, 2.0 * l];
+            forces.reverse();
+        }
+        let bar = chain(&points, [0.0, 1.0, 0.0], &offsets, &[(clamped, &Dof::ALL)]);
+        let wheels = vec![wheel(0.0, forces[0], 0.0), wheel(2.0 * l, forces[1], 0.0)];
+        let found = solved(&bar, &DeadLoads::default(), train(wheels), ends, Vec::new());
+        let r = (6.0 - 21.0_f64.sqrt()) / 3.0;
+        let known =
+            p * l.powi(3) / (6.0 * SECTION.e * SECTION.iz) * (6.0 * r * r - r.powi(3) - 5.0 * r);
+        let own = found
+            .deflections
+            .iter()
+            .find(|d| d.quantity == GirderResponse::VerticalDeflection);
+        let own = &own.expect("there is a span").governing;
+        assert!(
+            (own.value / known - 1.0).abs() < 1e-5,
+            "{own:?}, not {known}"
+        );
+        let x = if clamped == 0 { r * l } else { (2.0 - r) * l };
+        assert!((own.x - x).abs() < 1e-2 * l, "{own:?}");
+    }
+}
+
+/// The same cantilever under a line load q on its rail: at the joint the axis is down by 17 q L^4/24 EI, and the rail beside
+/// it by q b^2 L^2/GJ more.
+#[test]
+fn dead_load_deflects_both_sides_of_a_step_of_the_rail() {
+    let (l, b, q) = (3.0_f64, 0.4, 10.0);
+    let points = [[0.0; 3], [l, 0.0, 0.0], [2.0 * l, 0.0, 0.0]];
+    let offsets = [[0.0; 3], [0.0, 0.0, b]];
+    let bar = chain(&points, [0.0, 1.0, 0.0], &offsets, &[(0, &Dof::ALL)]);
+    let dead = DeadLoads {
+        gravity: 0.0,
+        lines: vec![q],
+    };
+    let idle = train(vec![wheel(0.0, 0.0, 0.0)]);
+    let found = solved(&bar, &dead, idle, vec![0.0, 2.0 * l], vec![l]);
+    let (index, own) = envelope(&found, l, GirderResponse::VerticalDeflection, true);
+    let (_, other) = found
+        .other_sides
+        .iter()
+        .find(|(of, _)| *of == index)
+        .expect("two members meet");
+    let axis = 17.0 * q * l.powi(4) / (24.0 * SECTION.e * SECTION.iz);
+    let aside = q * (b * l).powi(2) / (SECTION.g * SECTION.j);
+    for (value, known) in [(own.governing.value, axis + aside), (other.value, axis)] {
+        assert!((value / known - 1.0).abs() < 1e-9, "{value}, not {known}");
+    }
+}
