@@ -216,8 +216,9 @@ impl Structure {
     /// Deflections of the rails over the carriers: those of the ends by the structure, and between them the particular
     /// solution for the internal forces that vanishes at both ends,
     ///
-    /// v'' = (M/EI - q/GAs)/mu in each plane of bending, with mu = 1 + N/GAs, and for the twist GJ theta'' = T'. `jumps` are the
-    /// loads along each carrier.
+    /// v'' = (M/EI - q/GAs)/mu in each plane of bending, with mu = 1 + N/GAs, EI theta'' = M' for its rotation, GJ theta'' = T'
+    /// for the twist, and EA u'' = N' for the stretch. The rail moves by u + v + theta x arm. `jumps` are the loads along each
+    /// carrier.
     fn add_deflections(
         &self,
         dead: &DeadLoads,
@@ -230,7 +231,7 @@ impl Structure {
             DEFLECTIONS.map(|quantity| resists[deflection_axis(quantity).0.component()])
         };
         let probes = |carrier: &Carrier| {
-            let (rail, ends) = (carrier.rail, carrier.x);
+            let (rail, ends) = (carrier.rail, self.just_within(carrier.x));
             let all = DEFLECTIONS
                 .into_iter()
                 .zip(resisted(carrier))
@@ -258,8 +259,9 @@ impl Structure {
                     continue;
                 };
                 let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
+                let within = self.just_within(carrier.x);
                 if carrier.bent.is_some() {
-                    for (end, x) in ends.iter_mut().zip(carrier.x) {
+                    for (end, x) in ends.iter_mut().zip(within) {
                         *end += sign
                             * self.held_deflection(
                                 dead,
@@ -272,7 +274,7 @@ impl Structure {
                             )?;
                     }
                 }
-                for (end, x) in ends.iter_mut().zip(carrier.x) {
+                for (end, x) in ends.iter_mut().zip(within) {
                     if dead.lines.iter().all(|line| *line == 0.0) {
                         break;
                     }
@@ -332,10 +334,15 @@ impl Structure {
             }
         };
         // Moment and force on the face that looks along +t, in the planes of the section's axes.
-        let [vertical, lateral] = [
-            quantity(GirderResponse::VerticalMoment),
-            quantity(GirderResponse::LateralMoment),
+        let moments = [
+            GirderResponse::VerticalMoment,
+            GirderResponse::LateralMoment,
         ];
+        let [vertical, lateral] = moments.map(quantity);
+        let [rate_of_vertical, rate_of_lateral] = moments.map(|moment| {
+            let [_, b, c, d] = load.forces[moment as usize];
+            [b, 2.0 * c, 3.0 * d]
+        });
         let spread = [GirderResponse::VerticalShear, GirderResponse::LateralShear]
             .map(|shear| jump[shear as usize]);
         let point = RailPoint::new(self, carrier)?;
@@ -345,27 +352,40 @@ impl Structure {
                 y_axis,
                 z_axis,
                 1.0,
-                flexibility.bending_z / mu_y,
-                flexibility.shear_y / mu_y,
+                flexibility.bending_z,
+                mu_y,
+                flexibility.shear_y,
             ),
             (
                 z_axis,
                 y_axis,
                 -1.0,
-                flexibility.bending_y / mu_z,
-                flexibility.shear_z / mu_z,
+                flexibility.bending_y,
+                mu_z,
+                flexibility.shear_z,
             ),
         ];
-        for (direction, about, sign, bending, shear) in planes {
+        for (direction, about, sign, own, mu, shear) in planes {
             let times = |c: f64, flexibility: f64| if c == 0.0 { 0.0 } else { c * flexibility };
             let moment =
                 |p: usize| sign * (vertical[p] * z.dot(&about) + lateral[p] * u.dot(&about));
             let rate = -spread[0] * u.dot(&direction) + spread[1] * z.dot(&direction);
-            let mut second: [f64; 3] = std::array::from_fn(|p| times(moment(p), bending));
-            second[0] += times(rate, shear);
+            let mut second: [f64; 3] = std::array::from_fn(|p| times(moment(p), own / mu));
+            second[0] += times(rate, shear / mu);
             if second.iter().all(|c| c.is_finite()) {
                 add(direction, second);
             }
+            let turning: [f64; 3] = std::array::from_fn(|p| {
+                let rate = rate_of_vertical[p] * z.dot(&about) + rate_of_lateral[p] * u.dot(&about);
+                times(rate, own)
+            });
+            if turning.iter().all(|c| c.is_finite()) {
+                add(about.cross(&point.arm), turning);
+            }
+        }
+        let stretch = load.forces[GirderResponse::Normal as usize][1];
+        if stretch != 0.0 && flexibility.axial.is_finite() {
+            add(t, [stretch * flexibility.axial, 0.0, 0.0]);
         }
         let twist = load.forces[GirderResponse::Torsion as usize][1];
         if twist != 0.0 && flexibility.torsion.is_finite() {

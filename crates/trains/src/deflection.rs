@@ -340,9 +340,21 @@ impl Deflections<'_> {
             project(moments, &z_axis, [&z, &u]),
             project(moments, &y_axis, [&z, &u]),
         );
+        // By how much the rates of moments under dead load exceed the shear forces: couples of loads beside the axis.
+        let couples: f64 = moments
+            .into_iter()
+            .zip(shears)
+            .map(|(moment, shear)| {
+                let [_, a, b, c] = self.dead.cubic(moment as usize);
+                let rate = [a, 2.0 * b, 3.0 * c, 0.0];
+                let beyond = rate.iter().zip(self.dead.cubic(shear as usize));
+                let add = |sum: f64, (m, v): (&f64, f64)| sum * self.carrier.length + (m - v).abs();
+                beyond.rev().fold(0.0, add)
+            })
+            .sum();
         let (shear_y, shear_z) = (
-            project(shears, &y_axis, [&u, &z]),
-            project(shears, &z_axis, [&u, &z]),
+            project(shears, &y_axis, [&u, &z]) + couples,
+            project(shears, &z_axis, [&u, &z]) + couples,
         );
         let rate = |k: GirderResponse| self.dead.cubic(k as usize)[1].abs();
         let distributed = rate(GirderResponse::VerticalShear) + rate(GirderResponse::LateralShear);

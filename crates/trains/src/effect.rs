@@ -8,10 +8,10 @@ use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::SectionSide;
 use crate::line::Lines;
-use crate::pieces::Pieces;
+use crate::pieces::{Pieces, ResponsePiece};
 use crate::plan::{CasePlan, Responses};
-use crate::structure::{Structure, section_of};
-use crate::train::{COMPONENTS, TrainCase};
+use crate::structure::{Structure, Tip, section_of};
+use crate::train::{COMPONENTS, PlacedTrain, PlacedWheel, TrainCase};
 
 /// Effects whose influence lines are solved at once.
 const BATCH: usize = 32;
@@ -92,7 +92,7 @@ pub(crate) fn extremes_of_effects(
         let lines = structure.effect_lines_of(sums, used)?;
         for (sum, line) in sums.iter().zip(lines) {
             let of_dead = structure.dead_effect(sum, &line, dead)?;
-            let line = line.joined();
+            let line = (line.joined(), structure.tips(sum)?);
             for (plan, out) in plans.iter().zip(&mut out) {
                 out.push(governing(structure, plan, &line, plan.dead * of_dead));
             }
@@ -101,11 +101,54 @@ pub(crate) fn extremes_of_effects(
     Ok(out)
 }
 
+/// The response to a train of an effect whose influence line is given. A wheel at an end of a rail is counted on either side
+/// of a section there, by a part of no length.
+fn responses(
+    (line, tips): &(Lines<1>, Vec<Tip>),
+    train: &PlacedTrain,
+    slack: f64,
+) -> Vec<ResponsePiece> {
+    let pieces = Pieces::sum(line, train, slack).responses();
+    let beyond = |piece: &ResponsePiece, end: usize| {
+        let position = piece.position[end];
+        let at = |wheel: &PlacedWheel, tip: &Tip| {
+            (tip.rail, tip.end) == (wheel.rail, end)
+                && (tip.x - wheel.offset - position).abs() <= slack
+        };
+        let pairs = train
+            .wheels
+            .iter()
+            .flat_map(|wheel| tips.iter().map(move |tip| (wheel, tip)));
+        let changes = pairs.filter(|(wheel, tip)| at(wheel, tip));
+        let change = changes
+            .map(|(wheel, tip)| {
+                let each = wheel.load.iter().zip(tip.change);
+                each.map(|(load, change)| load * change).sum::<f64>()
+            })
+            .reduce(|a, b| a + b)?;
+        Some(ResponsePiece {
+            position: [position; 2],
+            cubic: [piece.at(position) + change, 0.0, 0.0, 0.0],
+            origin: piece.origin,
+        })
+    };
+    let with_both = |piece: ResponsePiece| {
+        let [first, last] = [0, 1].map(|end| beyond(&piece, end));
+        first.into_iter().chain([piece]).chain(last)
+    };
+    pieces.into_iter().flat_map(with_both).collect()
+}
+
 /// The states of a case with the largest and the smallest value of an effect, whose influence line is given, and its value
 /// under dead load.
-fn governing(structure: &Structure, plan: &CasePlan, line: &Lines<1>, dead: f64) -> [Governing; 2] {
+fn governing(
+    structure: &Structure,
+    plan: &CasePlan,
+    line: &(Lines<1>, Vec<Tip>),
+    dead: f64,
+) -> [Governing; 2] {
     let slack = structure.slack();
-    let of = |(stance, train)| (stance, Pieces::sum(line, train, slack).responses());
+    let of = |(stance, train)| (stance, responses(line, train, slack));
     let responses: Responses = plan
         .trains
         .iter()

@@ -46,9 +46,10 @@ impl Structure {
         let loads = self.unit_kernels(carrier, direction)?;
         let places = NODES.map(|node| carrier.x[0] + node * (carrier.x[1] - carrier.x[0]));
         let ends = chord.as_ref().map_or(&[][..], |chord| &chord[..]);
+        let within = chord.map(|chord| self.just_within(chord));
         let probes: Vec<Probe> = places
             .iter()
-            .chain(ends)
+            .chain(within.iter().flatten())
             .map(|&x| Probe {
                 rail: carrier.rail,
                 x,

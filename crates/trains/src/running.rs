@@ -33,7 +33,7 @@ struct Part {
 const MOST_BEFORE: usize = 4;
 
 /// Where a running maximum has its value: the part of its function, and the position there.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Source {
     pub part: usize,
     /// `None` where it moves along with the position.
@@ -250,12 +250,19 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
 /// q -> max over p <= q - distance of f(p), for q from the first position of f on; where f is not defined, and beyond its
 /// last position up to infinity, it is constant.
 pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> PiecewiseFunction {
-    let mut out = PiecewiseFunction::with_room(3 * f.pieces.len() + 1);
+    let mut out = PiecewiseFunction::with_room(f.pieces.len() + 1);
     let mut most = f64::NEG_INFINITY;
     let mut source = Source::default();
     let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
-        out.pieces
-            .push(Part::new(ends.map(|x| x + distance), cubic, 0).with_source(source));
+        let position = ends.map(|x| x + distance);
+        // A level that goes on is one part, however many parts of f are below it.
+        let goes_on = |last: &&mut Part| source.position.is_some() && last.sources[0] == source;
+        match out.pieces.last_mut().filter(goes_on) {
+            Some(last) => last.position[1] = position[1],
+            None => out
+                .pieces
+                .push(Part::new(position, cubic, 0).with_source(source)),
+        }
     };
     let mut reached_to = f64::INFINITY;
     for (
@@ -271,6 +278,10 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             add([reached_to, *start], Polynomial::new(&[most]), source);
         }
         reached_to = *end;
+        if cubic.bound(end - start) <= most {
+            add([*start, *end], Polynomial::new(&[most]), source);
+            continue;
+        }
         let places = cubic.candidates(end - start);
         if cubic.at(0.0) > most {
             most = cubic.at(0.0);
@@ -433,5 +444,21 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// However many parts of a function are below a level that it has reached, its running maximum is one part there.
+    #[test]
+    fn a_level_is_one_part() {
+        let mut f = PiecewiseFunction::default();
+        f.push([0.0, 1.0], Polynomial::new(&[0.0, 1.0]), 0);
+        for k in 1..6 {
+            let ends = [f64::from(k), f64::from(k + 1)];
+            f.push(ends, Polynomial::new(&[0.5, -0.1, 0.2]), 0);
+        }
+        let running = running_maximum(&f, 2.0);
+        let ends: Vec<_> = running.pieces.iter().map(|part| part.position).collect();
+        assert_eq!(ends, [[2.0, 3.0], [3.0, f64::INFINITY]]);
+        let value = value_of(&running, 5.0);
+        assert!((value - 1.0).abs() < 1e-15, "{value}");
     }
 }

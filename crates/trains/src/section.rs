@@ -370,8 +370,8 @@ impl Passage {
     }
 
     /// Calls `each` with the parts of a piece for response k of the section at place s: it is divided where a wheel passes
-    /// the section. A wheel that stands at the section where the train's range ends, or where it comes onto the member or
-    /// leaves it, is counted on either side of it, by a part of no length.
+    /// the section. A wheel that stands at the section where the train's range ends, or where it or another wheel comes onto a
+    /// member or leaves it, is counted on either side of it, by a part of no length.
     pub fn parts(&self, piece: usize, k: usize, s: f64, mut each: impl FnMut(ResponsePiece)) {
         let base = self.base(piece, k, s);
         let wheels = &self.wheels[piece];
@@ -411,9 +411,11 @@ impl Passage {
                 .filter(|(_, passage)| is_at(**passage));
             at.any(|(wheel, _)| others.iter().all(|other| other.wheel != wheel.wheel))
         };
+        // Where another wheel passes from a member to the next, its response may jump.
+        let list = &self.pieces.list;
         let at_ends = [
-            piece == 0 || changes_member(piece - 1, &|t| t.abs() <= slack),
-            piece + 1 == self.pieces.list.len()
+            piece == 0 || !whole.begins_inside || changes_member(piece - 1, &|t| t.abs() <= slack),
+            list.get(piece + 1).is_none_or(|next| !next.begins_inside)
                 || changes_member(piece + 1, &|t| (t - h).abs() <= slack),
         ];
         for (index, ends) in cuts(&passages, h, slack, at_ends).windows(2).enumerate() {
@@ -529,7 +531,7 @@ enum Side {
 }
 
 /// The ends of the parts of a piece of length h in which wheels pass a section at some distances. A passage in the middle
-/// cuts once; one at an end leaves a part of no length beyond it, where the piece is the first or the last.
+/// cuts once; one at an end leaves a part of no length beyond it, where `at_ends` says so.
 fn cuts(passages: &[f64], h: f64, slack: f64, at_ends: [bool; 2]) -> SmallVec<[f64; FEW]> {
     if h <= slack {
         return SmallVec::from_slice(&[0.0; 3]);

@@ -22,6 +22,9 @@ const MOST_BEND: f64 = 50.0;
 /// derivative.
 const CHEBYSHEV: f64 = 3072.0;
 
+/// Fractions of a member that count as rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Number of quantities of a section: [`GirderResponse::ALL`].
 pub(crate) const QUANTITIES: usize = 6;
 
@@ -211,6 +214,22 @@ impl Carrier {
         let sign = if self.reversed { 1.0 } else { -1.0 };
         self.jump(&(sign * vector(0)), &(sign * vector(3)))
     }
+
+    /// The six components of the internal force in the axes of the member, by the quantities.
+    fn components(&self, quantities: [f64; QUANTITIES]) -> [f64; 6] {
+        let [normal, torsion, vertical, lateral, sagging, sideways] = quantities;
+        let [t, u, z] = &self.triad;
+        let sign = if self.reversed { 1.0 } else { -1.0 };
+        let force = (u * vertical - t * normal - z * lateral) * sign;
+        let couple = (t * torsion + z * sagging + u * sideways) * -sign;
+        std::array::from_fn(|k| {
+            if k < 3 {
+                self.local[k].dot(&force)
+            } else {
+                self.local[k - 3].dot(&couple)
+            }
+        })
+    }
 }
 
 /// A rail element on the member of a carrier: where loads on it stand on the member.
@@ -222,6 +241,18 @@ pub(crate) struct OnMember<'s> {
     /// Place along the carrier at the first coordinate of the element, and its change by the coordinate.
     pub start: f64,
     pub rate: f64,
+}
+
+/// An end of a rail that is the place of a section: a load there is beyond the section, or on the other side of it, which no
+/// other position has.
+#[derive(Clone, Debug)]
+pub(crate) struct Tip {
+    pub rail: usize,
+    pub x: f64,
+    /// Whether it is the first (0) or the last (1) end of the rail.
+    pub end: usize,
+    /// What the effect of each component of a unit load changes by where the load is on the other side.
+    pub change: [f64; COMPONENTS],
 }
 
 /// A rail with the frame of its coordinates.
@@ -609,6 +640,57 @@ impl Structure {
             Ok(())
         };
         self.lines(used, sums.len(), split, value)
+    }
+
+    /// The ends of rails at which a load can stand on either side of a section of a sum of effects.
+    pub(crate) fn tips(&self, effects: &[Effect]) -> Result<Vec<Tip>, Error> {
+        let slack = self.slack();
+        let mut out = Vec::new();
+        for effect in effects {
+            let Effect::InternalForce {
+                member,
+                place,
+                component,
+            } = *effect
+            else {
+                continue;
+            };
+            for carrier in self.carriers.iter().filter(|c| c.member == member) {
+                let range = self.range(carrier.rail);
+                for (end, s) in [0.0, carrier.length].into_iter().enumerate() {
+                    if (carrier.x[end] - range[end]).abs() > slack
+                        || (carrier.fraction(s) - place).abs() > ROUNDING
+                    {
+                        continue;
+                    }
+                    let stretches = &self.rails[carrier.rail].stretches;
+                    let own = |stretch: &&Stretch| stretch.number == carrier.stretch;
+                    let stretch = stretches.iter().find(own);
+                    let stretch = stretch.expect("a carrier is made from a stretch of its rail");
+                    let mut change = [0.0; COMPONENTS];
+                    for (load, change) in change.iter_mut().enumerate() {
+                        let [force, couple] = self.load(stretch, load)?;
+                        let jump = carrier.components(carrier.jump_of_load(&force, &couple));
+                        let passed = jump[component as usize];
+                        *change = if end == 0 { passed } else { -passed };
+                    }
+                    out.push(Tip {
+                        rail: carrier.rail,
+                        x: range[end],
+                        end,
+                        change,
+                    });
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// Coordinates just within a stretch of rail between two others: where it meets the next one, the two need not move
+    /// alike.
+    pub(crate) fn just_within(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        let slack = 2.0 * self.slack();
+        [from + slack, to - slack]
     }
 
     /// Influence line of a sum of effects.

@@ -1,5 +1,6 @@
 //! Tests of the crate `trains` through its public interface, one executable.
 
+mod joints;
 mod loaded;
 mod long;
 mod random;
