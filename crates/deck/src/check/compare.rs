@@ -258,13 +258,11 @@ fn wheel(
         );
     }
     if own.spin.is_some() && kind.friction.is_some() {
-        let [vx, vy, vz, _, by_yaw, by_pitch] = case.instant.speed[own.body];
-        let speeds = vx.abs()
-            + vy.abs()
-            + vz.abs()
-            + kind.radius * (case.instant.spin[w].abs() + by_pitch.abs())
-            + by_pitch.abs() * hy.abs()
-            + by_yaw.abs() * hz.abs();
+        let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[own.body].map(f64::abs);
+        let turns = by_roll + by_yaw + by_pitch;
+        let arms = hx.abs() + hy.abs() + hz.abs();
+        let spins = turns + case.instant.spin[w].abs();
+        let speeds = vx + vy + vz + turns * arms + spins * kind.radius;
         // Where the rails move, they turn at up to 1 rad/s, and the coordinates are multiplied by that.
         let by_slip = kind.friction.as_ref().map_or(0.0, |friction| {
             friction.coefficient * down.abs() / friction.slip * ROUNDING * (speeds + size)

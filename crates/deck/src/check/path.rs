@@ -247,14 +247,9 @@ pub fn path(
             .after
             .as_ref()
             .map(|after| scales.difference(&Positions::of_deck(plan, after), &expected));
-        // A step that is one of several says nothing of the equations that it leaves.
-        let is_determined = small
-            .after
-            .as_ref()
-            .is_some_and(|one| one.rank_deficiency == 0);
         let is_near = moved.is_some_and(|moved| within(&moved, &out.limit));
         out.small.include(moved.unwrap_or_default());
-        if !(is_determined && is_near) {
+        if !(small.is_solved && is_near) {
             if small.equations.iter().any(|one| !one.holds) {
                 out.causes
                     .extend(causes(set, case.instant.time, &small, moved));

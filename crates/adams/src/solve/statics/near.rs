@@ -45,6 +45,8 @@ pub struct Imbalance {
     /// The state after one Newton step, whose length is the distance from equilibrium to first order; `None` where the
     /// linearised equations have no solution.
     pub after: Option<Equilibrium>,
+    /// Whether the step satisfies all of the linearised equations. Where they are singular, it may leave some.
+    pub is_solved: bool,
 }
 
 impl AdamsModel {
@@ -82,6 +84,11 @@ impl AdamsModel {
             .map(|(row, rounding)| (fraction * row).max(*rounding))
             .collect();
         let left = without_reactions(&search, &residual, &matrix, &allowed);
+        let is_solved = step.as_ref().is_some_and(|(step, _)| {
+            let left = &matrix * DVector::from_column_slice(step);
+            let sums = left.iter().zip(&residual).map(|(left, own)| left + own);
+            sums.zip(&allowed).all(|(sum, most)| sum.abs() <= *most)
+        });
         let is_balance = |k: usize| {
             matches!(
                 search.unknowns[k],
@@ -113,7 +120,11 @@ impl AdamsModel {
             search.report(&at.after(&search.unknowns, &step, 1.0), 1, undetermined)
         });
         let after = after.transpose()?;
-        Ok(Imbalance { equations, after })
+        Ok(Imbalance {
+            equations,
+            after,
+            is_solved,
+        })
     }
 
     /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there; `None` if its steps do not
