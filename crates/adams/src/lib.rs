@@ -72,7 +72,7 @@ pub use language::{
 };
 pub use model::AdamsModel;
 pub use solve::{
-    ConstraintReaction, EquationResidual, Equilibrium, GivenValues, Imbalance, Load,
+    ConstraintReaction, EquationResidual, Equilibrium, GivenValues, Load, NewtonStep,
     RotationMeasure, SolvedModelState, SubstitutedValues, Substitution,
 };
 pub use tables::{Spline, SplineFunction, SplineMethod, SplineReading, SplineValues, Tables};

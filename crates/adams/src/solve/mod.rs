@@ -14,5 +14,5 @@ mod statics;
 mod substitution;
 
 pub use solution::{Load, SolvedModelState};
-pub use statics::{ConstraintReaction, EquationResidual, Equilibrium, Imbalance, RotationMeasure};
+pub use statics::{ConstraintReaction, EquationResidual, Equilibrium, NewtonStep, RotationMeasure};
 pub use substitution::{GivenValues, SubstitutedValues, Substitution};

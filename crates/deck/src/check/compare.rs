@@ -239,16 +239,14 @@ fn wheel(
         };
         add(6, VariableSlot::Press, press, by_press);
     }
-    if kind.flange.is_some() {
+    if let Some(flange) = &kind.flange {
         if is_flexible {
             add(2, VariableSlot::Shift, rail.shift, by_shift);
         }
         let from_rail = z + roll * (hy - arm) - yaw * hx - rail.shift;
         add(5, VariableSlot::Sideways, from_rail, by_side);
         // As with the vertical force, the expression is compared with the law.
-        let law = kind.flange.as_ref().map_or(0.0, |flange| {
-            flange.stiffness * flange.fraction(arm).0 * flange.overlap(from_rail)
-        });
+        let law = flange.stiffness * flange.fraction(arm).0 * flange.overlap(from_rail);
         let is_law = (law - side).abs() <= LAW * law.abs();
         add(
             7,
@@ -257,16 +255,15 @@ fn wheel(
             by_flange,
         );
     }
-    if own.spin.is_some() && kind.friction.is_some() {
+    if let (Some(_), Some(friction)) = (own.spin, &kind.friction) {
         let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[own.body].map(f64::abs);
         let turns = by_roll + by_yaw + by_pitch;
         let arms = hx.abs() + hy.abs() + hz.abs();
         let spins = turns + case.instant.spin[w].abs();
         let speeds = vx + vy + vz + turns * arms + spins * kind.radius;
         // Where the rails move, they turn at up to 1 rad/s, and the coordinates are multiplied by that.
-        let by_slip = kind.friction.as_ref().map_or(0.0, |friction| {
-            friction.coefficient * down.abs() / friction.slip * ROUNDING * (speeds + size)
-        });
+        let by_slip =
+            friction.coefficient * down.abs() / friction.slip * ROUNDING * (speeds + size);
         add(8, VariableSlot::Traction, along, by_slip);
     }
     let slope = if plan.form == DeckForm::Factored {
@@ -411,6 +408,9 @@ fn displacements(
                 _ => (out[w].rise, out[w].rise_rounding) = (moved, sizes),
             }
             out[w].along += own * of(&influence.slope);
+            if plan.form != DeckForm::Factored {
+                continue;
+            }
             // Between two stations a product of curves changes by about its size, and its slope by about that slope.
             let stations = compliance.breaks(plan.wheels[w].rail);
             let spacing = stations

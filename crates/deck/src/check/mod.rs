@@ -5,7 +5,7 @@
 //!    interpolate the tables of the deck, so that equations are compared and not interpolations.
 //! 2. The values of the simulator are put into the expressions of the deck, each of which must give the value of the
 //!    simulator ([`compare`]). This is repeated with all rails on a moving part, which must not change the forces.
-//! 3. Every static equation of the deck must hold at the equilibria of the simulator ([`path`]), with its small rotations; what
+//! 3. The equilibria of the simulator must be those of the deck's static equations ([`path`]), with its small rotations; what
 //!    finite ones change is computed too.
 
 pub mod compare;

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeSet;
 
-use adams::{AdamsModel, DataSet, Equilibrium, Imbalance, RotationMeasure, StatementId};
+use adams::{AdamsModel, DataSet, EquationResidual, Equilibrium, RotationMeasure, StatementId};
 use nalgebra::Vector3;
 use sim::{Analysis, BodyDof, Channel, ContactForces, Foundation, Instant, Status};
 
@@ -72,7 +72,7 @@ impl EquilibriumDifference {
 /// Differences between the two paths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDifference {
-    /// Number of equilibria compared: all, or the first ones where they differ and are far apart.
+    /// Number of equilibria compared: all, or those up to the first that differs.
     pub places: usize,
     /// Differences with the small rotations of the simulator.
     pub small: EquilibriumDifference,
@@ -224,10 +224,11 @@ pub fn path(
     let model = AdamsModel::new(set)?;
     let held = held(plan);
     let scales = Scales::of(plan, &sweep.cases);
+    let strict = scales.limit(plan);
     let mut out = SweepDifference {
         places: 0,
         small: EquilibriumDifference::default(),
-        limit: scales.limit(plan),
+        limit: strict,
         ill_conditioned: 0,
         far: 0,
         finite: EquilibriumDifference::default(),
@@ -240,30 +241,29 @@ pub fn path(
         let mut given = expected_values(plan, foundations, case, 0.0)?.given;
         given.held.clone_from(&held);
         let guess = state(plan, case, None);
-        let small = model.imbalance(&guess, &given, RotationMeasure::Small, LIMIT)?;
         let expected = Positions::of_case(plan, case);
+        let moved_to =
+            |found: &Equilibrium| scales.difference(&Positions::of_deck(plan, found), &expected);
         out.places += 1;
-        let moved = small
-            .after
-            .as_ref()
-            .map(|after| scales.difference(&Positions::of_deck(plan, after), &expected));
-        let is_near = moved.is_some_and(|moved| within(&moved, &out.limit));
+        let step = model.newton_step(&guess, &given, RotationMeasure::Small, LIMIT)?;
+        let moved = step.as_ref().map(|step| moved_to(&step.after));
+        let is_near = moved.is_some_and(|moved| within(&moved, &strict));
         out.small.include(moved.unwrap_or_default());
-        if !(small.is_solved && is_near) {
-            if small.equations.iter().any(|one| !one.holds) {
+        if !(is_near && step.is_some_and(|step| step.is_solved)) {
+            let equations = model.imbalance(&guess, &given, RotationMeasure::Small, LIMIT)?;
+            if equations.iter().any(|one| !one.holds) {
                 out.causes
-                    .extend(causes(set, case.instant.time, &small, moved));
+                    .extend(causes(set, case.instant.time, &equations, moved));
                 return Ok(out);
             }
             out.ill_conditioned += usize::from(!is_near);
             out.limit.include(moved.unwrap_or_default());
         }
-        let first = model.imbalance(&guess, &given, RotationMeasure::Finite, LIMIT)?;
+        let first = model.newton_step(&guess, &given, RotationMeasure::Finite, LIMIT)?;
         let last = model.equilibrium_near(&guess, &given, RotationMeasure::Finite)?;
-        if let (Some(first), Some(last)) = (first.after, last) {
-            let [first, last] = [&first, &last].map(|one| Positions::of_deck(plan, one));
-            out.estimate.include(scales.difference(&first, &expected));
-            out.finite.include(scales.difference(&last, &expected));
+        if let (Some(first), Some(last)) = (first, last) {
+            out.estimate.include(moved_to(&first.after));
+            out.finite.include(moved_to(&last));
         } else {
             out.far += 1;
         }
@@ -275,11 +275,11 @@ pub fn path(
 fn causes(
     set: &DataSet,
     time: f64,
-    found: &Imbalance,
+    equations: &[EquationResidual],
     moved: Option<EquilibriumDifference>,
 ) -> Vec<String> {
     let name = |id: &StatementId| compare::statement(set, &id.keyword.to_string(), id.id);
-    let wrong = found.equations.iter().filter(|one| !one.holds);
+    let wrong = equations.iter().filter(|one| !one.holds);
     let named = wrong.take(NAMED).map(|one| {
         format!(
             "deck: {} has a {} that is off by {:.3e}",

@@ -16,7 +16,7 @@ mod search;
 use crate::{AdamsModel, Error, ModelState};
 pub use equilibrium::{ConstraintReaction, Equilibrium};
 pub use iterate::RotationMeasure;
-pub use near::{EquationResidual, Imbalance};
+pub use near::{EquationResidual, NewtonStep};
 use search::search;
 
 impl AdamsModel {

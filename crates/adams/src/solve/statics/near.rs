@@ -8,7 +8,7 @@
 
 use super::equilibrium::Equilibrium;
 use super::iterate::{Iterate, RotationMeasure, Unknown};
-use super::search::{Linearized, ROUNDING, STALLED, Search, holds, scaled_size};
+use super::search::{Linearized, ROUNDING, STALLED, Search, scaled_size};
 use crate::solve::substitution::GivenValues;
 use crate::{AdamsModel, Error, ModelState, StatementId};
 use nalgebra::{DMatrix, DVector};
@@ -16,11 +16,10 @@ use std::collections::BTreeSet;
 
 /// Largest number of full Newton steps.
 const STEPS: usize = 25;
-
 /// Singular values of the reactions' matrix below this fraction of the largest one count as zero.
 const SINGULAR: f64 = 1e-11;
 
-/// An equation of statics that does not hold.
+/// An equation of statics at a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquationResidual {
     /// The statement: the PART whose forces are not in balance, the VARIABLE, DIFF or load whose expression has
@@ -36,95 +35,88 @@ pub struct EquationResidual {
     pub holds: bool,
 }
 
-/// How far a state is from equilibrium.
+/// One Newton step from a state to equilibrium.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Imbalance {
-    /// The equations with their residuals at the state, largest scaled residual first, with the reactions that leave
-    /// the least sum of squares of residuals relative to what is allowed.
-    pub equations: Vec<EquationResidual>,
-    /// The state after one Newton step, whose length is the distance from equilibrium to first order; `None` where the
-    /// linearised equations have no solution.
-    pub after: Option<Equilibrium>,
-    /// Whether the step satisfies all of the linearised equations. Where they are singular, it may leave some.
+pub struct NewtonStep {
+    /// The state after the step, whose length is the distance from equilibrium to first order.
+    pub after: Equilibrium,
+    /// Whether the step satisfies all of the linearised equations, as far as they must hold. Where they are singular, it may
+    /// leave some.
     pub is_solved: bool,
 }
 
 impl AdamsModel {
-    /// How far a state with given VARIABLEs is from static equilibrium. An equation holds to `fraction` of its scale, or to what
-    /// rounding makes of it; balances of parts, between which reactions distribute what is left, to the root of their number
-    /// times that.
+    /// One Newton step from a state with given VARIABLEs to static equilibrium; `None` where the linearised equations have no
+    /// solution. They must hold to `fraction` of their scales, or to what rounding makes of them.
     ///
     /// # Errors
     /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
     /// finite value.
+    pub fn newton_step(
+        &self,
+        guess: &ModelState,
+        given: &GivenValues,
+        measure: RotationMeasure,
+        fraction: f64,
+    ) -> Result<Option<NewtonStep>, Error> {
+        let at = self.iterate_near(guess, given, measure)?;
+        let search = Search::new(self, &at).holding(&given.held);
+        let all = search.linearize_all(&at)?;
+        let Some(factored) = search.factor(&at, all.matrix.clone(), 0.0) else {
+            return Ok(None);
+        };
+        let Some(step) = factored.correction(&all.residual) else {
+            return Ok(None);
+        };
+        let left = &all.matrix * DVector::from_column_slice(&step);
+        let sums = left.iter().zip(&all.residual).map(|(left, own)| left + own);
+        let is_solved = sums
+            .zip(all.allowed(fraction))
+            .all(|(sum, most)| sum.abs() <= most);
+        let after = at.after(&search.unknowns, &step, 1.0);
+        let after = search.report(&after, 1, factored.rank_deficiency())?;
+        Ok(Some(NewtonStep { after, is_solved }))
+    }
+
+    /// The equations of statics with their residuals at a state with given VARIABLEs, largest scaled residual first, with the
+    /// reactions that leave the least sum of squares of residuals relative to what is allowed. An equation holds to `fraction` of
+    /// its scale, or to what rounding makes of it; balances of parts, between which reactions distribute what is left, to the root
+    /// of their number times that.
+    ///
+    /// # Errors
+    /// Those of [`AdamsModel::newton_step`].
     pub fn imbalance(
         &self,
         guess: &ModelState,
         given: &GivenValues,
         measure: RotationMeasure,
         fraction: f64,
-    ) -> Result<Imbalance, Error> {
+    ) -> Result<Vec<EquationResidual>, Error> {
         let at = self.iterate_near(guess, given, measure)?;
         let search = Search::new(self, &at).holding(&given.held);
         let all = search.linearize_all(&at)?;
-        let rows = search.residual_scales(&at);
-        let rounding = search.rounding(&at, &all);
-        let Linearized {
-            residual, matrix, ..
-        } = all;
-        let step = search
-            .factor(&at, matrix.clone(), 0.0)
-            .and_then(|factored| {
-                let step = factored.correction(&residual)?;
-                Some((step, factored.rank_deficiency()))
-            });
-        let allowed: Vec<f64> = rows
-            .iter()
-            .zip(&rounding)
-            .map(|(row, rounding)| (fraction * row).max(*rounding))
-            .collect();
-        let left = without_reactions(&search, &residual, &matrix, &allowed);
-        let is_solved = step.as_ref().is_some_and(|(step, _)| {
-            let left = &matrix * DVector::from_column_slice(step);
-            let sums = left.iter().zip(&residual).map(|(left, own)| left + own);
-            sums.zip(&allowed).all(|(sum, most)| sum.abs() <= *most)
-        });
-        let is_balance = |k: usize| {
-            matches!(
-                search.unknowns[k],
-                Unknown::Translation(..) | Unknown::Rotation(..)
-            )
+        let allowed = all.allowed(fraction);
+        let left = without_reactions(&search, &all, &allowed);
+        let is_balance =
+            |unknown: &Unknown| matches!(unknown, Unknown::Translation(..) | Unknown::Rotation(..));
+        let balances = search.unknowns.iter().filter(|own| is_balance(own)).count();
+        let own = |k: usize| {
+            let (keyword, id) = search.statement_of(k);
+            let share = match is_balance(&search.unknowns[k]) {
+                true => (balances as f64).sqrt(),
+                false => 1.0,
+            };
+            EquationResidual {
+                statement: StatementId::new(keyword, id),
+                quantity: quantity(&search.unknowns[k]),
+                residual: left[k],
+                scaled: left[k].abs() / all.rows[k],
+                holds: left[k].abs() <= share * allowed[k],
+            }
         };
-        let balances = (0..left.len()).filter(|&k| is_balance(k)).count();
-        let most = |k: usize| match is_balance(k) {
-            true => (balances as f64).sqrt() * allowed[k],
-            false => allowed[k],
-        };
-        let mut equations: Vec<EquationResidual> = left
-            .iter()
-            .zip(&rows)
-            .enumerate()
-            .map(|(k, (residual, scale))| {
-                let (keyword, id) = search.statement_of(k);
-                EquationResidual {
-                    statement: StatementId::new(keyword, id),
-                    quantity: quantity(&search.unknowns[k]),
-                    residual: *residual,
-                    scaled: residual.abs() / scale,
-                    holds: residual.abs() <= most(k),
-                }
-            })
-            .collect();
+        let mut equations: Vec<EquationResidual> = (0..left.len()).map(own).collect();
         equations.sort_by(|a, b| b.scaled.total_cmp(&a.scaled));
-        let after = step.map(|(step, undetermined)| {
-            search.report(&at.after(&search.unknowns, &step, 1.0), 1, undetermined)
-        });
-        let after = after.transpose()?;
-        Ok(Imbalance {
-            equations,
-            after,
-            is_solved,
-        })
+        Ok(equations)
     }
 
     /// The static equilibrium near a state with given VARIABLEs, by Newton's method from there; `None` if its steps do not
@@ -186,12 +178,10 @@ impl Search<'_> {
             let Ok(all) = self.linearize_all(&at) else {
                 return Ok(None);
             };
-            let rows = self.residual_scales(&at);
-            let rounding = self.rounding(&at, &all);
+            let balances = all.holds();
             let Linearized {
                 residual, matrix, ..
             } = all;
-            let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix, 0.0) else {
                 return Ok(None);
             };
@@ -222,15 +212,16 @@ impl Search<'_> {
 /// The residuals with the reactions that leave the least sum of squares of residuals relative to what is allowed.
 fn without_reactions(
     search: &Search<'_>,
-    residual: &[f64],
-    matrix: &DMatrix<f64>,
+    Linearized {
+        residual, matrix, ..
+    }: &Linearized,
     allowed: &[f64],
 ) -> Vec<f64> {
     let columns: Vec<usize> = (0..search.unknowns.len())
         .filter(|k| matches!(search.unknowns[*k], Unknown::Reaction(..)))
         .collect();
     if columns.is_empty() {
-        return residual.to_vec();
+        return residual.clone();
     }
     let mut scaled = DMatrix::from_fn(residual.len(), columns.len(), |i, j| {
         matrix[(i, columns[j])] / allowed[i]

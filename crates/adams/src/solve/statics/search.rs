@@ -55,13 +55,32 @@ pub(super) fn search(
     search.run(search.closed(start))
 }
 
-/// The equations at an iterate and their derivatives.
+/// The equations at an iterate, linearised by the unknowns.
 pub(super) struct Linearized {
     pub residual: Vec<f64>,
-    /// By the unknowns.
     pub matrix: DMatrix<f64>,
-    /// By the freedoms of parts that are held.
-    pub by_held: DMatrix<f64>,
+    /// The scale of each residual.
+    pub rows: Vec<f64>,
+    /// What rounding of the unknowns, and of the freedoms of parts that are held, makes of each equation.
+    rounding: Vec<f64>,
+}
+
+impl Linearized {
+    /// The largest residual of each equation that holds: `fraction` of its scale, or what rounding makes of it, whichever is
+    /// larger, since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate.
+    pub fn allowed(&self, fraction: f64) -> Vec<f64> {
+        let pairs = self.rows.iter().zip(&self.rounding);
+        pairs
+            .map(|(row, rounding)| (fraction * row).max(*rounding))
+            .collect()
+    }
+
+    /// Whether every equation holds, to 1e-9 of its scale or to its rounding.
+    pub fn holds(&self) -> bool {
+        let allowed = self.allowed(RESIDUAL);
+        let mut all = self.residual.iter().zip(&allowed);
+        all.all(|(r, allowed)| r.abs() <= *allowed)
+    }
 }
 
 /// Largest scaled residual of linear equations that have a solution.
@@ -108,14 +127,15 @@ impl Search<'_> {
         while iterations < MOST {
             iterations += 1;
             let all = self.linearize_all(&at)?;
-            let rows = self.residual_scales(&at);
-            let rounding = self.rounding(&at, &all);
+            let balances = all.holds();
             let Linearized {
-                residual, matrix, ..
+                residual,
+                matrix,
+                rows,
+                ..
             } = all;
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
-            let balances = holds(&residual, &rows, &rounding);
             let Some(factored) = self.factor(&at, matrix.clone(), resistance) else {
                 break;
             };
@@ -352,17 +372,19 @@ impl Search<'_> {
         Ok((all.iter().map(Scalar::value).collect(), matrix))
     }
 
-    /// The residuals, their Jacobian, and their derivatives by the freedoms that are held.
+    /// The equations at an iterate, with their scales and rounding.
     pub fn linearize_all(&self, at: &Iterate) -> Result<Linearized, Error> {
         let (count, held) = (self.unknowns.len(), self.held.len());
         let every = [&self.unknowns[..], &self.held[..]].concat();
         let (mut residual, matrix) = self.linearize(at, &every)?;
         residual.truncate(count);
         let by_held = matrix.view((0, count), (count, held)).into_owned();
+        let matrix = matrix.resize(count, count, 0.0);
         Ok(Linearized {
             residual,
-            matrix: matrix.resize(count, count, 0.0),
-            by_held,
+            rows: self.residual_scales(at),
+            rounding: self.rounding(at, [&matrix, &by_held]),
+            matrix,
         })
     }
 
@@ -398,8 +420,8 @@ impl Search<'_> {
         self.unknowns.iter().zip(step).map(scale).collect()
     }
 
-    /// What rounding of the unknowns and of the freedoms that are held makes of each equation.
-    pub fn rounding(&self, at: &Iterate, all: &Linearized) -> Vec<f64> {
+    /// What rounding of the unknowns and of the freedoms that are held makes of each equation, by its derivatives.
+    fn rounding(&self, at: &Iterate, [matrix, by_held]: [&DMatrix<f64>; 2]) -> Vec<f64> {
         let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
         let held = self.held.iter().map(|unknown| match unknown {
             Unknown::Rotation(..) => 1.0,
@@ -411,9 +433,7 @@ impl Search<'_> {
             terms.map(|(j, size)| (of[(i, j)] * size).abs()).sum()
         };
         (0..self.unknowns.len())
-            .map(|i| {
-                (terms(&all.matrix, &sizes, i) + terms(&all.by_held, &held, i)) * 8.0 * f64::EPSILON
-            })
+            .map(|i| (terms(matrix, &sizes, i) + terms(by_held, &held, i)) * 8.0 * f64::EPSILON)
             .collect()
     }
 
@@ -498,13 +518,6 @@ fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -
             + residual[i]
     };
     (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
-}
-
-/// Whether every equation holds: to 1e-9 of its scale, or to what rounding of the unknowns makes of it, whichever is larger,
-/// since the force of a stiff wheel changes by its stiffness times the rounding of a coordinate.
-pub(super) fn holds(residual: &[f64], rows: &[f64], rounding: &[f64]) -> bool {
-    let mut all = residual.iter().zip(rows.iter().zip(rounding));
-    all.all(|(r, (row, rounding))| r.abs() <= (RESIDUAL * row).max(*rounding))
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
