@@ -9,6 +9,9 @@ use crate::numerics::dense::{along, factor_general, solve_factored};
 const TOLERANCE: f64 = 1e-13;
 /// Relative change of the forces, or residual, at which Newton's method ends where rounding prevents a smaller one.
 const STAGNANT: f64 = 1e-9;
+/// Residual, relative to the parts of a law by penetration and by rate, that is their rounding: as a wheel leaves its rail, they
+/// cancel.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const ITERATIONS: usize = 60;
 /// Part of the residual up to which a step may leave it, for the factors to serve in the next one.
 const CHORD: f64 = 1e-3;
@@ -18,6 +21,9 @@ const SHORTEST: f64 = 1e-12;
 /// Number of whole steps to another set of acting laws that may increase the residual; if they do not lead to the solution,
 /// it is sought from the first guess without them.
 const LEAPS: usize = 6;
+/// Number of steps no part of which lowers the residual, after which Newton's method ends: of a million solutions six needed one
+/// or two.
+const STALLS: usize = 3;
 /// A rate at which every tangential law is at its limit.
 const SATURATED: f64 = 1e150;
 
@@ -62,6 +68,7 @@ impl Problem {
         // Under a first guess of the forces, laws that act may seem to have ceased.
         let mut size = self.evaluate(system, local, active, force, Wanted::Continued);
         let (mut is_current, mut leaps) = (std::mem::take(&mut self.is_repeated), LEAPS);
+        let mut stalls = 0;
         for _ in 0..ITERATIONS {
             let before = size;
             if !(is_current && self.residuals.acting == self.factors.elements || self.factor()) {
@@ -69,6 +76,7 @@ impl Problem {
             }
             self.take_newton_step();
             let scale = largest(force);
+            let rounding = ROUNDING * self.largest_part();
             let change = largest(&self.residuals.value);
             self.start.copy_from_slice(force);
             self.newton.copy_from_slice(&self.residuals.value);
@@ -80,7 +88,8 @@ impl Problem {
                     *f = start - damping * newton;
                 }
                 let now = self.evaluate(system, local, active, force, Wanted::Natural);
-                if now <= size || now <= TOLERANCE * scale || damping < SHORTEST {
+                if now <= size || now <= (TOLERANCE * scale).max(rounding) || damping < SHORTEST {
+                    stalls += usize::from(now > size);
                     size = now;
                     break;
                 }
@@ -102,13 +111,28 @@ impl Problem {
                 damping *= 0.5;
             }
             let done = TOLERANCE * scale.max(f64::MIN_POSITIVE);
-            if change <= done || size <= (0.1 * done).max(self.slack * scale) {
+            if change <= done || size <= (0.1 * done).max(self.slack * scale).max(rounding) {
                 return true;
+            }
+            if stalls == STALLS {
+                break;
             }
             is_current = size <= CHORD * before;
         }
         // The residual may stagnate at rounding; it is accepted if it is small relative to the forces.
         size <= STAGNANT * largest(force)
+    }
+
+    /// The largest part of the force of a law by its penetration or its rate alone.
+    fn largest_part(&self) -> f64 {
+        let pairs = self.residuals.acting.iter().zip(&self.residuals.slopes);
+        let parts = pairs.map(|(&i, law)| {
+            let [p, rate] = self.residuals.reached[i];
+            (law.by_penetration * p)
+                .abs()
+                .max((law.by_rate * rate).abs())
+        });
+        parts.fold(0.0, f64::max)
     }
 
     /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.
