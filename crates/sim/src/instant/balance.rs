@@ -709,7 +709,7 @@ fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
 }
 
 /// Load on degree of freedom `number` from ropes and stops, for the forces of `at`.
-fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
+pub(crate) fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     let rows = solver.geometry().rows();
     solver
         .system()

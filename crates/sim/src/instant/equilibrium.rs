@@ -108,7 +108,7 @@ fn balance(solver: &mut Solver, entry: &[f64], at: &mut State) -> Result<(), Err
 
 /// Degrees of freedom of the bodies for which equilibrium is solved: y, roll and pitch, if a wheel resists them. The mean of wheels
 /// before and behind a pin has no lever but for rounding.
-fn balancing(solver: &Solver) -> Numbers {
+pub(crate) fn balancing(solver: &Solver) -> Numbers {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
     let kinds = solver.system().scene.wheels.iter();
     let rounding = LEVER * kinds.fold(0.0_f64, |most, kind| most.max(kind.radius));

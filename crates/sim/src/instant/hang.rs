@@ -4,20 +4,25 @@ use nalgebra::DVector;
 
 use crate::Error;
 use crate::contact::solver::Solver;
-use crate::instant::equilibrium::{balance_wheels, has_settled};
-use crate::instant::springs::{hanging, regular, stiffness};
+use crate::instant::balance::{pressing, pull_of_springs};
+use crate::instant::equilibrium::{balance_wheels, balancing, has_settled};
+use crate::instant::springs::{followed, hanging, regular, stiffness};
 use crate::mechanics::point::Point;
 use crate::mechanics::state::State;
 
 /// Largest number of Newton iterations, and of alternations between hanging bodies and bodies on rails.
 const ITERATIONS: usize = 200;
 const SWEEPS: usize = 100;
-/// Smallest part of the way to the equilibrium of the wheels.
-const SHORTEST: f64 = 1.0 / 64.0;
+/// Slope of the energy at the end of a step, relative to that at its beginning, at which it is least there, and the number of
+/// times that the interval with the least energy is halved.
+const SHALLOW: f64 = 0.1;
+const HALVINGS: usize = 60;
 
 /// Moves all bodies and structures to static equilibrium at `at.t`. Bodies on rails are balanced by
 /// [`balance_wheels`], with the stiffness of ropes and stops by which hanging bodies hold them, and hanging bodies are moved
 /// to the minimum of their potential energy, in alternation, until the tensions and the displacements no longer change.
+/// Where ropes become slack or stops are met on the way to the balance, the bodies go only as far as the energy falls
+/// ([`least_energy`]).
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] if the tensions do not converge, and any error of [`balance_wheels`].
@@ -30,8 +35,8 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
     let mut before = vec![f64::INFINITY; system.springs().len()];
     let mut places = at.q.clone();
     at.v.fill(0.0);
-    let (mut share, mut last, mut rests) = (1.0, f64::INFINITY, false);
-    for _ in 0..SWEEPS {
+    let mut is_whole = true;
+    for sweep in 0..SWEEPS {
         // The carriers have moved, and a slack rope would not show where its load hangs, so the loads are placed
         // again.
         place_below_ropes(solver, at)?;
@@ -49,30 +54,89 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
             .springs()
             .iter()
             .fold(0.0_f64, |most, &i| most.max(local[i].spring.noise));
-        if rests && moved <= (1e-12 * scale).max(noise) {
+        if is_whole && moved <= (1e-12 * scale).max(noise) && has_settled(&places, at) {
             return Ok(());
         }
-        // Where loads hang and stand by turns, bodies on rails move by a part of the way only.
-        share = if moved < last || last == 0.0 || last.is_infinite() {
-            (2.0_f64 * share).min(1.0)
-        } else {
-            (0.5 * share).max(SHORTEST)
-        };
-        last = moved;
         before.copy_from_slice(&tensions);
         places.copy_from(&at.q);
+        let start = at.clone();
         balance_wheels(solver, at)?;
-        rests = has_settled(&places, at);
-        if share < 1.0 {
-            at.q -= &places;
-            at.q *= share;
-            at.q += &places;
-        }
+        // No forces of wheels belong to the first positions.
+        is_whole =
+            sweep == 0 || has_settled(&start.q, at) || least_energy(solver, &hanging, &start, at)?;
     }
     Err(Error::NoEquilibrium {
         time: at.t,
         fall: None,
     })
+}
+
+/// Ends the step from `start` to the balance `at` where the potential energy is least along it, with hanging bodies at rest
+/// all along; returns whether that is the whole step.
+///
+/// With the change dq of the degrees of freedom, the forces c of the wheels on them and the pull s of ropes and stops, of
+/// which the balance takes s(0) - K dq for s(1), the slope of the energy at part x of the step is
+///
+/// dq . ((1 - x) (c(0) - c(1)) + s(0) - K dq - s(x)),
+///
+/// where no wheel gains or loses contact. It increases with x.
+fn least_energy(
+    solver: &mut Solver,
+    hanging: &[usize],
+    start: &State,
+    at: &mut State,
+) -> Result<bool, Error> {
+    solver.update(start)?;
+    let moving = balancing(solver);
+    let change: Vec<f64> = moving.iter().map(|&k| at.q[k] - start.q[k]).collect();
+    let by_springs = followed(solver, &moving, start);
+    let pull = |solver: &Solver, state: &State| -> f64 {
+        let pairs = moving.iter().zip(&change);
+        pairs
+            .map(|(&k, change)| change * pull_of_springs(solver, k, state))
+            .sum()
+    };
+    let stretched: f64 = (by_springs.chunks(moving.len().max(1)).zip(&change))
+        .map(|(column, own)| own * column.iter().zip(&change).map(|(k, d)| k * d).sum::<f64>())
+        .sum();
+    let expected = pull(solver, start) - stretched;
+    let pressed: f64 = pressing(solver.system())
+        .into_iter()
+        .map(|i| {
+            let row = solver.geometry().rows().approach_row(i);
+            let approach: f64 = moving.iter().zip(&change).map(|(&k, d)| row[k] * d).sum();
+            approach * (start.force[i] - at.force[i])
+        })
+        .sum();
+    let to = at.clone();
+    let mut slope = |x: f64, at: &mut State| -> Result<f64, Error> {
+        at.q = start.q.lerp(&to.q, x);
+        for (own, (from, to)) in at.force.iter_mut().zip(start.force.iter().zip(&to.force)) {
+            *own = from + x * (to - from);
+        }
+        place_below_ropes(solver, at)?;
+        rest_hanging(solver, hanging, at)?;
+        Ok((1.0 - x) * pressed + expected - pull(solver, at))
+    };
+    let flat = SHALLOW * (pressed - stretched).abs();
+    if slope(1.0, at)? <= flat {
+        at.copy_from(&to);
+        return Ok(true);
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        let own = slope(middle, at)?;
+        if own.abs() <= flat {
+            break;
+        }
+        if own < 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
+    }
+    Ok(false)
 }
 
 fn weight(solver: &Solver) -> f64 {

@@ -106,7 +106,7 @@ pub enum Error {
         time: f64,
     },
     /// A method of integration that is not applicable to the scene.
-    #[error("the stepper \"{method}\" needs {wanted}")]
+    #[error("the stepper {method:?} needs {wanted}")]
     Method {
         /// Which method.
         method: Method,

@@ -1,7 +1,5 @@
 //! Methods of integration of the equations of motion.
 
-use std::fmt;
-
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -26,13 +24,6 @@ pub enum Method {
     /// their rail that travel together at uniform speed over structures without mass. Where the method is not
     /// applicable, for example where a contact opens, the whole run is repeated with Radau.
     Series,
-}
-
-/// The word of scenes for the method.
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&format!("{self:?}").to_lowercase())
-    }
 }
 
 /// A method of integration and its step size.
