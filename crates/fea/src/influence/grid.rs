@@ -197,7 +197,7 @@ impl FactoredFrame {
 }
 
 /// Load on the flexible ends of a member, local axes, of a unit force with the shape row `row`.
-fn released_load(cell: &RailElement, row: &ShapeRow) -> SVector<f64, 12> {
+pub(crate) fn released_load(cell: &RailElement, row: &ShapeRow) -> SVector<f64, 12> {
     let mut shapes = SVector::zeros();
     for (&index, &shape) in row.indices().iter().zip(row.values()) {
         shapes[if index / 6 == cell.ends[0] {

@@ -25,6 +25,7 @@ pub use effects::Reactions;
 pub use frame::{DEFAULT_ACCURACY, FactoredFrame};
 pub(crate) use functional::Functional;
 pub use functional::{Effect, Restraint};
+pub(crate) use grid::released_load;
 pub use grid::{InfluenceGrid, grid};
 pub(crate) use layout::Layout;
 pub(crate) use load::RailLoads;

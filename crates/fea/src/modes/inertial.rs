@@ -4,14 +4,14 @@ use std::sync::OnceLock;
 
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
-use splines::{InternalForce, Probe};
+use splines::{InternalForce, Probe, RailElement, ShapeRow};
 
 use crate::assembly::{
     BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation,
 };
 use crate::error::Error;
 use crate::factor::SparseLoad;
-use crate::influence::{Effect, FactoredFrame, Functional};
+use crate::influence::{Effect, FactoredFrame, Functional, released_load};
 use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, PointMass};
 use crate::modes::inertia_motions::InertiaMotions;
 use crate::modes::interior::{InteriorMotion, end_degrees};
@@ -198,9 +198,42 @@ impl FactoredFrame {
         at: &[Probe],
     ) -> Result<Vec<f64>, Error> {
         let motions = self.motions_under(&weight.forces);
-        at.iter()
-            .map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions)))
-            .collect()
+        let line = self.line()?;
+        let displacement = |&probe: &Probe| {
+            let row = line.row(probe)?;
+            let by_motions = self.rail_loads().of_row(&row).evaluate(&motions);
+            let own = self.released_ends_under(&weight.forces, &line.elements()[row.element], &row);
+            Ok(by_motions + own)
+        };
+        at.iter().map(displacement).collect()
+    }
+
+    /// What the released ends of the member that carries a rail element add to a displacement of the rail, while they move
+    /// under the forces on that member alone: K_rr^-1 times these forces, the tips held.
+    fn released_ends_under(
+        &self,
+        forces: &InertiaForces,
+        cell: &RailElement,
+        row: &ShapeRow,
+    ) -> f64 {
+        let Some(carrier) = cell.member else {
+            return 0.0;
+        };
+        let element = &self.elements[carrier.id];
+        let (Some(released), model) = (&element.released, self.model()) else {
+            return 0.0;
+        };
+        let member = &model.members[carrier.id];
+        if model.sections[member.section].mass == 0.0 {
+            return 0.0;
+        }
+        let mut bodies = Vector12::zeros();
+        for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
+            let own = &forces.accelerations[body];
+            bodies.fixed_rows_mut::<6>(6 * end).copy_from(own);
+        }
+        let load = member_mass(model, member, element, true) * self.flexible_ends(element) * bodies;
+        (released_load(cell, row).transpose() * released.compliance * load)[0]
     }
 
     /// The forces of a uniform acceleration as a load on the scaled unknowns, without what acts on degrees of freedom that
