@@ -92,7 +92,8 @@ pub(crate) fn extremes_of_effects(
         let lines = structure.effect_lines_of(sums, used)?;
         for (sum, line) in sums.iter().zip(lines) {
             let of_dead = structure.dead_effect(sum, &line, dead)?;
-            let line = (line.joined(), structure.tips(sum)?);
+            let tips = structure.tips(sum)?;
+            let line = (line.joined(&tips), tips);
             for (plan, out) in plans.iter().zip(&mut out) {
                 out.push(governing(structure, plan, &line, plan.dead * of_dead));
             }
@@ -101,8 +102,8 @@ pub(crate) fn extremes_of_effects(
     Ok(out)
 }
 
-/// The response to a train of an effect whose influence line is given. A wheel at an end of a rail is counted on either side
-/// of a section there, by a part of no length.
+/// The response to a train of an effect whose influence line is given. A wheel at an end of a stretch of rail is counted on
+/// either side of a section there, by a part of no length.
 fn responses(
     (line, tips): &(Lines<1>, Vec<Tip>),
     train: &PlacedTrain,
@@ -130,6 +131,7 @@ fn responses(
             position: [position; 2],
             cubic: [piece.at(position) + change, 0.0, 0.0, 0.0],
             origin: piece.origin,
+            at_section: [false; 2],
         })
     };
     let with_both = |piece: ResponsePiece| {

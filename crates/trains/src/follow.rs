@@ -152,7 +152,9 @@ impl Passage {
             } else {
                 first + to
             };
-            out.push([first + from, last], total, stance);
+            // At an end of the window the section is at the wheel on either side of it.
+            let at_end = [from, to].map(|t| times.contains(&t));
+            out.push([first + from, last], total, stance, at_end);
         }
         out
     }

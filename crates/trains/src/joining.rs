@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use crate::line::{LineCell, Lines, value_of_cubic};
 use crate::rail_deflection::{CarrierLines, POWERS};
-use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, Tip};
 use crate::train::COMPONENTS;
 
 /// Differences below this fraction of the largest ordinate of a response are its rounding.
@@ -23,6 +23,8 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Differences below this fraction of the largest ordinate of any response are negligible for all: rounding of large
 /// responses appears in small ones where members are inclined.
 const NEGLIGIBLE: f64 = 1e-17;
+/// Distance from an end of a cell, relative to its length, that is rounding.
+const END: f64 = 1e-9;
 
 /// The largest allowed difference by component and response.
 type Limits<const N: usize> = [[f64; N]; COMPONENTS];
@@ -161,12 +163,22 @@ fn replaced<const N: usize, R>(
 }
 
 impl Lines<1> {
-    /// The line with its straight runs joined.
-    pub fn joined(self) -> Lines<1> {
+    /// The line with its straight runs joined, which end at `tips`.
+    pub fn joined(self, tips: &[Tip]) -> Lines<1> {
         let limits = self.limits([1.0]);
-        let rails = self.rails.iter().map(|cells| {
+        let rails = self.rails.iter().enumerate().map(|(rail, cells)| {
             let begin = |i: usize| Run::from(&cells[i], &limits);
-            let runs = runs(cells.len(), begin, |run, i| run.with(&cells[i], &limits));
+            let extend = |run: &Run<1>, i: usize| {
+                let [from, to] = cells[i].x;
+                let near = |tip: &Tip| (tip.x - from).abs() <= END * (to - from);
+                let ends = tips.iter().any(|tip| tip.rail == rail && near(tip));
+                if ends {
+                    None
+                } else {
+                    run.with(&cells[i], &limits)
+                }
+            };
+            let runs = runs(cells.len(), begin, extend);
             replaced(cells, &runs, |run| run)
         });
         Lines {
@@ -258,7 +270,7 @@ mod tests {
             ([4.0, 5.0], [1e-17, -1e-17, 0.0, 0.0]),
             ([5.0, 7.0], [0.0, 2e-18, 0.0, 0.0]),
         ])
-        .joined();
+        .joined(&[]);
         let cells = &found.rails[0];
         assert_eq!(
             cells.iter().map(|cell| cell.x).collect::<Vec<_>>(),
@@ -279,7 +291,8 @@ mod tests {
             [1.0, 1e-13, 0.0, 0.0],
             [1.0, 0.0, 1e-13, 0.0],
         ] {
-            let cells = line(&[([0.0, 1.0], [1.0, 0.0, 0.0, 0.0]), ([1.0, 2.0], second)]).joined();
+            let cells =
+                line(&[([0.0, 1.0], [1.0, 0.0, 0.0, 0.0]), ([1.0, 2.0], second)]).joined(&[]);
             assert_eq!(cells.rails[0].len(), 2, "{second:?}");
         }
     }

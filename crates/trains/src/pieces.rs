@@ -30,6 +30,8 @@ pub(crate) struct ResponsePiece {
     pub cubic: [f64; 4],
     /// The piece of the train's positions, and the part of it between passages of the section.
     pub origin: [usize; 2],
+    /// Whether a wheel is at the section at the first and at the last position.
+    pub at_section: [bool; 2],
 }
 
 impl ResponsePiece {
@@ -66,6 +68,7 @@ impl Pieces<1> {
             position: piece.position,
             cubic: piece.cubics[0],
             origin: [index, 0],
+            at_section: [false; 2],
         };
         self.list.iter().enumerate().map(of).collect()
     }

@@ -24,6 +24,8 @@ struct Part {
     cubic: Polynomial,
     /// The stance of the train whose response it is.
     stance: usize,
+    /// Whether a wheel is at the section at the first and at the last position.
+    at_section: [bool; 2],
     /// For each running maximum in it, where the maximum is.
     sources: [Source; MOST_BEFORE],
     count: usize,
@@ -54,9 +56,15 @@ impl Part {
             position,
             cubic,
             stance,
+            at_section: [false; 2],
             sources: Default::default(),
             count: 0,
         }
+    }
+
+    fn with_section(mut self, at_section: [bool; 2]) -> Part {
+        self.at_section = at_section;
+        self
     }
 
     fn with_source(mut self, source: Source) -> Part {
@@ -79,9 +87,15 @@ impl Part {
         } else {
             self.cubic
         };
+        let [first, last] = self.at_section;
+        let at_section = [
+            first && from == self.position[0],
+            last && to == self.position[1],
+        ];
         Part {
             position: [from, to],
             cubic,
+            at_section,
             ..*self
         }
     }
@@ -95,9 +109,16 @@ impl PiecewiseFunction {
         }
     }
 
-    /// Adds a piece behind the others.
-    pub fn push(&mut self, position: [f64; 2], cubic: Polynomial, stance: usize) {
-        self.pieces.push(Part::new(position, cubic, stance));
+    /// Adds a piece behind the others, with whether a wheel is at the section at its first and at its last position only.
+    pub fn push(
+        &mut self,
+        position: [f64; 2],
+        cubic: Polynomial,
+        stance: usize,
+        at_section: [bool; 2],
+    ) {
+        self.pieces
+            .push(Part::new(position, cubic, stance).with_section(at_section));
     }
 
     pub fn is_empty(&self) -> bool {
@@ -106,7 +127,9 @@ impl PiecewiseFunction {
 
     /// Sign times a response in a stance, without the pieces that do not reach `floor`.
     pub fn of(pieces: &[ResponsePiece], sign: f64, stance: usize, floor: f64) -> PiecewiseFunction {
-        let part = |piece: &ResponsePiece| Part::new(piece.position, piece.times(sign), stance);
+        let part = |piece: &ResponsePiece| {
+            Part::new(piece.position, piece.times(sign), stance).with_section(piece.at_section)
+        };
         let kept = pieces
             .iter()
             .filter(|piece| floor == f64::NEG_INFINITY || piece.bound(sign) >= floor);
@@ -151,7 +174,9 @@ impl PiecewiseFunction {
     pub fn mirrored(&self) -> PiecewiseFunction {
         let turn = |part: &Part| {
             let back = part.cubic.shifted(part.length()).reversed();
+            let [first, last] = part.at_section;
             Part::new([-part.position[1], -part.position[0]], back, part.stance)
+                .with_section([last, first])
         };
         PiecewiseFunction {
             pieces: self.pieces.iter().rev().map(turn).collect(),
@@ -160,26 +185,32 @@ impl PiecewiseFunction {
 }
 
 /// Calls `each` with the parts of two functions where both are defined. Parts that only touch, to rounding, have a common
-/// limit, which counts where one of them has no length.
-fn overlaps(f: &PiecewiseFunction, g: &PiecewiseFunction, mut each: impl FnMut(Part, Part)) {
+/// limit, which counts where one of them has no length, and where `meet` says so of the two.
+fn overlaps(
+    f: &PiecewiseFunction,
+    g: &PiecewiseFunction,
+    meet: impl Fn(&Part, &Part) -> bool,
+    mut each: impl FnMut(Part, Part),
+) {
+    let rounding = |x: f64| ROUNDING * x.abs();
     let mut first = 0;
     for a in &f.pieces {
+        let [start, end] = a.position;
         first += g.pieces[first..]
             .iter()
-            .take_while(|b| b.position[1] < a.position[0])
+            .take_while(|b| b.position[1] < start)
             .count();
         for b in g.pieces[first..]
             .iter()
-            .take_while(|b| b.position[0] <= a.position[1])
+            .take_while(|b| b.position[0] <= end + rounding(end))
         {
-            let both = [
-                a.position[0].max(b.position[0]),
-                a.position[1].min(b.position[1]),
-            ];
-            let rounding = ROUNDING * both[0].abs().max(both[1].abs());
+            let both = [start.max(b.position[0]), end.min(b.position[1])];
+            let rounding = rounding(both[0]).max(rounding(both[1]));
             let touch =
                 both[1] - both[0] <= rounding && a.length() > rounding && b.length() > rounding;
-            if both[0] <= both[1] && !touch {
+            if touch && meet(a, b) {
+                each(a.between([both[0]; 2]), b.between([both[0]; 2]));
+            } else if !touch && both[0] <= both[1] {
                 each(a.between(both), b.between(both));
             }
         }
@@ -216,7 +247,8 @@ fn outside(f: &PiecewiseFunction, g: &PiecewiseFunction, out: &mut Vec<Part>) {
 /// The larger of two functions; where only one of them is defined, that one.
 pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> PiecewiseFunction {
     let mut out = PiecewiseFunction::with_room(2 * (f.pieces.len() + g.pieces.len()));
-    overlaps(f, g, |a, b| {
+    let never = |_: &Part, _: &Part| false;
+    overlaps(f, g, never, |a, b| {
         let difference = a.cubic.plus(&b.cubic, -1.0);
         let roots = difference.roots(a.length());
         let mut from = 0.0;
@@ -253,15 +285,17 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
     let mut out = PiecewiseFunction::with_room(f.pieces.len() + 1);
     let mut most = f64::NEG_INFINITY;
     let mut source = Source::default();
-    let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
+    let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source, begins_at_section: bool| {
         let position = ends.map(|x| x + distance);
         // A level that goes on is one part, however many parts of f are below it.
         let goes_on = |last: &&mut Part| source.position.is_some() && last.sources[0] == source;
         match out.pieces.last_mut().filter(goes_on) {
             Some(last) => last.position[1] = position[1],
-            None => out
-                .pieces
-                .push(Part::new(position, cubic, 0).with_source(source)),
+            None => out.pieces.push(
+                Part::new(position, cubic, 0)
+                    .with_section([begins_at_section, false])
+                    .with_source(source),
+            ),
         }
     };
     let mut reached_to = f64::INFINITY;
@@ -270,20 +304,28 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
         Part {
             position: [start, end],
             cubic,
+            at_section,
             ..
         },
     ) in f.pieces.iter().enumerate()
     {
         if *start > reached_to {
-            add([reached_to, *start], Polynomial::new(&[most]), source);
+            add(
+                [reached_to, *start],
+                Polynomial::new(&[most]),
+                source,
+                false,
+            );
         }
         reached_to = *end;
         if cubic.bound(end - start) <= most {
-            add([*start, *end], Polynomial::new(&[most]), source);
+            add([*start, *end], Polynomial::new(&[most]), source, false);
             continue;
         }
         let places = cubic.candidates(end - start);
-        if cubic.at(0.0) > most {
+        let jumps = cubic.at(0.0) > most;
+        let begins_at_section = |from: f64| jumps && at_section[0] && from == *start;
+        if jumps {
             most = cubic.at(0.0);
             source = Source {
                 part,
@@ -294,7 +336,8 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             let (from, to) = (start + ends[0], start + ends[1]);
             let value = cubic.at(ends[1]);
             if value <= most {
-                add([from, to], Polynomial::new(&[most]), source);
+                let begins = begins_at_section(from);
+                add([from, to], Polynomial::new(&[most]), source, begins);
                 continue;
             }
             let reached = if cubic.at(ends[0]) >= most {
@@ -303,7 +346,12 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
                 crossing(cubic, most, ends)
             };
             if reached > ends[0] {
-                add([from, start + reached], Polynomial::new(&[most]), source);
+                add(
+                    [from, start + reached],
+                    Polynomial::new(&[most]),
+                    source,
+                    false,
+                );
             }
             add(
                 [start + reached, to],
@@ -312,6 +360,7 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
                     part,
                     position: None,
                 },
+                begins_at_section(start + reached),
             );
             most = value;
             source = Source {
@@ -320,13 +369,15 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             };
         }
         if places.list().len() < 2 {
-            add([*start, *end], Polynomial::new(&[most]), source);
+            let begins = begins_at_section(*start);
+            add([*start, *end], Polynomial::new(&[most]), source, begins);
         }
     }
     add(
         [reached_to, f64::INFINITY],
         Polynomial::new(&[most]),
         source,
+        false,
     );
     out
 }
@@ -363,11 +414,23 @@ fn around(function: &Polynomial, ends: [f64; 2]) -> [f64; 2] {
 
 /// The sum of a function and a running maximum where both are defined, with the stances of the first; `None` where they
 /// nowhere are.
+///
+/// Where one part of f ends at the very position at which a part of g begins, the trains touch. What f is up to there and
+/// what g is from there on are limits of one arrangement where a wheel of one of them is at the section: the section may be
+/// on either side of it while no train moves. Elsewhere, and where wheels of both are at the section, the one is a limit from
+/// before and the other from behind, which trains that touch do not have at once.
 pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<PiecewiseFunction> {
     let mut out = PiecewiseFunction::with_room(f.pieces.len() + g.pieces.len());
-    overlaps(f, g, |a, b| {
+    let meet =
+        |a: &Part, b: &Part| a.position[0] < b.position[0] && a.at_section[1] != b.at_section[0];
+    overlaps(f, g, meet, |a, b| {
+        let at_section = match a.length() == 0.0 {
+            true => [true; 2],
+            false => [0, 1].map(|end| a.at_section[end] || b.at_section[end]),
+        };
         let sum = Part {
             cubic: a.cubic.plus(&b.cubic, 1.0),
+            at_section,
             ..a
         };
         out.pieces.push(sum.with_source(b.sources[0]));
@@ -450,10 +513,10 @@ mod tests {
     #[test]
     fn a_level_is_one_part() {
         let mut f = PiecewiseFunction::default();
-        f.push([0.0, 1.0], Polynomial::new(&[0.0, 1.0]), 0);
+        f.push([0.0, 1.0], Polynomial::new(&[0.0, 1.0]), 0, [false; 2]);
         for k in 1..6 {
             let ends = [f64::from(k), f64::from(k + 1)];
-            f.push(ends, Polynomial::new(&[0.5, -0.1, 0.2]), 0);
+            f.push(ends, Polynomial::new(&[0.5, -0.1, 0.2]), 0, [false; 2]);
         }
         let running = running_maximum(&f, 2.0);
         let ends: Vec<_> = running.pieces.iter().map(|part| part.position).collect();

@@ -376,10 +376,11 @@ impl Passage {
         let base = self.base(piece, k, s);
         let wheels = &self.wheels[piece];
         let whole = &self.pieces.list[piece];
-        let part = |position, cubic, part| ResponsePiece {
+        let part = |position, cubic, part, at_section| ResponsePiece {
             position,
             cubic,
             origin: [piece, part],
+            at_section,
         };
         let h = whole.length();
         let slack = 1e-12 * self.on.length;
@@ -399,7 +400,7 @@ impl Passage {
                     .zip(wheel.passed(k, s))
                     .for_each(|(sum, c)| *sum += c);
             }
-            each(part(whole.position, cubic, 0));
+            each(part(whole.position, cubic, 0, [false; 2]));
             return;
         }
         let passages: SmallVec<[f64; FEW]> = wheels.iter().map(passage).collect();
@@ -446,10 +447,16 @@ impl Passage {
                     whole.position[0] + t
                 }
             };
+            let is_passage = |end: f64| {
+                passages
+                    .iter()
+                    .any(|passage| (passage - end).abs() <= slack)
+            };
             each(part(
                 [at(ends[0]), at(ends[1])],
                 shifted(&cubic, ends[0]),
                 index,
+                [is_passage(ends[0]), is_passage(ends[1])],
             ));
         }
     }

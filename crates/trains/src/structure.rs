@@ -243,13 +243,13 @@ pub(crate) struct OnMember<'s> {
     pub rate: f64,
 }
 
-/// An end of a rail that is the place of a section: a load there is beyond the section, or on the other side of it, which no
-/// other position has.
+/// An end of a stretch of rail that is the place of a section: a load there is beyond the section, or on the other side of it,
+/// which no other position on the stretch has.
 #[derive(Clone, Debug)]
 pub(crate) struct Tip {
     pub rail: usize,
     pub x: f64,
-    /// Whether it is the first (0) or the last (1) end of the rail.
+    /// Whether it is the first (0) or the last (1) end of the stretch.
     pub end: usize,
     /// What the effect of each component of a unit load changes by where the load is on the other side.
     pub change: [f64; COMPONENTS],
@@ -458,13 +458,9 @@ impl Structure {
             if middle < 0.0 || middle > carrier.length {
                 return None;
             }
-            let stretches = &self.rails[other.rail].stretches;
-            let stretch = stretches
-                .iter()
-                .find(|stretch| stretch.number == other.stretch);
             Some(OnMember {
                 other,
-                stretch: stretch.expect("a carrier is made from a stretch of its rail"),
+                stretch: self.stretch(other),
                 start: if same {
                     other.start
                 } else {
@@ -642,9 +638,9 @@ impl Structure {
         self.lines(used, sums.len(), split, value)
     }
 
-    /// The ends of rails at which a load can stand on either side of a section of a sum of effects.
+    /// The ends of stretches of rail at which a load on the stretch can be on either side of a section of a sum of effects: at the
+    /// end of a rail, or where the member of the section is hinged to the next.
     pub(crate) fn tips(&self, effects: &[Effect]) -> Result<Vec<Tip>, Error> {
-        let slack = self.slack();
         let mut out = Vec::new();
         for effect in effects {
             let Effect::InternalForce {
@@ -656,17 +652,11 @@ impl Structure {
                 continue;
             };
             for carrier in self.carriers.iter().filter(|c| c.member == member) {
-                let range = self.range(carrier.rail);
                 for (end, s) in [0.0, carrier.length].into_iter().enumerate() {
-                    if (carrier.x[end] - range[end]).abs() > slack
-                        || (carrier.fraction(s) - place).abs() > ROUNDING
-                    {
+                    if (carrier.fraction(s) - place).abs() > ROUNDING {
                         continue;
                     }
-                    let stretches = &self.rails[carrier.rail].stretches;
-                    let own = |stretch: &&Stretch| stretch.number == carrier.stretch;
-                    let stretch = stretches.iter().find(own);
-                    let stretch = stretch.expect("a carrier is made from a stretch of its rail");
+                    let stretch = self.stretch(carrier);
                     let mut change = [0.0; COMPONENTS];
                     for (load, change) in change.iter_mut().enumerate() {
                         let [force, couple] = self.load(stretch, load)?;
@@ -676,7 +666,7 @@ impl Structure {
                     }
                     out.push(Tip {
                         rail: carrier.rail,
-                        x: range[end],
+                        x: carrier.x[end],
                         end,
                         change,
                     });
@@ -684,6 +674,13 @@ impl Structure {
             }
         }
         Ok(out)
+    }
+
+    /// The stretch of rail that a carrier carries.
+    fn stretch(&self, carrier: &Carrier) -> &Stretch {
+        let mut stretches = self.rails[carrier.rail].stretches.iter();
+        let own = stretches.find(|stretch| stretch.number == carrier.stretch);
+        own.expect("a carrier is made from a stretch of its rail")
     }
 
     /// Coordinates just within a stretch of rail between two others: where it meets the next one, the two need not move

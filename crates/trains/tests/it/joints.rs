@@ -1,5 +1,6 @@
 //! Ends of members and of rails, and members that slope: closed forms.
 
+use crate::common::{self, train};
 use fea::{CrossSection, Dof, Effect, ForceComponent, Member, Model, Rail, RailSegment, Support};
 use trains::{
     CaseEnvelopes, DeadLoads, EnvelopeValue, GirderResponse, Request, SpanExtreme, Structure,
@@ -20,22 +21,8 @@ const SECTION: CrossSection = CrossSection {
 
 fn wheel(x: f64, vertical: f64, longitudinal: f64) -> TrainWheel {
     TrainWheel {
-        rail: 0,
-        x,
-        vertical,
-        lateral: 0.0,
         longitudinal,
-        eccentricity: 0.0,
-    }
-}
-
-fn train(wheels: Vec<TrainWheel>) -> Train {
-    Train {
-        wheels,
-        ends: [0.0; 2],
-        turned: false,
-        reverses: false,
-        enters: false,
+        ..common::wheel(x, vertical)
     }
 }
 
@@ -149,6 +136,41 @@ fn weight_along_a_sloping_member_stretches_it() {
     assert!(sag.bound >= sag.governing.value && sag.bound < known * (1.0 + 2e-9));
 }
 
+/// A level bar of 4 m under its own weight q, clamped at one end and joined to a fixed point at the other by a release: free to
+/// slide and to turn there, the end sinks by q L^4/8EI; a hinge holds it.
+#[test]
+fn weight_moves_the_released_end_of_a_member() {
+    let (q, l) = (10.0 * SECTION.mass, 4.0_f64);
+    let ei = SECTION.e * SECTION.iz;
+    let free = q * l.powi(4) / (8.0 * ei);
+    for (released, known) in [(vec![Dof::Uy, Dof::Rz], free), (vec![Dof::Rz], 0.0)] {
+        for end in [0, 1] {
+            let (mut model, rail) = chain(
+                &[[0.0; 3], [l, 0.0, 0.0]],
+                [0.0, 1.0, 0.0],
+                &[[0.0, 0.3, 0.0]],
+                &[(0, &Dof::ALL), (1, &Dof::ALL)],
+            );
+            for dof in &released {
+                model.members[0].releases[end][*dof as usize] = true;
+            }
+            let dead = DeadLoads {
+                gravity: 10.0,
+                lines: Vec::new(),
+            };
+            let idle = train(vec![wheel(0.0, 0.0, 0.0)]);
+            let at = l * end as f64;
+            let found = solved(&(model, rail), &dead, idle, vec![0.0, l], vec![at]);
+            let (_, own) = envelope(&found, at, GirderResponse::VerticalDeflection, true);
+            let value = own.governing.value;
+            assert!(
+                (value - known).abs() < 1e-9 * free,
+                "{value}, not {known}, {released:?} at end {end}"
+            );
+        }
+    }
+}
+
 /// The same bar with axes of its section at 45 degrees and a rail 1 m above it. In the plane of each axis it deflects by
 /// v = q s^2 (L - s)^2/24 EI, turns by v', and moves along itself by q s (L - s)/2 EA. The rail moves by the rotation times
 /// its arm as well, and so along +z where the bar turns about the normal in its vertical plane.
@@ -240,6 +262,91 @@ fn an_envelope_at_a_wheel_has_both_sides_of_a_joint_under_another() {
             let value = own.governing.value;
             assert!((value - known).abs() < 1e-9, "{value}, not {known}");
         }
+    }
+}
+
+/// Wheels of 100, at least `gap` apart, on a cantilever of 5 m: with one at the tip and the others behind it, each at its
+/// least distance, all of them shear the section just behind the last one, which is one position only.
+#[test]
+fn an_envelope_at_a_wheel_has_trains_that_touch() {
+    for (clamped, count, gap) in [(1, 2, 2.0), (1, 3, 1.7), (0, 2, 2.1), (0, 3, 1.3)] {
+        let (model, rail) = chain(
+            &[[0.0; 3], [5.0, 0.0, 0.0]],
+            [0.0, 1.0, 0.0],
+            &[[0.0; 3]],
+            &[(clamped, &Dof::ALL)],
+        );
+        let structure = Structure::new(&model, &[rail], false).expect("the bar is stable");
+        let from_tip = |x: f64| if clamped == 1 { x } else { 5.0 - x };
+        let touching = gap * (count - 1) as f64;
+        let mut places = [touching - 0.1, touching].map(from_tip);
+        places.sort_by(f64::total_cmp);
+        let request = Request {
+            spans: vec![vec![0.0, 5.0]],
+            places: vec![places.to_vec()],
+            ..Request::default()
+        };
+        let case = TrainCase {
+            trains: vec![train(vec![wheel(0.0, 100.0, 0.0)]); count],
+            gap,
+            ..TrainCase::default()
+        };
+        let found = envelopes(&structure, &DeadLoads::default(), &[case], &request);
+        let found = found.expect("the trains fit").remove(0);
+        for (from, wheels) in [(touching - 0.1, count - 1), (touching, count)] {
+            let (is_max, sign) = if clamped == 1 {
+                (false, -1.0)
+            } else {
+                (true, 1.0)
+            };
+            let (_, own) = envelope(
+                &found,
+                from_tip(from),
+                GirderResponse::VerticalShear,
+                is_max,
+            );
+            let (value, known) = (own.governing.value, sign * 100.0 * wheels as f64);
+            assert!(
+                (value - known).abs() < 1e-9,
+                "{value}, not {known} at {from} from the tip"
+            );
+        }
+    }
+}
+
+/// A rail 0.5 m above two bars that are hinged to each other: a wheel at the hinge that pushes along the rail with 10 loads
+/// the bar on which it stands with a couple of 5, before which the moment is zero and behind which it is the couple.
+#[test]
+fn a_wheel_at_a_hinge_counts_on_both_sides_of_a_section_there() {
+    for (member, end) in [(0, 1), (1, 0)] {
+        let (mut model, rail) = chain(
+            &[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0]],
+            [0.0, 1.0, 0.0],
+            &[[0.0, 0.5, 0.0]; 2],
+            &[(0, &Dof::ALL), (2, &Dof::ALL)],
+        );
+        model.members[member].releases[end][Dof::Rz as usize] = true;
+        let structure = Structure::new(&model, &[rail], false).expect("the bars are stable");
+        let case = TrainCase {
+            trains: vec![train(vec![wheel(0.0, 0.0, 10.0)])],
+            ..TrainCase::default()
+        };
+        let effect = Effect::InternalForce {
+            member,
+            place: end as f64,
+            component: ForceComponent::BendingZ,
+        };
+        let found = effects(&structure, &DeadLoads::default(), &[case], &[vec![effect]]);
+        let found = found.expect("the train fits");
+        let mut values = found[0][0].each_ref().map(|of| of.value.abs());
+        values.sort_by(f64::total_cmp);
+        assert!(
+            values[0] < 1e-9 && (values[1] - 5.0).abs() < 1e-9,
+            "{values:?} in member {member}"
+        );
+        let at = found[0][0].iter().find(|of| of.value.abs() > 1.0);
+        let at = at.expect("the couple").trains[0].position;
+        assert!((at - 2.0).abs() < 1e-9, "{at}");
     }
 }
 

@@ -2,31 +2,18 @@
 
 use std::f64::consts::PI;
 
+use crate::common::{self, train};
 use fea::{BeamTheory, Effect, FactoredFrame, ForceComponent, Girder, Model, Rail};
 use splines::{Axis, Probe};
 use trains::{
-    CaseEnvelopes, DeadLoads, GirderResponse, Governing, Request, SpanExtreme, Structure, Train,
+    CaseEnvelopes, DeadLoads, GirderResponse, Governing, Request, SpanExtreme, Structure,
     TrainCase, TrainWheel, envelopes,
 };
 
 fn wheel(x: f64, vertical: f64, lateral: f64) -> TrainWheel {
     TrainWheel {
-        rail: 0,
-        x,
-        vertical,
         lateral,
-        longitudinal: 0.0,
-        eccentricity: 0.0,
-    }
-}
-
-fn train(wheels: Vec<TrainWheel>) -> Train {
-    Train {
-        wheels,
-        ends: [0.0; 2],
-        turned: false,
-        reverses: false,
-        enters: false,
+        ..common::wheel(x, vertical)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Tests of the crate `trains` through its public interface, one executable.
 
+mod common;
 mod joints;
 mod loaded;
 mod long;

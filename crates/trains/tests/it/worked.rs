@@ -1,30 +1,18 @@
 //! A worked case and classical results.
 
+use crate::common::{self, wheel};
 use fea::{BeamTheory, Effect, Girder};
 use trains::{
     CaseEnvelopes, DeadLoads, GirderResponse, Request, SpanExtreme, Structure, Train, TrainCase,
-    TrainWheel, envelopes,
+    envelopes,
 };
-
-fn wheel(x: f64, vertical: f64) -> TrainWheel {
-    TrainWheel {
-        rail: 0,
-        x,
-        vertical,
-        lateral: 0.0,
-        longitudinal: 0.0,
-        eccentricity: 0.0,
-    }
-}
 
 fn train(wheels: &[(f64, f64)]) -> Train {
     let wheels = wheels.iter().map(|&(x, force)| wheel(x, force)).collect();
     Train {
-        wheels,
-        ends: [0.0; 2],
         turned: true,
         reverses: true,
-        enters: false,
+        ..common::train(wheels)
     }
 }
 
