@@ -61,9 +61,9 @@ pub fn combination(seed: u64) -> Combination {
     let mut draw = Draw(Rng::with_seed(seed));
     // most runs are short: what combines does so at the start
     let end = if draw.yes(0.1) {
-        draw.size(0.2, 2.0)
+        draw.size(0.05, 1.0)
     } else {
-        draw.size(0.005, 0.2)
+        draw.size(0.001, 0.05)
     };
     let (spec, rails) = structure(&mut draw);
     let mut scene = json!({
@@ -260,7 +260,8 @@ fn foundation(draw: &mut Draw, spec: &str, rails: &[RailSide]) -> Value {
         "rigid",
         "influence",
         "influence",
-        "auto",
+        "influence",
+        "influence",
         "auto",
         "ties",
         "parts",
@@ -520,7 +521,7 @@ fn carried(draw: &mut Draw, scene: &mut Value, specs: &mut Vec<(String, Value)>,
     let (mut spec, rails) = short(draw);
     spec["girder"]["mass_per_length"] = json!(draw.size(1e-2, 1.0));
     specs.push(("carried.json".to_owned(), spec));
-    let mut own = json!({ "spec": "carried.json", "foundation": draw.one(&["rigid", "influence", "modal", "full", "parts", "auto"]), "on": "a", "at": [-rails[0].range[1] / 2.0, 2.0, 0.0] });
+    let mut own = json!({ "spec": "carried.json", "foundation": draw.one(&["rigid", "influence", "influence", "modal", "full", "parts", "parts", "auto"]), "on": "a", "at": [-rails[0].range[1] / 2.0, 2.0, 0.0] });
     if draw.yes(0.5) {
         own["damping"] = json!(0.02);
     }
