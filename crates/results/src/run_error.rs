@@ -2,7 +2,7 @@
 
 use sim::{Error, Fall, Status};
 
-use formats::scene::{DOFS, Scene};
+use formats::scene::{DOFS, Scene, stepper_word};
 use formats::text::number::{number, rounded};
 
 /// The word for the status of a run in summaries, and a message where the run did not reach its end.
@@ -144,6 +144,9 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             let (why, hint) = of_fall(fall, scene);
             let own = body(fall.body);
             format!("no static equilibrium of {own} at t = {time}: {why}  hint: {hint}")
+        }
+        Error::Method { method, wanted } => {
+            format!("the stepper \"{}\" needs {wanted}", stepper_word(*method))
         }
         Error::NoEquilibrium { fall: None, .. } => {
             format!("{error}  hint: give the bodies a `start`, from which they move to rest")

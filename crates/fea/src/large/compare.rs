@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::frame::{DeadLoads, Lost, MovingFrame};
 use super::member::EndForces;
-use crate::assembly::{Element, Matrix12, Real, transformation};
+use crate::assembly::{Element, Matrix12, Real};
 use crate::error::Error;
 use crate::influence::FactoredFrame;
 use crate::model::{Model, Rail, cut_at, equal_cuts};
@@ -311,13 +311,9 @@ fn linear_end_forces(
     element: &Element,
     motions: &[SVector<f64, 6>],
 ) -> EndForces {
-    let pair = frame.bodies.pair(element.points);
-    if pair[0] == pair[1] {
+    let Some([tips, force]) = frame.tips(element, motions) else {
         return EndForces::default();
-    }
-    let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
-    let tips = transformation(element, &frame.bodies) * both;
-    let force = element.stiffness() * tips;
+    };
     let recovery: Matrix12 = element.recovery();
     let flexible = recovery * tips;
     let tension = if element.is_string {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::given::ArmForce;
-use crate::assembly::{Element, Real, transformation};
+use crate::assembly::{Element, Real};
 use crate::influence::FactoredFrame;
 use crate::model::{ArmStiffness, Model};
 
@@ -69,13 +69,9 @@ fn member_forces(
     frame: &FactoredFrame,
     motions: &[SVector<f64, 6>],
 ) -> (MemberForces, [Vector3<f64>; 2]) {
-    let pair = frame.bodies.pair(element.points);
-    if pair[0] == pair[1] {
+    let Some([tips, force]) = frame.tips(element, motions) else {
         return (MemberForces::default(), [Vector3::zeros(); 2]);
-    }
-    let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
-    let tips = transformation(element, &frame.bodies) * both;
-    let force = element.stiffness() * tips;
+    };
     let moment = [4, 5, 10, 11]
         .into_iter()
         .fold(0.0_f64, |most, k| most.max(force[k].abs()));

@@ -66,6 +66,17 @@ pub(crate) struct BodyLoads {
 }
 
 impl Preload {
+    /// The weight of all that has mass, -`gravity` along `up`, which may have any length; without weight where `up` is zero.
+    #[must_use]
+    pub fn weight(up: [f64; 3], gravity: f64) -> Preload {
+        let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let factor = if size > 0.0 { gravity / size } else { 0.0 };
+        Preload {
+            acceleration: up.map(|a| if factor == 0.0 { 0.0 } else { -factor * a }),
+            ..Preload::default()
+        }
+    }
+
     /// Whether there is no force.
     #[must_use]
     pub fn is_zero(&self) -> bool {

@@ -77,16 +77,10 @@ impl SpecPreload {
 
     /// The preload on a model whose upward direction is `up`.
     fn forces(&self, up: [f64; 3]) -> Preload {
-        let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();
-        let gravity = if self.weight && size > 0.0 {
-            self.gravity / size
-        } else {
-            0.0
-        };
         Preload {
-            acceleration: up.map(|a| if gravity == 0.0 { 0.0 } else { -gravity * a }),
             points: self.loads.clone(),
             rails: self.wheels.clone(),
+            ..Preload::weight(up, if self.weight { self.gravity } else { 0.0 })
         }
     }
 

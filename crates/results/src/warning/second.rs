@@ -42,7 +42,7 @@ fn of_structure(scene: &Scene, index: usize, outcome: &CaseResult) -> Option<Fir
     let (model, rails) = spec.model().ok()?;
     let base = match &spec.preload {
         Some(preload) => preload.without_wheels(model.up),
-        None if spec.has_mass() => weight(model.up, scene.gravity),
+        None if spec.has_mass() => Preload::weight(model.up, scene.gravity),
         None => Preload::default(),
     };
     let doubt = |is_warning: bool, text: String| FirstOrderDoubt {
@@ -112,16 +112,6 @@ fn of_structure(scene: &Scene, index: usize, outcome: &CaseResult) -> Option<Fir
             false,
             format!("second-order effects are not known ({error})"),
         )),
-    }
-}
-
-/// Gravity on a model whose upward direction is `up`.
-fn weight(up: [f64; 3], gravity: f64) -> Preload {
-    let size = up.iter().map(|a| a * a).sum::<f64>().sqrt();
-    let factor = if size > 0.0 { -gravity / size } else { 0.0 };
-    Preload {
-        acceleration: up.map(|a| factor * a),
-        ..Preload::default()
     }
 }
 
