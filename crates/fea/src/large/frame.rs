@@ -5,7 +5,7 @@ use num_dual::Dual2SVec64;
 use sprs::CsMat;
 
 use super::member::{EndForces, MovingMember};
-use super::turn::{Turn, cross, sum};
+use super::turn::{Turn, constant, cross, sum};
 use crate::assembly::{BlockSums, Element, Matrix6, Real};
 use crate::factor::Factor;
 use crate::influence::FactoredFrame;
@@ -245,7 +245,7 @@ impl<'a> MovingFrame<'a> {
             let variables = variables(&motions[body]);
             let moved = if dof < 3 {
                 let turn = Turn::new([variables[3], variables[4], variables[5]]);
-                variables[dof] + turn.change(arm.map(Dual2SVec64::<6>::from))[dof]
+                variables[dof] + turn.change(arm)[dof]
             } else {
                 variables[dof]
             };
@@ -271,8 +271,9 @@ impl<'a> MovingFrame<'a> {
                 let about = vector[0] * axis[0] + vector[1] * axis[1] + vector[2] * axis[2];
                 vector = axis.map(|component| about * component);
             }
-            let arm = <[f64; 3]>::from(*arm).map(Dual2SVec64::<6>::from);
-            let (finite, small) = (Turn::new(vector).change(arm), cross(vector, arm));
+            let arm = <[f64; 3]>::from(*arm);
+            let small = cross(vector, constant(arm));
+            let finite = Turn::new(vector).change(arm);
             let work = (0..3).fold(Dual2SVec64::<6>::from(0.0), |sum, k| {
                 sum + (finite[k] - small[k]) * force[k]
             });

@@ -89,8 +89,7 @@ impl MovingMember {
         turns: [Vec3<D>; 2],
     ) -> (D, [D; 6]) {
         let turns = turns.map(Turn::new);
-        let moved: [Vec3<D>; 2] =
-            std::array::from_fn(|end| turns[end].change(constant(self.arms[end])));
+        let moved: [Vec3<D>; 2] = std::array::from_fn(|end| turns[end].change(self.arms[end]));
         let change = sum(apart, difference(moved[1], moved[0]));
         let line = sum(constant(self.line), change);
         let length = dot(line, line).sqrt();
@@ -100,7 +99,7 @@ impl MovingMember {
             return (elongation, [D::zero(); 6]);
         }
         let ends: [[Vec3<D>; 3]; 2] =
-            std::array::from_fn(|end| self.axes.map(|axis| turns[end].of(constant(axis))));
+            std::array::from_fn(|end| self.axes.map(|axis| turns[end].of(axis)));
         let first = scaled(line, length.recip());
         let across = cross(first, sum(ends[0][1], ends[1][1]));
         let third = scaled(across, dot(across, across).sqrt().recip());

@@ -17,43 +17,58 @@ const TERMS: usize = 14;
 /// # Source
 /// Rodrigues' formula; Crisfield, Non-linear Finite Element Analysis of Solids and Structures 2 (1997), section 16.2.
 pub(super) struct Turn<D> {
-    vector: Vec3<D>,
-    first: D,
-    second: D,
+    /// R - 1, by rows.
+    change: [Vec3<D>; 3],
 }
 
 impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
     pub fn new(vector: Vec3<D>) -> Turn<D> {
-        let square = dot(vector, vector);
+        let squares = vector.map(|t| t * t);
+        let square = squares[0] + squares[1] + squares[2];
+        let (a, b) = (series(square, 1.0), series(square, 2.0));
+        let [x, y, z] = vector.map(|t| t * a);
+        let [bx, by, bz] = vector.map(|t| t * b);
+        let [xy, yz, zx] = [bx * vector[1], by * vector[2], bz * vector[0]];
+        let less = |i: usize, j: usize| -((squares[i] + squares[j]) * b);
         Turn {
-            vector,
-            first: series(square, 1.0),
-            second: series(square, 2.0),
+            change: [
+                [less(1, 2), xy - z, zx + y],
+                [xy + z, less(0, 2), yz - x],
+                [zx - y, yz + x, less(0, 1)],
+            ],
         }
     }
 
-    pub fn of(&self, v: Vec3<D>) -> Vec3<D> {
-        let once = cross(self.vector, v);
-        let twice = cross(self.vector, once);
-        std::array::from_fn(|k| v[k] + self.first * once[k] + self.second * twice[k])
+    pub fn of(&self, v: [f64; 3]) -> Vec3<D> {
+        let change = self.change(v);
+        std::array::from_fn(|k| change[k] + v[k])
     }
 
     /// R v - v.
-    pub fn change(&self, v: Vec3<D>) -> Vec3<D> {
-        let once = cross(self.vector, v);
-        let twice = cross(self.vector, once);
-        std::array::from_fn(|k| self.first * once[k] + self.second * twice[k])
+    pub fn change(&self, v: [f64; 3]) -> Vec3<D> {
+        self.change
+            .map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
     }
 }
 
-/// sum over k of (-s)^k/(2 k + n)!: sin(t)/t for n = 1 and (1 - cos t)/t^2 for n = 2, with s = t^2. Evaluated by Horner's rule.
+/// f(s) = sum over k of (-s)^k/(2 k + n)!, sin(t)/t for n = 1 and (1 - cos t)/t^2 for n = 2, with s = t^2, and its first two
+/// derivatives: f and both derivatives at the value of s by Horner's rule, and the parabola through them for what s carries
+/// beside its value.
 fn series<D: DualNum<Primitive = f64> + Copy>(s: D, n: f64) -> D {
-    let mut sum = D::one();
-    for k in (1..TERMS).rev() {
+    let mut coefficients = [1.0 / n; TERMS];
+    for k in 1..TERMS {
         let last = 2.0 * k as f64 + n;
-        sum = D::one() - s * sum * (1.0 / (last * (last - 1.0)));
+        coefficients[k] = -coefficients[k - 1] / (last * (last - 1.0));
     }
-    sum * (1.0 / n)
+    let at = s.re();
+    let [mut value, mut first, mut second] = [0.0; 3];
+    for c in coefficients.into_iter().rev() {
+        second = second * at + 2.0 * first;
+        first = first * at + value;
+        value = value * at + c;
+    }
+    let beside = s - at;
+    (beside * (0.5 * second) + first) * beside + value
 }
 
 pub(super) fn constant<D: DualNum<Primitive = f64> + Copy>(v: [f64; 3]) -> Vec3<D> {
