@@ -93,6 +93,12 @@ impl Piecewise {
         assert_eq!(self.values.len(), nodes * self.width, "values at the nodes");
     }
 
+    /// Number of values stored: those of all columns at all nodes.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.values.len()
+    }
+
     /// Number of columns.
     #[must_use]
     pub fn width(&self) -> usize {

@@ -32,6 +32,21 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
                 number(rounded(*time, 6))
             )),
         ),
+        Status::TooLarge {
+            time,
+            stored,
+            expected,
+        } => (
+            "too large",
+            Some(format!(
+                "the run was given up at t = {} s: its solution holds {:.1} GB there, and would hold about {:.0} GB: something \
+                 vibrates fast in a structure of many unknowns; end the run sooner, use fewer `modes` or `elements`, or a \
+                 coarser `accuracy`",
+                number(rounded(*time, 6)),
+                8e-9 * *stored as f64,
+                8e-9 * expected,
+            )),
+        ),
         Status::Failed(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
 }
@@ -152,5 +167,25 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             format!("{error}  hint: give the bodies a `start`, from which they move to rest")
         }
         _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run that is given up for its size says when, and how large it was and would have been.
+    #[test]
+    fn a_run_that_grows_too_large_tells_its_size() {
+        let (word, message) = status(&Status::TooLarge {
+            time: 0.5,
+            stored: 125_000_000,
+            expected: 1e9,
+        });
+        let message = message.expect("a reason");
+        assert_eq!(word, "too large");
+        for part in ["t = 0.5 s", "holds 1.0 GB", "about 8 GB", "`modes`"] {
+            assert!(message.contains(part), "{message}");
+        }
     }
 }

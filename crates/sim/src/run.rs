@@ -45,6 +45,9 @@ const ALTERNATIVES: [(Method, f64); 6] = [
 /// many steps, or a hundredth of them at a rate of ten million in a unit of time. Wheels of cranes take some ten thousand in a
 /// second, and a million at the accuracy of references; one of a few milligrams on a stiff rail vibrates ten million times.
 const JUDGED: usize = 20_000;
+/// Number of values in a solution from which it is expected how many there will be, and the most that a run may store: 4 GB.
+const MANY_VALUES: usize = 100_000_000;
+const MOST_VALUES: f64 = 5e8;
 const MOST_STEPS: f64 = 1e8;
 const FAST: f64 = 1e7;
 
@@ -83,6 +86,15 @@ pub enum Status {
         /// Number of steps up to it.
         steps: usize,
         /// Number of steps that the whole run would take.
+        expected: f64,
+    },
+    /// The run was given up: at the rate at which it grew, its solution would not have fitted into memory.
+    TooLarge {
+        /// The time reached.
+        time: f64,
+        /// Number of values that were stored up to it.
+        stored: usize,
+        /// Number of values that the whole run would store.
         expected: f64,
     },
     /// Evaluating the scene failed at this time, for example because a wheel left its structure.
@@ -491,6 +503,15 @@ fn advance(
             }
             if watch(to).is_break() {
                 return Ok(Status::Stopped);
+            }
+            let stored = samples.stored();
+            let expected = stored as f64 * scene.end / to;
+            if stored > MANY_VALUES && expected > MOST_VALUES {
+                return Ok(Status::TooLarge {
+                    time: to,
+                    stored,
+                    expected,
+                });
             }
             let steps = stepper.counts().steps;
             if steps >= judged.0 + JUDGED {

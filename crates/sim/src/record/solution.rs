@@ -416,6 +416,11 @@ impl SolutionBuilder {
         }
     }
 
+    /// Number of values stored so far.
+    pub fn stored(&self) -> usize {
+        self.solution.function.stored()
+    }
+
     /// Adds the interval from the end of the last one to `to`, which starts smoothly or with a jump.
     ///
     /// # Errors

@@ -385,7 +385,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         match first.run.status {
             Status::Done | Status::Ended(_) => {}
             // Other foundations may still complete the motion.
-            Status::StepTooSmall(_) | Status::TooManySteps { .. } => {
+            Status::StepTooSmall(_) | Status::TooManySteps { .. } | Status::TooLarge { .. } => {
                 return self.search_without_influence(open, first);
             }
             Status::Stopped if first.is_given_up => {

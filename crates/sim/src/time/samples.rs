@@ -148,6 +148,11 @@ impl Samples {
         Ok(())
     }
 
+    /// Number of values stored so far.
+    pub fn stored(&self) -> usize {
+        self.builder.stored()
+    }
+
     /// The solution.
     pub fn finish(self) -> Solution {
         self.builder.finish()

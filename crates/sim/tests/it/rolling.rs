@@ -391,7 +391,7 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
         };
         ended[match run.status {
             Status::Done | Status::Ended(_) | Status::Stopped => 0,
-            Status::StepTooSmall(_) | Status::TooManySteps { .. } => 1,
+            Status::StepTooSmall(_) | Status::TooManySteps { .. } | Status::TooLarge { .. } => 1,
             Status::Failed(..) => 2,
         }] += 1;
         let all = (0..run.history.len()).flat_map(|i| run.history.sample(i).iter());
