@@ -93,7 +93,11 @@ pub(crate) fn extremes_of_effects(
         for (sum, line) in sums.iter().zip(lines) {
             let of_dead = structure.dead_effect(sum, &line, dead)?;
             let tips = structure.tips(sum)?;
-            let line = (line.joined(&tips), tips);
+            let line = EffectLine {
+                line: line.joined(&tips),
+                tips,
+                at_section: structure.at_section(sum),
+            };
             for (plan, out) in plans.iter().zip(&mut out) {
                 out.push(governing(structure, plan, &line, plan.dead * of_dead));
             }
@@ -102,14 +106,33 @@ pub(crate) fn extremes_of_effects(
     Ok(out)
 }
 
-/// The response to a train of an effect whose influence line is given. A wheel at an end of a stretch of rail is counted on
-/// either side of a section there, by a part of no length.
-fn responses(
-    (line, tips): &(Lines<1>, Vec<Tip>),
-    train: &PlacedTrain,
-    slack: f64,
-) -> Vec<ResponsePiece> {
-    let pieces = Pieces::sum(line, train, slack).responses();
+/// The influence line of a sum of effects.
+struct EffectLine {
+    line: Lines<1>,
+    tips: Vec<Tip>,
+    /// Rails and coordinates at which a wheel is at the section of the sum.
+    at_section: Vec<(usize, f64)>,
+}
+
+/// The response to a train of a sum of effects. A wheel at an end of a stretch of rail is counted on either side of a section
+/// there, by a part of no length.
+fn responses(of: &EffectLine, train: &PlacedTrain, slack: f64) -> Vec<ResponsePiece> {
+    let EffectLine {
+        line,
+        tips,
+        at_section,
+    } = of;
+    let is_at_section = |position: f64| {
+        let mut wheels = train.wheels.iter();
+        let at = |wheel: &PlacedWheel, (rail, x): &(usize, f64)| {
+            *rail == wheel.rail && (x - wheel.offset - position).abs() <= slack
+        };
+        wheels.any(|wheel| at_section.iter().any(|place| at(wheel, place)))
+    };
+    let mut pieces = Pieces::sum(line, train, slack).responses();
+    for piece in &mut pieces {
+        piece.at_section = piece.position.map(is_at_section);
+    }
     let beyond = |piece: &ResponsePiece, end: usize| {
         let position = piece.position[end];
         let at = |wheel: &PlacedWheel, tip: &Tip| {
@@ -131,7 +154,7 @@ fn responses(
             position: [position; 2],
             cubic: [piece.at(position) + change, 0.0, 0.0, 0.0],
             origin: piece.origin,
-            at_section: [false; 2],
+            at_section: [true; 2],
         })
     };
     let with_both = |piece: ResponsePiece| {
@@ -146,7 +169,7 @@ fn responses(
 fn governing(
     structure: &Structure,
     plan: &CasePlan,
-    line: &(Lines<1>, Vec<Tip>),
+    line: &EffectLine,
     dead: f64,
 ) -> [Governing; 2] {
     let slack = structure.slack();

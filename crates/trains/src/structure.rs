@@ -169,6 +169,17 @@ impl Carrier {
         if self.reversed { 1.0 - along } else { along }
     }
 
+    /// Rail coordinate at a fraction of the whole member in the direction of its own local x; also beyond the ends of this
+    /// part.
+    fn coordinate_at_fraction(&self, fraction: f64) -> f64 {
+        let along = if self.reversed {
+            1.0 - fraction
+        } else {
+            fraction
+        };
+        self.coordinate_on_whole(along * self.whole)
+    }
+
     /// Rail coordinate at a place of the whole member, counted along the rail; also beyond the ends of this part.
     fn coordinate_on_whole(&self, s: f64) -> f64 {
         let own = s - self.start;
@@ -620,10 +631,7 @@ impl Structure {
             let here = carrier
                 .zip(cut)
                 .filter(|(carrier, (member, _))| carrier.member == *member);
-            let place = here.map(|(carrier, (_, place))| {
-                let s = if carrier.reversed { 1.0 - place } else { place };
-                carrier.coordinate_on_whole(s * carrier.whole)
-            });
+            let place = here.map(|(carrier, (_, place))| carrier.coordinate_at_fraction(place));
             place.into_iter().collect()
         };
         let value = |probe: Probe, out: &mut [f64]| {
@@ -636,6 +644,19 @@ impl Structure {
             Ok(())
         };
         self.lines(used, sums.len(), split, value)
+    }
+
+    /// The rails, each with the coordinate, at which a wheel is at the section of a sum of effects.
+    pub(crate) fn at_section(&self, effects: &[Effect]) -> Vec<(usize, f64)> {
+        let Some((member, place)) = section_of(effects) else {
+            return Vec::new();
+        };
+        let slack = self.slack();
+        let own = self.carriers.iter().filter(|c| c.member == member);
+        own.map(|carrier| (carrier, carrier.coordinate_at_fraction(place)))
+            .filter(|(carrier, x)| carrier.x[0] - slack <= *x && *x <= carrier.x[1] + slack)
+            .map(|(carrier, x)| (carrier.rail, x))
+            .collect()
     }
 
     /// The ends of stretches of rail at which a load on the stretch can be on either side of a section of a sum of effects: at the

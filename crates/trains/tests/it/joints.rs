@@ -291,9 +291,26 @@ fn an_envelope_at_a_wheel_has_trains_that_touch() {
             gap,
             ..TrainCase::default()
         };
-        let found = envelopes(&structure, &DeadLoads::default(), &[case], &request);
+        let cases = [case];
+        let found = envelopes(&structure, &DeadLoads::default(), &cases, &request);
         let found = found.expect("the trains fit").remove(0);
         for (from, wheels) in [(touching - 0.1, count - 1), (touching, count)] {
+            let effect = Effect::InternalForce {
+                member: 0,
+                place: from_tip(from) / 5.0,
+                component: ForceComponent::ShearY,
+            };
+            let named = effects(&structure, &DeadLoads::default(), &cases, &[vec![effect]]);
+            let named = named.expect("the trains fit").remove(0).remove(0);
+            let most = named
+                .map(|of| of.value.abs())
+                .into_iter()
+                .fold(0.0, f64::max);
+            assert!(
+                (most - 100.0 * wheels as f64).abs() < 1e-9,
+                "{most} in the named section at {from} from the tip"
+            );
+
             let (is_max, sign) = if clamped == 1 {
                 (false, -1.0)
             } else {
