@@ -222,14 +222,30 @@ impl Polynomial {
         }
     }
 
+    /// Value and slope at `share`, by Horner's rule in s and 1 - s: sooner than by de Casteljau's algorithm, but a constant
+    /// has rounding.
+    fn value_and_slope(&self, share: f64) -> [f64; 2] {
+        let (c, n) = (&self.coefficients, self.degree());
+        let rest = 1.0 - share;
+        let (mut value, mut slope) = (c[0], 0.0);
+        // binomial(n, i) s^i, and binomial(n - 1, i - 1) s^(i - 1)
+        let (mut power, mut lower) = (1.0, 1.0);
+        for i in 1..=n {
+            power *= share * (n + 1 - i) as f64 / i as f64;
+            value = value * rest + power * c[i];
+            slope = slope * rest + lower * (c[i] - c[i - 1]);
+            lower *= share * (n - i) as f64 / i as f64;
+        }
+        [value, n as f64 * slope]
+    }
+
     /// The root of a polynomial that has values of opposite signs at both ends, and one root.
     fn bracketed(&self) -> f64 {
-        let slope = self.derivative();
         let sign = self.coefficients[0].signum();
         let [mut a, mut b] = [0.0, 1.0];
         let mut at = 0.5;
         for _ in 0..100 {
-            let value = self.value(at);
+            let [value, slope] = self.value_and_slope(at);
             if value == 0.0 {
                 return at;
             }
@@ -238,7 +254,7 @@ impl Polynomial {
             } else {
                 b = at
             }
-            let newton = at - value / slope.value(at);
+            let newton = at - value / slope;
             let next = if newton > a && newton < b {
                 newton
             } else {
@@ -326,6 +342,21 @@ mod tests {
                 .sum()
         };
         Polynomial::new((0..=n).map(coefficient))
+    }
+
+    /// Value and slope by Horner's rule are those by de Casteljau's algorithm.
+    #[test]
+    fn values_and_slopes_are_those_of_de_casteljau() {
+        let polynomial = Polynomial::new([0.3, -1.0, 2.0, 0.5, 7.0, -2.0]);
+        for share in [0.0, 0.1, 0.5, 0.77, 1.0] {
+            let [value, slope] = polynomial.value_and_slope(share);
+            let known = [
+                polynomial.value(share),
+                polynomial.derivative().value(share),
+            ];
+            assert!((value - known[0]).abs() < 1e-14, "{value}, not {known:?}");
+            assert!((slope - known[1]).abs() < 1e-13, "{slope}, not {known:?}");
+        }
     }
 
     /// Analytic: the roots of products of linear factors, some of them beyond the interval.
