@@ -61,9 +61,9 @@ pub fn combination(seed: u64) -> Combination {
     let mut draw = Draw(Rng::with_seed(seed));
     // most runs are short: what combines does so at the start
     let end = if draw.yes(0.1) {
-        draw.size(0.05, 1.0)
+        draw.size(0.01, 0.3)
     } else {
-        draw.size(0.001, 0.05)
+        draw.size(0.0005, 0.01)
     };
     let (spec, rails) = structure(&mut draw);
     let mut scene = json!({

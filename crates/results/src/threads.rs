@@ -84,14 +84,18 @@ fn in_order<R>(mut made: Vec<(usize, R)>) -> Vec<R> {
 ///
 /// let stop = AtomicBool::new(false);
 /// let work = || {
-///     let mut rounds = 0_u64;
 ///     while !stop.load(Ordering::Relaxed) {
-///         rounds += 1;
+///         std::hint::spin_loop();
 ///     }
-///     rounds
+///     "stopped"
 /// };
-/// let rounds = watched(Duration::from_millis(1), work, || stop.store(true, Ordering::Relaxed));
-/// assert!(rounds > 0, "the work lasts until its caller has stopped it");
+/// // the work lasts until its caller has stopped it
+/// let mut calls = 0;
+/// let said = watched(Duration::from_millis(1), work, || {
+///     calls += 1;
+///     stop.store(true, Ordering::Relaxed);
+/// });
+/// assert!(said == "stopped" && calls > 0);
 /// ```
 ///
 /// # Panics
