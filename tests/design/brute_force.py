@@ -922,7 +922,8 @@ class Checker:
         return total
 
     def beside(self, case, ways, positions):
-        """The positions, and those a little beside them that are admissible."""
+        """The positions, and those a little beside them that are admissible: also by so little that a wheel which the program
+        states just beyond a joint stays there."""
         eps = BESIDE * case.length
         for shifts in itertools.product((0, -eps, eps, -0.05 * eps, 0.05 * eps), repeat=len(positions)):
             moved_by = [p + s for p, s in zip(positions, shifts)]
@@ -931,7 +932,7 @@ class Checker:
 
     def judge(self, e, case, attained, found, where, dead=None):
         size = self.sizes[self.kind(e)] or 1.0
-        if dead is not None and abs(dead - e["dead"]) > 1e-9 * size:
+        if dead is not None and abs(dead - e["dead"]) > 1e-10 * size:
             # the other differences of this value follow from that of the dead load
             self.dead_apart = max(self.dead_apart, abs(dead - e["dead"]) / size)
             self.dead_faults.append(f"dead load: {e['case']} {e['rail']} {e['span']} {e['quantity']} {e['plane']} {e['kind']} at "
@@ -1060,7 +1061,7 @@ class Checker:
                 continue
             if top is not None and top[0] > found:
                 found, where = top[0], top[2:]
-            dead = None if cell is None else self.dead(case, cell, s)[0, k]
+            dead = None if cell is None else self.dead(case, cell, float(self.frame.place(cell, e["x"])))[0, k]
             self.judge(e, case, attained, sign * found, where, dead)
             own = e["coincident"].get(e["quantity"])
             if own is not None and sign * (e["value"] - own) > 1e-9 * size:
