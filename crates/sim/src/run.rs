@@ -45,11 +45,12 @@ const ALTERNATIVES: [(Method, f64); 6] = [
 /// many steps, or a hundredth of them at a rate of ten million in a unit of time. Wheels of cranes take some ten thousand in a
 /// second, and a million at the accuracy of references; one of a few milligrams on a stiff rail vibrates ten million times.
 const JUDGED: usize = 20_000;
+const MOST_STEPS: f64 = 1e8;
+const FAST: f64 = 1e7;
+
 /// Number of values in a solution from which it is expected how many there will be, and the most that a run may store: 4 GB.
 const MANY_VALUES: usize = 100_000_000;
 const MOST_VALUES: f64 = 5e8;
-const MOST_STEPS: f64 = 1e8;
-const FAST: f64 = 1e7;
 
 /// Length of the first step that is tried, relative to the run.
 const FIRST: f64 = 1e-4;

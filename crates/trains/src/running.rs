@@ -285,8 +285,11 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
     let mut out = PiecewiseFunction::with_room(f.pieces.len() + 1);
     let mut most = f64::NEG_INFINITY;
     let mut source = Source::default();
-    let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source, begins_at_section: bool| {
+    let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
         let position = ends.map(|x| x + distance);
+        // where the source begins, f may jump
+        let own = &f.pieces[source.part];
+        let begins_at_section = own.at_section[0] && own.position[0] == ends[0];
         // A level that goes on is one part, however many parts of f are below it.
         let goes_on = |last: &&mut Part| source.position.is_some() && last.sources[0] == source;
         match out.pieces.last_mut().filter(goes_on) {
@@ -304,28 +307,20 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
         Part {
             position: [start, end],
             cubic,
-            at_section,
             ..
         },
     ) in f.pieces.iter().enumerate()
     {
         if *start > reached_to {
-            add(
-                [reached_to, *start],
-                Polynomial::new(&[most]),
-                source,
-                false,
-            );
+            add([reached_to, *start], Polynomial::new(&[most]), source);
         }
         reached_to = *end;
         if cubic.bound(end - start) <= most {
-            add([*start, *end], Polynomial::new(&[most]), source, false);
+            add([*start, *end], Polynomial::new(&[most]), source);
             continue;
         }
         let places = cubic.candidates(end - start);
-        let jumps = cubic.at(0.0) > most;
-        let begins_at_section = |from: f64| jumps && at_section[0] && from == *start;
-        if jumps {
+        if cubic.at(0.0) > most {
             most = cubic.at(0.0);
             source = Source {
                 part,
@@ -336,8 +331,7 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             let (from, to) = (start + ends[0], start + ends[1]);
             let value = cubic.at(ends[1]);
             if value <= most {
-                let begins = begins_at_section(from);
-                add([from, to], Polynomial::new(&[most]), source, begins);
+                add([from, to], Polynomial::new(&[most]), source);
                 continue;
             }
             let reached = if cubic.at(ends[0]) >= most {
@@ -346,12 +340,7 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
                 crossing(cubic, most, ends)
             };
             if reached > ends[0] {
-                add(
-                    [from, start + reached],
-                    Polynomial::new(&[most]),
-                    source,
-                    false,
-                );
+                add([from, start + reached], Polynomial::new(&[most]), source);
             }
             add(
                 [start + reached, to],
@@ -360,7 +349,6 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
                     part,
                     position: None,
                 },
-                begins_at_section(start + reached),
             );
             most = value;
             source = Source {
@@ -369,15 +357,13 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             };
         }
         if places.list().len() < 2 {
-            let begins = begins_at_section(*start);
-            add([*start, *end], Polynomial::new(&[most]), source, begins);
+            add([*start, *end], Polynomial::new(&[most]), source);
         }
     }
     add(
         [reached_to, f64::INFINITY],
         Polynomial::new(&[most]),
         source,
-        false,
     );
     out
 }

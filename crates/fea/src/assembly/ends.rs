@@ -1,6 +1,6 @@
 //! Motions of the ends of a member by those of its two bodies, and its stiffness over their columns.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::assembly::bodies::{Bodies, arm as motion_of_tip};
 use crate::assembly::element::{Element, Matrix6, Matrix12, diagonal_blocks};
@@ -13,6 +13,20 @@ const CANCELLED: f64 = 8.0;
 /// references of its two bodies.
 pub(crate) fn transformation<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> Matrix12<T> {
     block_diagonal(&end_motions(element, bodies).0)
+}
+
+/// Local end displacements of a member in motions of all bodies; `None` for a member between points of one body.
+pub(crate) fn end_displacements(
+    element: &Element,
+    bodies: &Bodies,
+    motions: &[SVector<f64, 6>],
+) -> Option<SVector<f64, 12>> {
+    let pair = bodies.pair(element.points);
+    if pair[0] == pair[1] {
+        return None;
+    }
+    let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
+    Some(transformation(element, bodies) * both)
 }
 
 /// The two diagonal blocks of B, one for each end, and the sum of the magnitudes behind each of their entries. Entries

@@ -31,7 +31,7 @@ pub(crate) use element::{
     BendingPlane, Element, Geometry, Matrix6, Matrix12, Released, Triad, bending_planes,
     diagonal_blocks, vector, without_rounding,
 };
-pub(crate) use ends::{block_diagonal, end_motions, product, transformation};
+pub(crate) use ends::{block_diagonal, end_displacements, end_motions, product, transformation};
 pub(crate) use precision::{Extended, Real, exact_sum};
 pub(crate) use sparse::{
     column_norm, inverse_iterations, irregular_vector, symmetric_product, symmetric_product_lanes,

@@ -5,9 +5,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{Matrix3, SVector, Vector3};
 use splines::{Axis, Probe, Rails, ShapeRow};
 
-use crate::assembly::{
-    Bodies, Combination, Element, Extended, Real, ScaledStiffness, transformation,
-};
+use crate::assembly::{Bodies, Combination, Element, Extended, Real, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, Gram, Solver, SparseLoad, ill_conditioned};
 use crate::influence::layout::{ExactLayout, Layout, StateRows};
@@ -331,22 +329,6 @@ impl FactoredFrame {
             .zip(&self.bodies.list)
             .map(|(motion, body)| body.basis * motion)
             .collect()
-    }
-
-    /// Motions of the tips of a member in motions of all bodies, and the forces on them, local; `None` for a member between points
-    /// of one body.
-    pub(crate) fn tips(
-        &self,
-        element: &Element,
-        motions: &[SVector<f64, 6>],
-    ) -> Option<[SVector<f64, 12>; 2]> {
-        let pair = self.bodies.pair(element.points);
-        if pair[0] == pair[1] {
-            return None;
-        }
-        let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
-        let tips = transformation(element, &self.bodies) * both;
-        Some([tips, element.stiffness() * tips])
     }
 
     /// Refuses a certificate that does not meet the accuracy.

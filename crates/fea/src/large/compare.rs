@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::frame::{DeadLoads, Lost, MovingFrame};
 use super::member::EndForces;
-use crate::assembly::{Element, Matrix12, Real};
+use crate::assembly::{Element, Matrix12, Real, end_displacements};
 use crate::error::Error;
 use crate::influence::FactoredFrame;
 use crate::model::{Model, Rail, cut_at, equal_cuts};
@@ -311,9 +311,10 @@ fn linear_end_forces(
     element: &Element,
     motions: &[SVector<f64, 6>],
 ) -> EndForces {
-    let Some([tips, force]) = frame.tips(element, motions) else {
+    let Some(tips) = end_displacements(element, &frame.bodies, motions) else {
         return EndForces::default();
     };
+    let force = element.stiffness() * tips;
     let recovery: Matrix12 = element.recovery();
     let flexible = recovery * tips;
     let tension = if element.is_string {

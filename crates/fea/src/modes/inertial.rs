@@ -220,19 +220,17 @@ impl FactoredFrame {
             return 0.0;
         };
         let element = &self.elements[carrier.id];
-        let (Some(released), model) = (&element.released, self.model()) else {
+        let Some(released) = &element.released else {
             return 0.0;
         };
+        let model = self.model();
         let member = &model.members[carrier.id];
         if model.sections[member.section].mass == 0.0 {
             return 0.0;
         }
-        let mut bodies = Vector12::zeros();
-        for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
-            let own = &forces.accelerations[body];
-            bodies.fixed_rows_mut::<6>(6 * end).copy_from(own);
-        }
-        let load = member_mass(model, member, element, true) * self.flexible_ends(element) * bodies;
+        let accelerations = forces.of_both(self.bodies.pair(element.points));
+        let load =
+            member_mass(model, member, element, true) * self.flexible_ends(element) * accelerations;
         (released_load(cell, row).transpose() * released.compliance * load)[0]
     }
 

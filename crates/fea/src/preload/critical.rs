@@ -18,8 +18,8 @@ use splines::BeamColumn;
 use sprs::CsMat;
 
 use crate::assembly::{
-    Bodies, Element, Extended, Numbering, ScaledStiffness, bending_planes, inverse_iterations,
-    irregular_vector, symmetric_product,
+    Bodies, Element, Extended, Numbering, ScaledStiffness, bending_planes, end_displacements,
+    inverse_iterations, irregular_vector, symmetric_product,
 };
 use crate::dof::Dof;
 use crate::error::{Buckling, EntryAttribute, Error};
@@ -368,12 +368,9 @@ impl<'a> Critical<'a> {
             else {
                 return 0.0;
             };
-            let pair = self.bodies.pair(loaded.points);
-            if pair[0] == pair[1] {
+            let Some(tips) = end_displacements(&loaded, &self.bodies, motions) else {
                 return 0.0;
-            }
-            let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
-            let tips = crate::assembly::transformation(&loaded, &self.bodies) * both;
+            };
             (tips.transpose() * (own.stiffness() - loaded.stiffness()) * tips)[0]
         };
         let all: Vec<f64> = (0..m.members.len()).map(work).collect();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::given::ArmForce;
-use crate::assembly::{Element, Real};
+use crate::assembly::{Element, Real, end_displacements};
 use crate::influence::FactoredFrame;
 use crate::model::{ArmStiffness, Model};
 
@@ -69,9 +69,10 @@ fn member_forces(
     frame: &FactoredFrame,
     motions: &[SVector<f64, 6>],
 ) -> (MemberForces, [Vector3<f64>; 2]) {
-    let Some([tips, force]) = frame.tips(element, motions) else {
+    let Some(tips) = end_displacements(element, &frame.bodies, motions) else {
         return (MemberForces::default(), [Vector3::zeros(); 2]);
     };
+    let force = element.stiffness() * tips;
     let moment = [4, 5, 10, 11]
         .into_iter()
         .fold(0.0_f64, |most, k| most.max(force[k].abs()));

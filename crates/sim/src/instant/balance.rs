@@ -210,6 +210,14 @@ fn sum_of_products(a: &[f64], b: &[f64]) -> f64 {
     products.reduce(|sum, product| sum + product).unwrap_or(0.0)
 }
 
+/// q^T K q for a square matrix K, column by column, or an empty one for zero.
+pub(crate) fn quadratic(columns: &[f64], q: &[f64]) -> f64 {
+    let columns = columns.chunks(q.len().max(1)).zip(q);
+    columns
+        .map(|(column, own)| own * sum_of_products(column, q))
+        .sum()
+}
+
 /// The sum of products of row `r` of a matrix, column by column, with `q`.
 fn product(columns: &[f64], r: usize, rows: usize, q: &[f64]) -> f64 {
     let terms = columns[r..]
@@ -429,13 +437,7 @@ impl<'a> Balance<'a> {
                         .sum::<f64>()
             })
             .sum();
-        let moving = dq.len();
-        let stretched: f64 = self
-            .springs
-            .chunks(moving.max(1))
-            .zip(&dq)
-            .map(|(column, own)| own * sum_of_products(column, &dq))
-            .sum();
+        let stretched = quadratic(&self.springs, &dq);
         let slope = |s: f64| {
             let mut sum = -(1.0 - s) * (bent + stretched) - to.added;
             let mut size = sum.abs();

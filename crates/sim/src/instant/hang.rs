@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::Error;
 use crate::contact::solver::Solver;
-use crate::instant::balance::{pressing, pull_of_springs};
+use crate::instant::balance::{pressing, pull_of_springs, quadratic};
 use crate::instant::equilibrium::{balance_wheels, balancing, has_settled};
 use crate::instant::springs::{followed, hanging, regular, stiffness};
 use crate::mechanics::point::Point;
@@ -96,9 +96,7 @@ fn least_energy(
             .map(|(&k, change)| change * pull_of_springs(solver, k, state))
             .sum()
     };
-    let stretched: f64 = (by_springs.chunks(moving.len().max(1)).zip(&change))
-        .map(|(column, own)| own * column.iter().zip(&change).map(|(k, d)| k * d).sum::<f64>())
-        .sum();
+    let stretched = quadratic(&by_springs, &change);
     let expected = pull(solver, start) - stretched;
     let pressed: f64 = pressing(solver.system())
         .into_iter()
