@@ -1,11 +1,11 @@
 //! Potential energy of a frame under dead loads, and its minimum as the loads grow.
 
 use nalgebra::{Const, SVector, U1, Vector3};
-use num_dual::Dual2SVec64;
+use num_dual::DualSVec64;
 use sprs::CsMat;
 
 use super::member::{EndForces, MovingMember};
-use super::turn::{Turn, constant, cross, sum};
+use super::turn::{Turn, Vec3, constant, cross, difference, sum};
 use crate::assembly::{BlockSums, Element, Matrix6, Real};
 use crate::factor::Factor;
 use crate::influence::FactoredFrame;
@@ -243,13 +243,16 @@ impl<'a> MovingFrame<'a> {
         }
         for &(body, arm, dof, stiffness) in &self.springs {
             let variables = variables(&motions[body]);
-            let moved = if dof < 3 {
+            let mut gradient = [Variable::from(0.0); 6];
+            if dof < 3 {
                 let turn = Turn::new([variables[3], variables[4], variables[5]]);
-                variables[dof] + turn.change(arm)[dof]
+                let mut force = [Variable::from(0.0); 3];
+                force[dof] = (variables[dof] + turn.change(arm)[dof]) * stiffness;
+                gradient = with_turn(force, turn.gradient(&[(force, arm)]));
             } else {
-                variables[dof]
-            };
-            let (gradient, hessian) = derivatives(moved * moved * (0.5 * stiffness));
+                gradient[dof] = variables[dof] * stiffness;
+            }
+            let (gradient, hessian) = derivatives(&gradient);
             by_body[body] += gradient;
             own(&mut sums, body, &hessian);
         }
@@ -271,13 +274,17 @@ impl<'a> MovingFrame<'a> {
                 let about = vector[0] * axis[0] + vector[1] * axis[1] + vector[2] * axis[2];
                 vector = axis.map(|component| about * component);
             }
-            let arm = <[f64; 3]>::from(*arm);
-            let small = cross(vector, constant(arm));
-            let finite = Turn::new(vector).change(arm);
-            let work = (0..3).fold(Dual2SVec64::<6>::from(0.0), |sum, k| {
-                sum + (finite[k] - small[k]) * force[k]
-            });
-            let (gradient, hessian) = derivatives(-work);
+            let (arm, force) = (
+                <[f64; 3]>::from(*arm),
+                constant::<Variable>((*force).into()),
+            );
+            let finite = Turn::new(vector).gradient(&[(force, arm)]);
+            let mut by_turn = difference(cross(constant(arm), force), finite);
+            if let Some(axis) = rail.map(<[f64; 3]>::from) {
+                let about = by_turn[0] * axis[0] + by_turn[1] * axis[1] + by_turn[2] * axis[2];
+                by_turn = axis.map(|component| about * component);
+            }
+            let (gradient, hessian) = derivatives(&with_turn([Variable::from(0.0); 3], by_turn));
             by_body[*body] += gradient;
             own(&mut sums, *body, &hessian);
         }
@@ -333,15 +340,25 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// A number with its derivatives by the motions of a body.
+type Variable = DualSVec64<6>;
+
 /// The motions of a body as variables.
-fn variables(motion: &SVector<f64, 6>) -> [Dual2SVec64<6>; 6] {
-    std::array::from_fn(|k| Dual2SVec64::from_re(motion[k]).derivative(k))
+fn variables(motion: &SVector<f64, 6>) -> [Variable; 6] {
+    std::array::from_fn(|k| Variable::from_re(motion[k]).derivative(k))
 }
 
-fn derivatives(energy: Dual2SVec64<6>) -> (SVector<f64, 6>, Matrix6) {
-    let gradient = energy.v1.unwrap_generic(U1, Const::<6>);
+/// A gradient by displacements and by rotations.
+fn with_turn(by_displacement: Vec3<Variable>, by_turn: Vec3<Variable>) -> [Variable; 6] {
+    let [[a, b, c], [d, e, f]] = [by_displacement, by_turn];
+    [a, b, c, d, e, f]
+}
+
+/// The values of a gradient, and its derivatives.
+fn derivatives(gradient: &[Variable; 6]) -> (SVector<f64, 6>, Matrix6) {
+    let rows = gradient.map(|own| own.eps.unwrap_generic(Const::<6>, U1));
     (
-        gradient.transpose(),
-        energy.v2.unwrap_generic(Const::<6>, Const::<6>),
+        SVector::from_fn(|k, _| gradient[k].re),
+        Matrix6::from_fn(|i, j| rows[i][j]),
     )
 }

@@ -1,7 +1,7 @@
 //! Strain energy of a member in a finite motion of its ends.
 
 use nalgebra::{Const, SVector, U1, Vector3};
-use num_dual::{Dual2SVec64, DualNum, DualSVec64};
+use num_dual::{DualNum, DualSVec64};
 
 use super::turn::{Turn, Vec3, constant, cross, difference, dot, scaled, sum};
 use crate::assembly::{Element, Matrix6};
@@ -38,8 +38,51 @@ pub(super) struct MovingMember {
     /// For each plane its slopes p and q by d_a, d_b; `None` where the member stays straight.
     slopes: [Option<[SVector<f64, 6>; 2]>; 2],
     is_truss: bool,
+    /// S of s = 1/2 d^T S d; zero for a truss.
+    shortening: Matrix6,
     /// Whether it resists tension alone.
     is_cable: bool,
+}
+
+/// A member in a motion of its bodies.
+struct Deformed<D> {
+    /// Turns of its bodies.
+    turns: [Turn<D>; 2],
+    /// |c|.
+    length: D,
+    /// The axes of the member, and those that turn with each end.
+    axes: [Vec3<D>; 3],
+    ends: [[Vec3<D>; 3]; 2],
+    /// Length of the product of the first axis and the sum of the second axes of both ends.
+    width: D,
+    /// e.
+    elongation: D,
+    /// Sines of d_a and d_b, along them.
+    sines: [Vec3<D>; 2],
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Deformed<D> {
+    /// d_a and d_b.
+    fn rotations(&self) -> [D; 6] {
+        let [a, b] = self
+            .sines
+            .map(|sine| scaled(sine, angle_by_sine(dot(sine, sine))[0]));
+        [a[0], a[1], a[2], b[0], b[1], b[2]]
+    }
+}
+
+/// asin(x)/x by s = x^2, and its derivative.
+fn angle_by_sine<D: DualNum<Primitive = f64> + Copy>(s: D) -> [D; 2] {
+    const C: [f64; 3] = [1.0 / 6.0, 3.0 / 40.0, 15.0 / 336.0];
+    [
+        ((s * C[2] + C[1]) * s + C[0]) * s + 1.0,
+        (s * (3.0 * C[2]) + 2.0 * C[1]) * s + C[0],
+    ]
+}
+
+/// The part of `v` across the unit vector `axis`.
+fn normal<D: DualNum<Primitive = f64> + Copy>(v: Vec3<D>, axis: Vec3<D>) -> Vec3<D> {
+    difference(v, scaled(axis, dot(axis, v)))
 }
 
 /// Derivatives of an energy by the motions of two bodies, three displacements and three rotations each.
@@ -67,7 +110,15 @@ impl MovingMember {
         let row = |at: usize| SVector::<f64, 6>::from_fn(|j, _| recovery[(at, turning[j])]);
         let is_bent = [element.flexibility.bending_z, element.flexibility.bending_y]
             .map(|flexibility| flexibility.is_finite());
-        let slopes = [[5, 11], [4, 10]];
+        let rows = [[5, 11], [4, 10]];
+        let slopes: [Option<[SVector<f64, 6>; 2]>; 2] =
+            std::array::from_fn(|plane| is_bent[plane].then(|| rows[plane].map(row)));
+        let product = |a: &SVector<f64, 6>, b: &SVector<f64, 6>| a * b.transpose();
+        let shortening = slopes
+            .iter()
+            .flatten()
+            .map(|[p, q]| (product(p, p) + product(q, q)) * 4.0 - product(p, q) - product(q, p));
+        let shortening = shortening.sum::<Matrix6>() * (element.length / 30.0);
         MovingMember {
             bodies,
             arms: arms.map(Into::into),
@@ -76,18 +127,19 @@ impl MovingMember {
             axes: std::array::from_fn(|i| std::array::from_fn(|j| element.axes[(i, j)])),
             axial: stiffness[(6, 6)],
             bending,
-            slopes: std::array::from_fn(|plane| is_bent[plane].then(|| slopes[plane].map(row))),
+            slopes,
+            shortening,
             is_truss: bending.iter().all(|own| *own == 0.0),
             is_cable,
         }
     }
 
-    /// Elongation e and rotations d_a, d_b of the ends, by u_b - u_a and the rotation vectors of both bodies.
-    fn deformation<D: DualNum<Primitive = f64> + Copy>(
+    /// The member in a motion of its bodies, by u_b - u_a and their rotation vectors.
+    fn deformed<D: DualNum<Primitive = f64> + Copy>(
         &self,
         apart: Vec3<D>,
         turns: [Vec3<D>; 2],
-    ) -> (D, [D; 6]) {
+    ) -> Deformed<D> {
         let turns = turns.map(Turn::new);
         let moved: [Vec3<D>; 2] = std::array::from_fn(|end| turns[end].change(self.arms[end]));
         let change = sum(apart, difference(moved[1], moved[0]));
@@ -95,55 +147,119 @@ impl MovingMember {
         let length = dot(line, line).sqrt();
         // |c| - |X| without the difference of two large numbers
         let elongation = dot(change, sum(constant(self.line), line)) / (length + self.length);
-        if self.is_truss {
-            return (elongation, [D::zero(); 6]);
-        }
+        let first = scaled(line, length.recip());
         let ends: [[Vec3<D>; 3]; 2] =
             std::array::from_fn(|end| self.axes.map(|axis| turns[end].of(axis)));
-        let first = scaled(line, length.recip());
         let across = cross(first, sum(ends[0][1], ends[1][1]));
-        let third = scaled(across, dot(across, across).sqrt().recip());
-        let own = [first, cross(third, first), third];
-        let mut rotations = [D::zero(); 6];
-        for (end, axes) in ends.iter().enumerate() {
-            // the axial vector of the rotation from the axes of the member to those of its end: sin(d) along d
-            let sine: Vec3<D> = std::array::from_fn(|k| {
+        let width = dot(across, across).sqrt();
+        let third = scaled(across, width.recip());
+        let axes = [first, cross(third, first), third];
+        // the axial vector of the rotation from the axes of the member to those of its end: sin(d) along d
+        let sines = ends.map(|own| {
+            std::array::from_fn(|k| {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                (dot(own[j], axes[i]) - dot(own[i], axes[j])) * 0.5
-            });
-            let s = dot(sine, sine);
-            // asin(x)/x
-            let factor = ((s * (15.0 / 336.0) + 3.0 / 40.0) * s + 1.0 / 6.0) * s + 1.0;
-            for k in 0..3 {
-                rotations[3 * end + k] = sine[k] * factor;
-            }
+                (dot(axes[j], own[i]) - dot(axes[i], own[j])) * 0.5
+            })
+        });
+        Deformed {
+            turns,
+            length,
+            width,
+            axes,
+            ends,
+            elongation,
+            sines,
         }
-        (elongation, rotations)
     }
 
-    /// The energy by elongation and rotations of the ends.
-    fn energy<D: DualNum<Primitive = f64> + Copy>(&self, elongation: D, rotations: [D; 6]) -> D {
+    /// Derivatives of the energy by e and by d_a, d_b.
+    fn forces<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        elongation: D,
+        rotations: &[D; 6],
+    ) -> (D, [D; 6]) {
+        let none = [D::zero(); 6];
         if self.is_cable && elongation.re() < 0.0 {
-            return D::zero();
+            return (D::zero(), none);
         }
-        let mut stretch = elongation;
-        let mut energy = D::zero();
-        if !self.is_truss {
-            for [p, q] in self.slopes.iter().flatten() {
-                let slope = |row: &SVector<f64, 6>| {
-                    (0..6).fold(D::zero(), |sum, k| sum + rotations[k] * row[k])
-                };
-                let (p, q) = (slope(p), slope(q));
-                stretch += (p * p * 2.0 - p * q + q * q * 2.0) * (self.length / 30.0);
-            }
-            for i in 0..6 {
-                let row = (0..6).fold(D::zero(), |sum, j| {
-                    sum + rotations[j] * self.bending[(i, j)]
-                });
-                energy += row * rotations[i] * 0.5;
+        if self.is_truss {
+            return (elongation * self.axial, none);
+        }
+        let times = |matrix: &Matrix6, i: usize| {
+            (0..6).fold(D::zero(), |sum, j| sum + rotations[j] * matrix[(i, j)])
+        };
+        let by_rotations: [D; 6] = std::array::from_fn(|i| times(&self.shortening, i));
+        let shortened = rotations.iter().zip(by_rotations);
+        let stretch = shortened.fold(elongation, |stretch, (d, by)| stretch + *d * by * 0.5);
+        let axial = stretch * self.axial;
+        let moments = std::array::from_fn(|i| times(&self.bending, i) + axial * by_rotations[i]);
+        (axial, moments)
+    }
+
+    /// Gradient of the energy by u_b - u_a and the rotation vectors of both bodies.
+    ///
+    /// The forces of e, d_a and d_b go back through what [`MovingMember::deformed`] makes of the motions, in the reverse order.
+    fn gradient<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        apart: Vec3<D>,
+        turns: [Vec3<D>; 2],
+    ) -> [Vec3<D>; 3] {
+        let own = self.deformed(apart, turns);
+        let (axial, moments) = self.forces(own.elongation, &own.rotations());
+        let [first, _, third] = own.axes;
+        let turned = |end: usize, by_axes: [Vec3<D>; 3], by_tip: Vec3<D>| {
+            let [a, b, c] = by_axes;
+            let [own_a, own_b, own_c] = self.axes;
+            let all = [(a, own_a), (b, own_b), (c, own_c), (by_tip, self.arms[end])];
+            own.turns[end].gradient(&all)
+        };
+        if self.is_truss {
+            let (by_line, none) = (scaled(first, axial), [[D::zero(); 3]; 3]);
+            return [
+                by_line,
+                turned(0, none, by_line.map(|x| -x)),
+                turned(1, none, by_line),
+            ];
+        }
+        let mut by_axes = [[D::zero(); 3]; 3];
+        let mut by_ends = [[[D::zero(); 3]; 3]; 2];
+        for end in 0..2 {
+            let sine = own.sines[end];
+            let moment = std::array::from_fn(|k| moments[3 * end + k]);
+            let [factor, slope] = angle_by_sine(dot(sine, sine));
+            let along = dot(sine, moment) * slope * 2.0;
+            for k in 0..3 {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let half = (moment[k] * factor + sine[k] * along) * 0.5;
+                for c in 0..3 {
+                    by_axes[j][c] += own.ends[end][i][c] * half;
+                    by_axes[i][c] -= own.ends[end][j][c] * half;
+                    by_ends[end][i][c] += own.axes[j][c] * half;
+                    by_ends[end][j][c] -= own.axes[i][c] * half;
+                }
             }
         }
-        energy + stretch * stretch * (0.5 * self.axial)
+        // the second axis is third x first, the third that across the first and the mean of the second axes of both ends
+        let by_third = sum(by_axes[2], cross(first, by_axes[1]));
+        let by_across = scaled(normal(by_third, third), own.width.recip());
+        let mean = sum(own.ends[0][1], own.ends[1][1]);
+        let by_first = sum(
+            by_axes[0],
+            sum(cross(by_axes[1], third), cross(mean, by_across)),
+        );
+        let by_mean = cross(by_across, first);
+        let by_line = sum(
+            scaled(first, axial),
+            scaled(normal(by_first, first), own.length.recip()),
+        );
+        by_ends
+            .iter_mut()
+            .for_each(|own| own[1] = sum(own[1], by_mean));
+        [
+            by_line,
+            turned(0, by_ends[0], by_line.map(|x| -x)),
+            turned(1, by_ends[1], by_line),
+        ]
     }
 
     /// Derivatives of the energy in motions of its bodies.
@@ -153,22 +269,23 @@ impl MovingMember {
             3..6 => motions[0][k],
             _ => motions[1][k - 3],
         };
-        let variables: [Dual2SVec64<9>; 9] =
-            std::array::from_fn(|k| Dual2SVec64::<9>::from_re(at(k)).derivative(k));
-        let part = |from: usize| std::array::from_fn(|k| variables[from + k]);
-        let (elongation, rotations) = self.deformation(part(0), [part(3), part(6)]);
-        let energy = self.energy(elongation, rotations);
-        let gradient = energy.v1.unwrap_generic(U1, Const::<9>);
-        let hessian = energy.v2.unwrap_generic(Const::<9>, Const::<9>);
+        let part = |from: usize| {
+            std::array::from_fn(|k| DualSVec64::<9>::from_re(at(from + k)).derivative(from + k))
+        };
+        let gradient = self.gradient(part(0), [part(3), part(6)]).concat();
+        let hessian: Vec<SVector<f64, 9>> = gradient
+            .iter()
+            .map(|own| own.eps.unwrap_generic(Const::<9>, U1))
+            .collect();
         // by the columns of each body: its displacements enter with their sign, then its rotations
         let place = |body: usize, k: usize| if k < 3 { k } else { 3 * body + k };
         let sign = |body: usize, k: usize| if k < 3 && body == 0 { -1.0 } else { 1.0 };
         let block = |a: usize, b: usize| {
-            Matrix6::from_fn(|i, j| sign(a, i) * sign(b, j) * hessian[(place(a, i), place(b, j))])
+            Matrix6::from_fn(|i, j| sign(a, i) * sign(b, j) * hessian[place(a, i)][place(b, j)])
         };
         PairEnergy {
             gradient: [0, 1]
-                .map(|body| SVector::from_fn(|k, _| sign(body, k) * gradient[place(body, k)])),
+                .map(|body| SVector::from_fn(|k, _| sign(body, k) * gradient[place(body, k)].re)),
             hessian: [block(0, 0), block(0, 1), block(1, 1)],
         }
     }
@@ -177,15 +294,10 @@ impl MovingMember {
     pub fn end_forces(&self, motions: [&SVector<f64, 6>; 2]) -> EndForces {
         let apart = std::array::from_fn(|k| motions[1][k] - motions[0][k]);
         let turn = |end: usize| std::array::from_fn(|k| motions[end][3 + k]);
-        let (elongation, rotations) = self.deformation(apart, [turn(0), turn(1)]);
-        let variable = |value: f64, k: usize| DualSVec64::<7>::from_re(value).derivative(k);
-        let energy = self.energy(
-            variable(elongation, 0),
-            std::array::from_fn(|k| variable(rotations[k], 1 + k)),
-        );
-        let by = energy.eps.unwrap_generic(Const::<7>, U1);
-        let axial = by[0];
-        let moment = |end: usize, k: usize| if end == 0 { -by[1 + k] } else { by[4 + k] };
+        let own = self.deformed(apart, [turn(0), turn(1)]);
+        let rotations = own.rotations();
+        let (axial, by) = self.forces(own.elongation, &rotations);
+        let moment = |end: usize, k: usize| if end == 0 { -by[k] } else { by[3 + k] };
         std::array::from_fn(|end| {
             // dMz/dx = -H and dMy/dx = H along the line between the ends; the shear force is normal to the bent axis
             let across = [

@@ -17,6 +17,9 @@ const TERMS: usize = 14;
 /// # Source
 /// Rodrigues' formula; Crisfield, Non-linear Finite Element Analysis of Solids and Structures 2 (1997), section 16.2.
 pub(super) struct Turn<D> {
+    vector: Vec3<D>,
+    /// a, b and their derivatives by |t|^2.
+    factors: [[D; 2]; 2],
     /// R - 1, by rows.
     change: [Vec3<D>; 3],
 }
@@ -25,12 +28,15 @@ impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
     pub fn new(vector: Vec3<D>) -> Turn<D> {
         let squares = vector.map(|t| t * t);
         let square = squares[0] + squares[1] + squares[2];
-        let (a, b) = (series(square, 1.0), series(square, 2.0));
+        let factors = [series(square, 1.0), series(square, 2.0)];
+        let [a, b] = factors.map(|own| own[0]);
         let [x, y, z] = vector.map(|t| t * a);
         let [bx, by, bz] = vector.map(|t| t * b);
         let [xy, yz, zx] = [bx * vector[1], by * vector[2], bz * vector[0]];
         let less = |i: usize, j: usize| -((squares[i] + squares[j]) * b);
         Turn {
+            vector,
+            factors,
             change: [
                 [less(1, 2), xy - z, zx + y],
                 [xy + z, less(0, 2), yz - x],
@@ -44,6 +50,31 @@ impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
         std::array::from_fn(|k| change[k] + v[k])
     }
 
+    /// Gradient by t of the sum over all pairs of g . R v, with g as it is:
+    ///
+    /// a v x g + 2 a' (t . v x g) t + b (g (v . t) + v (g . t) - 2 (g . v) t) + 2 b' ((g . t)(v . t) - |t|^2 g . v) t
+    pub fn gradient(&self, pairs: &[(Vec3<D>, [f64; 3])]) -> Vec3<D> {
+        let t = self.vector;
+        let [[a, by_a], [b, by_b]] = self.factors;
+        let square = dot(t, t);
+        let mut out = [D::zero(); 3];
+        for (g, v) in pairs {
+            let turned = cross(constant(*v), *g);
+            let along = |own: [f64; 3]| t[0] * own[0] + t[1] * own[1] + t[2] * own[2];
+            let (v_t, g_t, g_v) = (
+                along(*v),
+                dot(*g, t),
+                g[0] * v[0] + g[1] * v[1] + g[2] * v[2],
+            );
+            let by_square =
+                (by_a * dot(t, turned) + by_b * (g_t * v_t - square * g_v) - b * g_v) * 2.0;
+            for k in 0..3 {
+                out[k] += a * turned[k] + b * (g[k] * v_t + g_t * v[k]) + by_square * t[k];
+            }
+        }
+        out
+    }
+
     /// R v - v.
     pub fn change(&self, v: [f64; 3]) -> Vec3<D> {
         self.change
@@ -51,10 +82,10 @@ impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
     }
 }
 
-/// f(s) = sum over k of (-s)^k/(2 k + n)!, sin(t)/t for n = 1 and (1 - cos t)/t^2 for n = 2, with s = t^2, and its first two
-/// derivatives: f and both derivatives at the value of s by Horner's rule, and the parabola through them for what s carries
-/// beside its value.
-fn series<D: DualNum<Primitive = f64> + Copy>(s: D, n: f64) -> D {
+/// f(s) = sum over k of (-s)^k/(2 k + n)!, sin(t)/t for n = 1 and (1 - cos t)/t^2 for n = 2, with s = t^2, and its derivative,
+/// for numbers that carry first derivatives: f and two derivatives at the value of s by Horner's rule, and the lines along them
+/// for what s carries beside its value.
+fn series<D: DualNum<Primitive = f64> + Copy>(s: D, n: f64) -> [D; 2] {
     let mut coefficients = [1.0 / n; TERMS];
     for k in 1..TERMS {
         let last = 2.0 * k as f64 + n;
@@ -68,7 +99,7 @@ fn series<D: DualNum<Primitive = f64> + Copy>(s: D, n: f64) -> D {
         value = value * at + c;
     }
     let beside = s - at;
-    (beside * (0.5 * second) + first) * beside + value
+    [beside * first + value, beside * second + first]
 }
 
 pub(super) fn constant<D: DualNum<Primitive = f64> + Copy>(v: [f64; 3]) -> Vec3<D> {
