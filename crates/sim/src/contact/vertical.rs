@@ -95,13 +95,11 @@ impl<'a> Vertical<'a> {
     }
 
     /// Remaining penetration of spring and damper of an open contact at `t`. Without force, the penetration `stored`
-    /// at opening decays by k p + c p' = 0, and wheel and rail are separated until the wheel reaches the remaining
-    /// penetration. `None` if no penetration is stored, or if the law is not linear or has no damper between wheel
-    /// and rail.
+    /// at opening decays ([`NormalLaw::relaxed`]), and wheel and rail are separated until the wheel reaches the remaining
+    /// penetration. `None` if no penetration is stored, or if the law has no damper between wheel and rail.
     fn relaxed(&self, stored: Option<[f64; 2]>, t: f64) -> Option<f64> {
-        let law = self.law;
-        let [p, since] = stored.filter(|_| law.has_memory() && law.is_linear())?;
-        Some(p * (-(t - since) * law.stiffness / law.damping).exp())
+        let [p, since] = stored.filter(|_| self.law.has_memory())?;
+        Some(self.law.relaxed(p, t - since))
     }
 }
 

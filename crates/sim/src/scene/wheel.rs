@@ -1,6 +1,12 @@
 //! Contact of wheel and rail: the vertical contact law, the flange and friction.
 
+use crate::numerics::root::narrow;
 use crate::numerics::step::step;
+
+/// Penetration, relative to the depth of full damping, below which a contact without force is relaxed, and the relative accuracy
+/// of larger ones.
+const RELAXED: f64 = 1e-9;
+const RELAXING: f64 = 1e-14;
 
 /// Velocity on which the damper of a contact acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -117,6 +123,50 @@ impl NormalLaw {
             return 0.5 * self.stiffness * p * p;
         }
         self.stiffness * p.abs().powf(self.exponent + 1.0) / (self.exponent + 1.0)
+    }
+
+    /// What is left of a penetration `p` >= 0 after a `time` without force.
+    ///
+    /// Spring and damper between wheel and rail then follow k p^e + S(p) c p' = 0. Where S = 1,
+    ///
+    /// p(t) = p (1 + (e - 1) (k/c) p^(e-1) t)^(-1/(e-1)),
+    ///
+    /// or p exp(-k t/c) for e = 1. Below the depth d, p follows from the time
+    ///
+    /// t = (c/k) [3 u^(3-e)/((3 - e) d^2) - 2 u^(4-e)/((4 - e) d^3)] between u = p(t) and u = p.
+    pub(crate) fn relaxed(&self, p: f64, time: f64) -> f64 {
+        let (rate, power) = (self.stiffness / self.damping, self.exponent - 1.0);
+        // the integral of u^(-1-power) from u to `to`, without loss of digits where the power is small
+        let integral = |u: f64, to: f64, power: f64| match power {
+            0.0 => (to / u).ln(),
+            _ => u.powf(-power) * -(-power * (to / u).ln()).exp_m1() / power,
+        };
+        let above = (p > self.depth).then(|| {
+            let grown = power * rate * p.powf(power) * time;
+            let logarithm = if power == 0.0 {
+                rate * time
+            } else {
+                grown.ln_1p() / power
+            };
+            p * (-logarithm).exp()
+        });
+        if let Some(left) = above.filter(|left| *left >= self.depth) {
+            return left;
+        }
+        let top = p.min(self.depth);
+        let time = time - above.map_or(0.0, |_| integral(self.depth, p, power) / rate);
+        let beyond = |share: f64| {
+            let [square, cube] =
+                [2.0, 3.0].map(|n| integral(share * top, top, power - n) / self.depth.powf(n));
+            (3.0 * square - 2.0 * cube) / rate - time
+        };
+        let ends = [beyond(RELAXED), -time];
+        if top == 0.0 || ends[0] <= 0.0 {
+            return 0.0;
+        }
+        let share = |part: f64| RELAXED + part * (1.0 - RELAXED);
+        let [_, part] = narrow(ends, RELAXING, |part| Some(beyond(share(part))));
+        share(part) * top
     }
 
     /// Penetration at rest under `force` >= 0.
@@ -277,6 +327,47 @@ mod tests {
         let by_r = (law.at(p, r + h).force - law.at(p, r - h).force) / (2.0 * h);
         assert!((at.by_penetration / by_p - 1.0).abs() < 1e-6);
         assert!((at.by_rate / by_r - 1.0).abs() < 1e-6);
+    }
+
+    /// Against steps of the classical Runge-Kutta method of k p^e + S(p) c p' = 0.
+    #[test]
+    fn penetrations_without_force_relax() {
+        for (exponent, depth) in [
+            (1.0, 0.0),
+            (1.0, 1e-3),
+            (1.0000001, 1e-3),
+            (1.1, 1e-3),
+            (1.5, 0.0),
+            (2.0, 4e-3),
+            (3.0, 4e-3),
+            (3.5, 1e-3),
+        ] {
+            let law = NormalLaw {
+                exponent,
+                depth,
+                ..NormalLaw::linear(1e8, 1e5, Damper::Rail)
+            };
+            let rate = |p: f64| -law.spring(p) / law.at(p, 0.0).by_rate;
+            let (mut p, h, count) = (3e-3, 2e-7, 20_000);
+            for k in 0..count {
+                let left = law.relaxed(3e-3, h * f64::from(k));
+                assert!(
+                    (left - p).abs() < 1e-9 * 3e-3,
+                    "{exponent} {depth} {k}: {left} for {p}"
+                );
+                if p < 0.05 * depth {
+                    break;
+                }
+                let a = rate(p);
+                let b = rate(p + 0.5 * h * a);
+                let c = rate(p + 0.5 * h * b);
+                p += h / 6.0 * (a + 2.0 * (b + c) + rate(p + h * c));
+            }
+            if exponent < 3.0 && depth > 0.0 {
+                assert_eq!(law.relaxed(3e-3, 1e3), 0.0);
+            }
+            assert_eq!(law.relaxed(0.0, 1.0), 0.0);
+        }
     }
 
     #[test]

@@ -8,7 +8,8 @@ use std::ops::ControlFlow;
 use common::modes::{MASS, beam, omega};
 use common::{SPAN, WEIGHT, bogie, girder, surface};
 use sim::{
-    Channel, Damper, Foundation, Gauge, Method, MotionKind, Profile, Run, Scene, Status, run_by,
+    Channel, Contact, Damper, Foundation, Gauge, Method, MotionKind, Profile, Run, Scene, Status,
+    run_by,
 };
 use splines::{Axis, Probe};
 
@@ -199,6 +200,41 @@ fn the_first_force_of_a_falling_wheel_contains_its_speed() {
     let force = run.history.column(Channel::Vertical(0))[0];
     let wanted = 0.5 * WEIGHT + 1e5 * 0.5;
     assert!((force / wanted - 1.0).abs() < 1e-12, "{force} for {wanted}");
+}
+
+/// Analytic: wheels placed into the top of a rail without mass at rest find it undeflected, p + G F = e with F = 0. Their springs
+/// and dampers relax by p' = -r = -k p^e/c, and the forces grow by F' with G F' = r where they press. Of three wheels close to
+/// each other the middle one would have to pull: it opens at once, and the other two carry r/(G11 + G13) t each.
+#[test]
+fn of_wheels_placed_below_their_rail_those_press_that_need_not_pull() {
+    let (x0, apart, depth) = (30.0, 2.0, 0.01);
+    for exponent in [1.0, 1.1, 1.5] {
+        let mut scene = moving(x0, 0.0, 1e-6);
+        scene.accuracy = 1e-4;
+        scene.gauges.clear();
+        scene.bodies[0].free = [false, true, false, false, false, true];
+        scene.bodies[0].start[1] = -depth;
+        let law = &mut scene.wheels[0].normal;
+        (law.exponent, law.depth) = (exponent, if exponent == 1.0 { 0.0 } else { 1e-3 });
+        let rate = law.spring(depth) / law.damping;
+        scene.contacts = [-apart, 0.0, apart]
+            .map(|x| Contact {
+                at: [x, 0.0, 0.0],
+                ..common::single()
+            })
+            .into();
+        let run = go(Method::Auto, &scene, girder());
+        let [own, other] = [x0 - apart, x0 + apart].map(|x| common::give(x0 - apart, x).0);
+        let wanted = [rate / (own + other) * scene.end, 0.0];
+        for (wheel, wanted) in [(0, wanted[0]), (1, wanted[1]), (2, wanted[0])] {
+            let force = run.history.column(Channel::Vertical(wheel));
+            let last = force[force.len() - 1];
+            assert!(
+                (last - wanted).abs() < 1e-3 * rate / own * scene.end,
+                "{exponent} {wheel}: {last} for {wanted}"
+            );
+        }
+    }
 }
 
 /// Analytic: each wheel of two bodies carries half of its body, whatever its law, and F = k p^e. With penetrations a
