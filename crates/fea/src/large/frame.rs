@@ -1,7 +1,7 @@
 //! Potential energy of a frame under dead loads, and its minimum as the loads grow.
 
 use nalgebra::{Const, SVector, U1, Vector3};
-use num_dual::DualSVec64;
+use num_dual::{DualNum, DualSVec64};
 use sprs::CsMat;
 
 use super::member::{EndForces, MovingMember};
@@ -23,6 +23,9 @@ const UNMOVED: f64 = 1e-9;
 const FARTHER: f64 = 1.0;
 /// Smallest part of the loads by which they grow.
 const LEAST_GROWTH: f64 = 1.0 / 256.0;
+/// Largest work of a step with the stiffness of the linear frame, relative to that of the one before, for displacements to count
+/// as small: the steps shrink by the root of it.
+const QUICK: f64 = 0.04;
 /// Rotation of one step, radian, beyond which the loads grow too fast.
 const LARGEST_TURN: f64 = 0.5;
 
@@ -38,10 +41,19 @@ const LARGEST_TURN: f64 = 0.5;
 pub(super) struct MovingFrame<'a> {
     frame: &'a FactoredFrame,
     members: Vec<Option<MovingMember>>,
-    /// Springs to ground: body, arm from its reference, degree of freedom, stiffness.
-    springs: Vec<(usize, [f64; 3], usize, f64)>,
+    springs: Vec<GroundSpring>,
     /// Largest distance of a point from the first one along an axis.
     size: f64,
+}
+
+/// A spring to ground.
+struct GroundSpring {
+    body: usize,
+    /// From the reference of the body to the spring.
+    arm: [f64; 3],
+    /// Degree of freedom, 0 to 5.
+    dof: usize,
+    stiffness: f64,
 }
 
 /// First and second derivatives of the potential energy by the scaled unknowns.
@@ -74,6 +86,14 @@ impl DeadLoads {
         }
     }
 
+    /// The loads whose arms turn with their bodies.
+    fn turning(&self) -> impl Iterator<Item = &ArmForce> {
+        let none = Vector3::zeros();
+        self.on_arms
+            .iter()
+            .filter(move |own| own.arm != none && own.force != none)
+    }
+
     /// `self` + `part` of `other`.
     pub fn plus(&self, part: f64, other: &DeadLoads) -> DeadLoads {
         let by_unknown = self.by_unknown.iter().zip(&other.by_unknown);
@@ -99,13 +119,11 @@ impl<'a> MovingFrame<'a> {
             let is_cable = member.kind == MemberKind::Cable;
             (pair[0] != pair[1]).then(|| MovingMember::new(element, pair, arms, is_cable))
         });
-        let springs = m.springs.iter().map(|spring| {
-            (
-                bodies.of_point[spring.point],
-                arm(spring.point).into(),
-                spring.dof as usize,
-                spring.stiffness,
-            )
+        let springs = m.springs.iter().map(|spring| GroundSpring {
+            body: bodies.of_point[spring.point],
+            arm: arm(spring.point).into(),
+            dof: spring.dof as usize,
+            stiffness: spring.stiffness,
         });
         MovingFrame {
             frame,
@@ -164,30 +182,52 @@ impl<'a> MovingFrame<'a> {
         Ok(x)
     }
 
-    /// The minimum of the potential energy near `start`; `None` where Newton's method does not find one.
+    /// The minimum of the potential energy near `start`; `None` where none is found.
+    ///
+    /// Where displacements are small, steps with the stiffness of the linear frame find it, whose factors are known; the second
+    /// derivatives at their end tell whether it is a minimum. Elsewhere Newton's method does.
     pub fn equilibrium(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
+        let near = self.by_linear_stiffness(start, loads);
+        let is_stable = |x: &Vec<f64>| Factor::new(&self.slope(x, loads).hessian).is_ok();
+        near.filter(is_stable)
+            .or_else(|| self.by_newton(start, loads))
+    }
+
+    /// The equilibrium near `start` by steps with the stiffness of the linear frame, if their work falls quickly.
+    fn by_linear_stiffness(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
+        let mut x = start.to_vec();
+        let (mut before, least) = (f64::INFINITY, self.least_work(loads));
+        for _ in 0..MOST_STEPS {
+            let gradient = self.gradient(&x, loads);
+            let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
+            self.frame.solver().solve(&mut change);
+            let work = -dot(&gradient, &change);
+            let is_small = self.largest_turn(&change) <= LARGEST_TURN;
+            if !(work <= QUICK * before && is_small) {
+                return None;
+            }
+            add(&mut x, &change);
+            if work <= SETTLED * dot(&loads.by_unknown, &x).abs().max(least) {
+                return Some(x);
+            }
+            before = work;
+        }
+        None
+    }
+
+    /// The minimum near `start` by Newton's method; `None` where it does not find one.
+    fn by_newton(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
         let mut x = start.to_vec();
         let mut before = f64::INFINITY;
         let (mut first, mut farther) = (0.0_f64, 0.0_f64);
-        let forces = loads.on_arms.iter().map(|own| own.force.norm());
-        let least = UNMOVED * self.size * forces.sum::<f64>();
+        let least = self.least_work(loads);
         for step in 0..MOST_STEPS {
             let Slope { gradient, hessian } = self.slope(&x, loads);
             let factor = Factor::new(&hessian).ok()?;
             let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
             factor.solve(&mut change);
             let work = -dot(&gradient, &change);
-            if !work.is_finite() {
-                return None;
-            }
-            let turned = self
-                .frame
-                .body_motions(&change)
-                .iter()
-                .fold(0.0_f64, |most, motion| {
-                    most.max(motion.fixed_rows::<3>(3).norm())
-                });
-            if turned > LARGEST_TURN {
+            if !work.is_finite() || self.largest_turn(&change) > LARGEST_TURN {
                 return None;
             }
             let moved = self.largest_displacement(&change);
@@ -199,11 +239,8 @@ impl<'a> MovingFrame<'a> {
                     return None;
                 }
             }
-            x.iter_mut()
-                .zip(&change)
-                .for_each(|(x, change)| *x += change);
-            let all = dot(&loads.by_unknown, &x).abs();
-            if work <= SETTLED * all.max(least) {
+            add(&mut x, &change);
+            if work <= SETTLED * dot(&loads.by_unknown, &x).abs().max(least) {
                 return Some(x);
             }
             // Far from the answer a step may do more work than the one before it, but not for long.
@@ -213,6 +250,19 @@ impl<'a> MovingFrame<'a> {
             before = work;
         }
         None
+    }
+
+    /// Work that counts as none beside the loads.
+    fn least_work(&self, loads: &DeadLoads) -> f64 {
+        let forces = loads.on_arms.iter().map(|own| own.force.norm());
+        UNMOVED * self.size * forces.sum::<f64>()
+    }
+
+    /// The largest turn of a body in a step.
+    fn largest_turn(&self, change: &[f64]) -> f64 {
+        let motions = self.frame.body_motions(change);
+        let turns = motions.iter().map(|own| own.fixed_rows::<3>(3).norm());
+        turns.fold(0.0, f64::max)
     }
 
     /// The largest displacement of a body, by its reference.
@@ -241,71 +291,55 @@ impl<'a> MovingFrame<'a> {
             own(&mut sums, b, &energy.hessian[2]);
             sums.add_coupling([a, b], basis(a).transpose() * energy.hessian[1] * basis(b));
         }
-        for &(body, arm, dof, stiffness) in &self.springs {
-            let variables = variables(&motions[body]);
-            let mut gradient = [Variable::from(0.0); 6];
-            if dof < 3 {
-                let turn = Turn::new([variables[3], variables[4], variables[5]]);
-                let mut force = [Variable::from(0.0); 3];
-                force[dof] = (variables[dof] + turn.change(arm)[dof]) * stiffness;
-                gradient = with_turn(force, turn.gradient(&[(force, arm)]));
-            } else {
-                gradient[dof] = variables[dof] * stiffness;
-            }
-            let (gradient, hessian) = derivatives(&gradient);
-            by_body[body] += gradient;
-            own(&mut sums, body, &hessian);
+        for spring in &self.springs {
+            let (gradient, hessian) =
+                derivatives(&spring.gradient(variables(&motions[spring.body])));
+            by_body[spring.body] += gradient;
+            own(&mut sums, spring.body, &hessian);
         }
-        // The loads by unknown hold u + t x r; what remains of their work is F . (R r - r - t x r).
-        let on_arms = loads.on_arms.iter().filter(|own| {
-            let none = Vector3::zeros();
-            own.arm != none && own.force != none
-        });
-        for ArmForce {
-            body,
-            arm,
-            force,
-            rail,
-        } in on_arms
-        {
-            let variables = variables(&motions[*body]);
-            let mut vector = [variables[3], variables[4], variables[5]];
-            if let Some(axis) = rail.map(<[f64; 3]>::from) {
-                let about = vector[0] * axis[0] + vector[1] * axis[1] + vector[2] * axis[2];
-                vector = axis.map(|component| about * component);
-            }
-            let (arm, force) = (
-                <[f64; 3]>::from(*arm),
-                constant::<Variable>((*force).into()),
-            );
-            let finite = Turn::new(vector).gradient(&[(force, arm)]);
-            let mut by_turn = difference(cross(constant(arm), force), finite);
-            if let Some(axis) = rail.map(<[f64; 3]>::from) {
-                let about = by_turn[0] * axis[0] + by_turn[1] * axis[1] + by_turn[2] * axis[2];
-                by_turn = axis.map(|component| about * component);
-            }
-            let (gradient, hessian) = derivatives(&with_turn([Variable::from(0.0); 3], by_turn));
-            by_body[*body] += gradient;
-            own(&mut sums, *body, &hessian);
+        for force in loads.turning() {
+            let (gradient, hessian) =
+                derivatives(&arm_gradient(force, variables(&motions[force.body])));
+            by_body[force.body] += gradient;
+            own(&mut sums, force.body, &hessian);
         }
         let numbering = &frame.stiffness().numbering;
-        let gradient = numbering
-            .column
-            .iter()
-            .zip(&numbering.scale)
-            .zip(&loads.by_unknown);
         Slope {
-            gradient: gradient
-                .map(|((&column, scale), load)| {
-                    scale
-                        * basis(column / 6)
-                            .column(column % 6)
-                            .dot(&by_body[column / 6])
-                        - load
-                })
-                .collect(),
+            gradient: self.by_unknown(&by_body, loads),
             hessian: sums.upper(&numbering.unknown, &numbering.scale),
         }
+    }
+
+    /// First derivatives of the potential energy by the scaled unknowns.
+    fn gradient(&self, x: &[f64], loads: &DeadLoads) -> Vec<f64> {
+        let motions = self.frame.body_motions(x);
+        let mut by_body = vec![SVector::<f64, 6>::zeros(); motions.len()];
+        for member in self.members.iter().flatten() {
+            let [a, b] = member.bodies;
+            let [on_a, on_b] = member.forces_on_bodies([&motions[a], &motions[b]]);
+            by_body[a] += on_a;
+            by_body[b] += on_b;
+        }
+        for spring in &self.springs {
+            by_body[spring.body] += SVector::from(spring.gradient(motions[spring.body].into()));
+        }
+        for force in loads.turning() {
+            by_body[force.body] += SVector::from(arm_gradient(force, motions[force.body].into()));
+        }
+        self.by_unknown(&by_body, loads)
+    }
+
+    /// Derivatives by the scaled unknowns, of those by the motions of bodies and of the work of the loads by unknown.
+    fn by_unknown(&self, by_body: &[SVector<f64, 6>], loads: &DeadLoads) -> Vec<f64> {
+        let numbering = &self.frame.stiffness().numbering;
+        let columns = numbering.column.iter().zip(&numbering.scale);
+        columns
+            .zip(&loads.by_unknown)
+            .map(|((&column, scale), load)| {
+                let basis = &self.frame.bodies.list[column / 6].basis;
+                scale * basis.column(column % 6).dot(&by_body[column / 6]) - load
+            })
+            .collect()
     }
 
     /// Displacements of all points of the model, and of the tips of `arms`.
@@ -336,6 +370,10 @@ impl<'a> MovingFrame<'a> {
     }
 }
 
+fn add(x: &mut [f64], change: &[f64]) {
+    x.iter_mut().zip(change).for_each(|(x, own)| *x += own);
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -343,13 +381,50 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// A number with its derivatives by the motions of a body.
 type Variable = DualSVec64<6>;
 
+impl GroundSpring {
+    /// Gradient of its energy by the motion of its body.
+    fn gradient<D: DualNum<Primitive = f64> + Copy>(&self, motion: [D; 6]) -> [D; 6] {
+        let mut out = [D::zero(); 6];
+        if self.dof < 3 {
+            let turn = Turn::new([motion[3], motion[4], motion[5]]);
+            let mut force = [D::zero(); 3];
+            force[self.dof] = (motion[self.dof] + turn.change(self.arm)[self.dof]) * self.stiffness;
+            out = with_turn(force, turn.gradient(&[(force, self.arm)]));
+        } else {
+            out[self.dof] = motion[self.dof] * self.stiffness;
+        }
+        out
+    }
+}
+
+/// Gradient, by the motion of its body, of what the loads by unknown leave of the work of a force on an arm: they hold u + t x r,
+/// and what remains is F . (R r - r - t x r).
+fn arm_gradient<D: DualNum<Primitive = f64> + Copy>(own: &ArmForce, motion: [D; 6]) -> [D; 6] {
+    let mut vector = [motion[3], motion[4], motion[5]];
+    let along = |v: Vec3<D>, axis: [f64; 3]| {
+        let about = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
+        axis.map(|component| about * component)
+    };
+    let axis = own.rail.map(<[f64; 3]>::from);
+    if let Some(axis) = axis {
+        vector = along(vector, axis);
+    }
+    let (arm, force) = (<[f64; 3]>::from(own.arm), constant(own.force.into()));
+    let finite = Turn::new(vector).gradient(&[(force, arm)]);
+    let mut by_turn = difference(cross(constant(arm), force), finite);
+    if let Some(axis) = axis {
+        by_turn = along(by_turn, axis);
+    }
+    with_turn([D::zero(); 3], by_turn)
+}
+
 /// The motions of a body as variables.
 fn variables(motion: &SVector<f64, 6>) -> [Variable; 6] {
     std::array::from_fn(|k| Variable::from_re(motion[k]).derivative(k))
 }
 
 /// A gradient by displacements and by rotations.
-fn with_turn(by_displacement: Vec3<Variable>, by_turn: Vec3<Variable>) -> [Variable; 6] {
+fn with_turn<D>(by_displacement: Vec3<D>, by_turn: Vec3<D>) -> [D; 6] {
     let [[a, b, c], [d, e, f]] = [by_displacement, by_turn];
     [a, b, c, d, e, f]
 }

@@ -196,6 +196,23 @@ impl MovingMember {
         (axial, moments)
     }
 
+    /// Gradient of the energy in motions of its bodies, for each of them.
+    pub fn forces_on_bodies(&self, motions: [&SVector<f64, 6>; 2]) -> [SVector<f64, 6>; 2] {
+        let apart = std::array::from_fn(|k| motions[1][k] - motions[0][k]);
+        let turns = motions.map(|own| [own[3], own[4], own[5]]);
+        let [by_apart, by_a, by_b] = self.gradient(apart, turns);
+        let of = |sign: f64, by_turn: Vec3<f64>| {
+            SVector::from_fn(|k, _| {
+                if k < 3 {
+                    sign * by_apart[k]
+                } else {
+                    by_turn[k - 3]
+                }
+            })
+        };
+        [of(-1.0, by_a), of(1.0, by_b)]
+    }
+
     /// Gradient of the energy by u_b - u_a and the rotation vectors of both bodies.
     ///
     /// The forces of e, d_a and d_b go back through what [`MovingMember::deformed`] makes of the motions, in the reverse order.
