@@ -21,8 +21,9 @@ const LAST: f64 = 16.0;
 /// Number of times an interval is halved at most.
 const HALVINGS: usize = 40;
 
-/// Appends the values of all columns at a share of the interval.
-pub type Evaluate<'a, E> = dyn FnMut(f64, &mut Vec<f64>) -> Result<(), E> + 'a;
+/// Appends the values of all columns at a share of the interval; returns whether they are those of the function. Where they are
+/// estimates, the interval is not halved.
+pub type Evaluate<'a, E> = dyn FnMut(f64, &mut Vec<f64>) -> Result<bool, E> + 'a;
 
 /// Appends a function to `to` in the interval. `ends` are its values, those of all columns, at both ends; `evaluate` appends those
 /// at a share of the interval. `differs` is whether a row misses another, which is given second, by more than is allowed. Parts of
@@ -86,6 +87,7 @@ impl<E> Follow<'_, E> {
         values.extend_from_slice(first);
         values.extend_from_slice(last);
         let mut place = [None; 2 * MOST + 1];
+        let mut is_known = true;
         (place[0], place[2 * most]) = (Some(0), Some(1));
         for (degree, tested) in DEGREES.into_iter().zip(TESTED) {
             let stride = 2 * most / degree;
@@ -95,7 +97,7 @@ impl<E> Follow<'_, E> {
                 if place[at].is_none() {
                     place[at] = Some(values.len() / width.max(1));
                     let share = Lobatto::of(2 * most).nodes()[at];
-                    (self.evaluate)(from + share * (to - from), &mut values)?;
+                    is_known &= (self.evaluate)(from + share * (to - from), &mut values)?;
                 }
             }
             let row = |at: usize| {
@@ -121,7 +123,8 @@ impl<E> Follow<'_, E> {
                 !(self.differs)(&self.row, &self.zero)
             };
             let middle = 0.5 * (from + to);
-            let can_halve = halvings < HALVINGS
+            let can_halve = is_known
+                && halvings < HALVINGS
                 && to - from > 2.0 * self.shortest
                 && self.time(middle) > start
                 && self.time(middle) < end;
@@ -154,10 +157,10 @@ mod tests {
         let exact = |t: f64| [(5.0 * t).sin(), (t - 0.737).abs(), (t - 1.737).abs()];
         let mut own = Piecewise::new(3);
         let mut count = 0;
-        let mut evaluate = |share: f64, row: &mut Vec<f64>| -> Result<(), Infallible> {
+        let mut evaluate = |share: f64, row: &mut Vec<f64>| -> Result<bool, Infallible> {
             count += 1;
             row.extend(exact(1.0 + 2.0 * share));
-            Ok(())
+            Ok(true)
         };
         let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).any(|(a, b)| (a - b).abs() > 1e-6);
         let ends = [1.0, 3.0].map(exact);

@@ -617,7 +617,7 @@ fn sweep(
                 // each side of a break has values of its own
                 let inside = share.clamp(INSIDE, 1.0 - INSIDE);
                 failed = from + inside * (to - from);
-                rest(failed, recorder, row)
+                rest(failed, recorder, row).map(|()| true)
             };
             match builder.follow([from, to], from == 0.0, &mut evaluate) {
                 Ok(()) => {}

@@ -346,9 +346,9 @@ pub(crate) struct SolutionBuilder {
     row: Vec<f64>,
 }
 
-/// What evaluates a row of all channels at a share of an interval.
+/// What evaluates a row of all channels at a share of an interval; returns whether its values are more than estimates.
 pub(crate) type Evaluate<'a, E> =
-    dyn FnMut(f64, &mut Recorder, &mut Vec<f64>) -> Result<(), E> + 'a;
+    dyn FnMut(f64, &mut Recorder, &mut Vec<f64>) -> Result<bool, E> + 'a;
 
 impl SolutionBuilder {
     /// Begins with the row of all channels at the start, which `recorder` has made.
@@ -443,11 +443,11 @@ impl SolutionBuilder {
             row,
             ..
         } = self;
-        let mut live_row = |share: f64, out: &mut Vec<f64>| -> Result<(), E> {
+        let mut live_row = |share: f64, out: &mut Vec<f64>| -> Result<bool, E> {
             row.clear();
-            evaluate(share, recorder, row)?;
+            let is_known = evaluate(share, recorder, row)?;
             out.extend(live.iter().map(|at| row[*at]));
-            Ok(())
+            Ok(is_known)
         };
         let mut ends = [last.clone(), Vec::with_capacity(live.len())];
         live_row(1.0, &mut ends[1])?;

@@ -131,13 +131,14 @@ impl Samples {
         let is_state = start == 0.0 && step.ends_smoothly && !step.has_damped_rails();
         let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
             if share == 1.0 && is_state {
-                return recorder.row(system, step.solver.geometry(), &step.arrived, row);
+                recorder.row(system, step.solver.geometry(), &step.arrived, row)?;
+                return Ok(true);
             }
             begun.restore(step.solver);
-            sample_within(step, share.max(start), sample)?;
+            let is_settled = sample_within(step, share.max(start), sample)?;
             recorder.row(system, step.solver.geometry(), sample, row)?;
             after.restore(step.solver);
-            Ok(())
+            Ok(is_settled)
         };
         let done = builder.follow(interval, is_smooth, &mut evaluate);
         exchange(step);
@@ -160,22 +161,24 @@ impl Samples {
 }
 
 /// Sets `sample` to the state at a fraction of the step just taken, with the elements that were active in it, which the solver
-/// has.
-fn sample_within(step: &mut Step, fraction: f64, sample: &mut State) -> Result<(), Error> {
+/// has. Returns whether its forces are found: where the force of a damper grows with the penetration, an interpolated rate may
+/// belong to no penetration, and they are estimates.
+fn sample_within(step: &mut Step, fraction: f64, sample: &mut State) -> Result<bool, Error> {
     let is_known = step.sample(fraction, sample)?;
     let t = step.from.t + fraction * step.length();
     // a step ends just before a break of a motion, where the motion still has the speed of this side
     sample.t = t.min(step.to.t.next_down());
+    let mut is_settled = true;
     if !(is_known && step.apply_laws(sample)?) {
         let slack = step.solver.allowed_error();
         // a step ends by rounding behind the event that changes the active elements
         let is_end = fraction == 1.0 && !step.ends_smoothly;
         if !(is_end && step.solver.instant_within(sample, [slack; 2])?) {
-            settle_within(step.solver, sample, slack)?;
+            is_settled = settle_within(step.solver, sample, slack)?;
         }
     }
     sample.t = t.min(step.to.t);
-    Ok(())
+    Ok(is_settled)
 }
 
 /// Fraction of the step just taken at which no wheel is any longer before the break of its rail at which it begins the step: steps

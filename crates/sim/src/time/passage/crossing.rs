@@ -399,6 +399,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 };
                 let mut evaluate = |share: f64, recorder: &mut Recorder, row: &mut Vec<f64>| {
                     self.record(recorder, t, t + share * (to - t), row)
+                        .map(|()| true)
                 };
                 solution.follow([t, to], is_smooth, &mut evaluate)?;
                 is_smooth = true;
