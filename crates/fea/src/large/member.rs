@@ -337,3 +337,86 @@ impl MovingMember {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{CrossSection, Member, MemberKind, Model};
+
+    /// A member on arms, and the vector from the reference of its first body to that of the second.
+    fn on_arms(kind: MemberKind) -> (MovingMember, Vector3<f64>) {
+        let section = CrossSection {
+            e: 2.1e8,
+            g: 8.1e7,
+            area: 0.02,
+            iy: 1e-4,
+            iz: 8e-4,
+            j: 2e-6,
+            ..CrossSection::default()
+        };
+        let model = Model {
+            points: vec![[0.0; 3], [3.0, 1.0, -2.0]],
+            sections: vec![section],
+            members: vec![Member {
+                kind,
+                ..Member::beam([0, 1], 0, [0.2, 1.0, 0.1])
+            }],
+            up: [0.0, 1.0, 0.0],
+            ..Model::default()
+        };
+        let element = Element::all(&model)
+            .expect("a model without faults")
+            .remove(0);
+        let arms = [[0.3, -0.2, 0.5], [-0.4, 0.1, 0.2]].map(Vector3::from);
+        let apart = Vector3::new(3.0, 1.0, -2.0) + arms[0] - arms[1];
+        (MovingMember::new(&element, [0, 1], arms, false), apart)
+    }
+
+    fn motion(displacement: Vector3<f64>, turn: Vector3<f64>) -> SVector<f64, 6> {
+        SVector::from_fn(|k, _| if k < 3 { displacement[k] } else { turn[k - 3] })
+    }
+
+    /// Identities: forces are the gradient of an energy, so that their derivatives are symmetric, and those with and without
+    /// derivatives are the same.
+    #[test]
+    fn forces_in_finite_motions_have_symmetric_derivatives() {
+        for kind in [MemberKind::Beam, MemberKind::Truss] {
+            let (member, _) = on_arms(kind);
+            let a = motion(Vector3::new(0.1, -0.2, 0.05), Vector3::new(0.4, 0.1, -0.3));
+            let b = motion(Vector3::new(-0.1, 0.3, 0.2), Vector3::new(-0.2, 0.5, 0.1));
+            let PairEnergy { gradient, hessian } = member.derivatives([&a, &b]);
+            let [first, _, second] = hessian;
+            let largest = first.amax();
+            for own in [first, second] {
+                assert!(
+                    (own - own.transpose()).amax() < 1e-13 * largest,
+                    "{kind:?}: {own}"
+                );
+            }
+            let plain = member.forces_on_bodies([&a, &b]);
+            for (own, plain) in gradient.iter().zip(plain) {
+                assert!(
+                    (own - plain).amax() < 1e-13 * plain.amax(),
+                    "{kind:?}: {own} {plain}"
+                );
+            }
+        }
+    }
+
+    /// Identity: a member that moves and turns as a rigid body has no forces.
+    #[test]
+    fn rigid_motions_are_free_of_forces() {
+        for kind in [MemberKind::Beam, MemberKind::Truss] {
+            let (member, apart) = on_arms(kind);
+            let (start, turn) = (Vector3::new(5.0, -3.0, 2.0), Vector3::new(0.9, -1.1, 0.7));
+            let moved = Vector3::from(Turn::new(turn.into()).change(apart.into()));
+            let bodies = [motion(start, turn), motion(start + moved, turn)];
+            let forces = member.forces_on_bodies(bodies.each_ref());
+            let size = member.axial * member.length;
+            assert!(
+                forces.iter().all(|own| own.amax() < 1e-14 * size),
+                "{kind:?}: {forces:?}"
+            );
+        }
+    }
+}
