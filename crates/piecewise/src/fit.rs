@@ -176,4 +176,26 @@ mod tests {
         }
         assert!(count < 400, "{count} evaluations");
     }
+    /// A corner between estimates is not sought: one interval with the values at nine nodes and a test.
+    #[test]
+    fn estimates_are_not_refined() {
+        let mut own = Piecewise::new(1);
+        let mut count = 0;
+        let mut evaluate = |share: f64, row: &mut Vec<f64>| -> Result<bool, Infallible> {
+            count += 1;
+            row.push((share - 0.3).abs());
+            Ok(false)
+        };
+        let differs = |a: &[f64], b: &[f64]| (a[0] - b[0]).abs() > 1e-9;
+        fit(
+            &mut own,
+            [0.0, 1.0],
+            1e-9,
+            [&[0.3], &[0.7]],
+            &mut evaluate,
+            &differs,
+        )
+        .expect("the function has no errors");
+        assert_eq!((own.len(), count), (1, 8));
+    }
 }

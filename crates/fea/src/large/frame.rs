@@ -5,7 +5,7 @@ use num_dual::{DualNum, DualSVec64};
 use sprs::CsMat;
 
 use super::member::{EndForces, MovingMember};
-use super::turn::{Turn, Vec3, constant, cross, difference, sum};
+use super::turn::{Turn, Vec3, along, constant, cross, difference, sum};
 use crate::assembly::{BlockSums, Element, Matrix6, Real};
 use crate::factor::Factor;
 use crate::influence::FactoredFrame;
@@ -54,12 +54,6 @@ struct GroundSpring {
     /// Degree of freedom, 0 to 5.
     dof: usize,
     stiffness: f64,
-}
-
-/// First and second derivatives of the potential energy by the scaled unknowns.
-struct Slope {
-    gradient: Vec<f64>,
-    hessian: CsMat<f64>,
 }
 
 /// The path of equilibria ends: no stable equilibrium was found beyond this part of the loads.
@@ -159,8 +153,7 @@ impl<'a> MovingFrame<'a> {
 
     /// The equilibrium under `base` and `more`, from the one under `base` at `x`, as `more` grows from nothing to all of it.
     ///
-    /// Newton's method with the exact second derivatives for each load; where it does not find a minimum, the load grows by half
-    /// as much.
+    /// Where no equilibrium is found for a load, the load grows by half as much.
     pub fn follow(
         &self,
         mut x: Vec<f64>,
@@ -188,7 +181,7 @@ impl<'a> MovingFrame<'a> {
     /// derivatives at their end tell whether it is a minimum. Elsewhere Newton's method does.
     pub fn equilibrium(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
         let near = self.by_linear_stiffness(start, loads);
-        let is_stable = |x: &Vec<f64>| Factor::new(&self.slope(x, loads).hessian).is_ok();
+        let is_stable = |x: &Vec<f64>| Factor::new(&self.stiffness(x, loads)).is_ok();
         near.filter(is_stable)
             .or_else(|| self.by_newton(start, loads))
     }
@@ -196,18 +189,16 @@ impl<'a> MovingFrame<'a> {
     /// The equilibrium near `start` by steps with the stiffness of the linear frame, if their work falls quickly.
     fn by_linear_stiffness(&self, start: &[f64], loads: &DeadLoads) -> Option<Vec<f64>> {
         let mut x = start.to_vec();
-        let (mut before, least) = (f64::INFINITY, self.least_work(loads));
+        let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let gradient = self.gradient(&x, loads);
-            let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
-            self.frame.solver().solve(&mut change);
-            let work = -dot(&gradient, &change);
+            let solve = |change: &mut [f64]| self.frame.solver().solve(change);
+            let (change, work) = self.step(&x, loads, &solve);
             let is_small = self.largest_turn(&change) <= LARGEST_TURN;
             if !(work <= QUICK * before && is_small) {
                 return None;
             }
             add(&mut x, &change);
-            if work <= SETTLED * dot(&loads.by_unknown, &x).abs().max(least) {
+            if self.is_settled(work, &x, loads) {
                 return Some(x);
             }
             before = work;
@@ -220,13 +211,9 @@ impl<'a> MovingFrame<'a> {
         let mut x = start.to_vec();
         let mut before = f64::INFINITY;
         let (mut first, mut farther) = (0.0_f64, 0.0_f64);
-        let least = self.least_work(loads);
         for step in 0..MOST_STEPS {
-            let Slope { gradient, hessian } = self.slope(&x, loads);
-            let factor = Factor::new(&hessian).ok()?;
-            let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
-            factor.solve(&mut change);
-            let work = -dot(&gradient, &change);
+            let factor = Factor::new(&self.stiffness(&x, loads)).ok()?;
+            let (change, work) = self.step(&x, loads, &|change| factor.solve(change));
             if !work.is_finite() || self.largest_turn(&change) > LARGEST_TURN {
                 return None;
             }
@@ -240,7 +227,7 @@ impl<'a> MovingFrame<'a> {
                 }
             }
             add(&mut x, &change);
-            if work <= SETTLED * dot(&loads.by_unknown, &x).abs().max(least) {
+            if self.is_settled(work, &x, loads) {
                 return Some(x);
             }
             // Far from the answer a step may do more work than the one before it, but not for long.
@@ -252,10 +239,20 @@ impl<'a> MovingFrame<'a> {
         None
     }
 
-    /// Work that counts as none beside the loads.
-    fn least_work(&self, loads: &DeadLoads) -> f64 {
+    /// The step from `x` with a stiffness that `solve` divides by, and its work.
+    fn step(&self, x: &[f64], loads: &DeadLoads, solve: &dyn Fn(&mut [f64])) -> (Vec<f64>, f64) {
+        let gradient = self.gradient(x, loads);
+        let mut change: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        solve(&mut change);
+        let work = -dot(&gradient, &change);
+        (change, work)
+    }
+
+    /// Whether the work of the step to `x` is none beside that of the loads.
+    fn is_settled(&self, work: f64, x: &[f64], loads: &DeadLoads) -> bool {
         let forces = loads.on_arms.iter().map(|own| own.force.norm());
-        UNMOVED * self.size * forces.sum::<f64>()
+        let least = UNMOVED * self.size * forces.sum::<f64>();
+        work <= SETTLED * dot(&loads.by_unknown, x).abs().max(least)
     }
 
     /// The largest turn of a body in a step.
@@ -273,10 +270,10 @@ impl<'a> MovingFrame<'a> {
         })
     }
 
-    fn slope(&self, x: &[f64], loads: &DeadLoads) -> Slope {
+    /// Second derivatives of the potential energy by the scaled unknowns.
+    fn stiffness(&self, x: &[f64], loads: &DeadLoads) -> CsMat<f64> {
         let frame = self.frame;
         let motions = frame.body_motions(x);
-        let mut by_body = vec![SVector::<f64, 6>::zeros(); motions.len()];
         let mut sums = BlockSums::new(motions.len(), self.members.len());
         let basis = |body: usize| &frame.bodies.list[body].basis;
         let own = |sums: &mut BlockSums<f64>, body: usize, block: &Matrix6| {
@@ -284,30 +281,21 @@ impl<'a> MovingFrame<'a> {
         };
         for member in self.members.iter().flatten() {
             let [a, b] = member.bodies;
-            let energy = member.derivatives([&motions[a], &motions[b]]);
-            by_body[a] += energy.gradient[0];
-            by_body[b] += energy.gradient[1];
-            own(&mut sums, a, &energy.hessian[0]);
-            own(&mut sums, b, &energy.hessian[2]);
-            sums.add_coupling([a, b], basis(a).transpose() * energy.hessian[1] * basis(b));
+            let [of_a, between, of_b] = member.stiffness([&motions[a], &motions[b]]);
+            own(&mut sums, a, &of_a);
+            own(&mut sums, b, &of_b);
+            sums.add_coupling([a, b], basis(a).transpose() * between * basis(b));
         }
         for spring in &self.springs {
-            let (gradient, hessian) =
-                derivatives(&spring.gradient(variables(&motions[spring.body])));
-            by_body[spring.body] += gradient;
-            own(&mut sums, spring.body, &hessian);
+            let gradient = spring.gradient(variables(&motions[spring.body]));
+            own(&mut sums, spring.body, &derivatives(&gradient));
         }
         for force in loads.turning() {
-            let (gradient, hessian) =
-                derivatives(&arm_gradient(force, variables(&motions[force.body])));
-            by_body[force.body] += gradient;
-            own(&mut sums, force.body, &hessian);
+            let gradient = arm_gradient(force, variables(&motions[force.body]));
+            own(&mut sums, force.body, &derivatives(&gradient));
         }
         let numbering = &frame.stiffness().numbering;
-        Slope {
-            gradient: self.by_unknown(&by_body, loads),
-            hessian: sums.upper(&numbering.unknown, &numbering.scale),
-        }
+        sums.upper(&numbering.unknown, &numbering.scale)
     }
 
     /// First derivatives of the potential energy by the scaled unknowns.
@@ -326,11 +314,6 @@ impl<'a> MovingFrame<'a> {
         for force in loads.turning() {
             by_body[force.body] += SVector::from(arm_gradient(force, motions[force.body].into()));
         }
-        self.by_unknown(&by_body, loads)
-    }
-
-    /// Derivatives by the scaled unknowns, of those by the motions of bodies and of the work of the loads by unknown.
-    fn by_unknown(&self, by_body: &[SVector<f64, 6>], loads: &DeadLoads) -> Vec<f64> {
         let numbering = &self.frame.stiffness().numbering;
         let columns = numbering.column.iter().zip(&numbering.scale);
         columns
@@ -400,22 +383,13 @@ impl GroundSpring {
 /// Gradient, by the motion of its body, of what the loads by unknown leave of the work of a force on an arm: they hold u + t x r,
 /// and what remains is F . (R r - r - t x r).
 fn arm_gradient<D: DualNum<Primitive = f64> + Copy>(own: &ArmForce, motion: [D; 6]) -> [D; 6] {
-    let mut vector = [motion[3], motion[4], motion[5]];
-    let along = |v: Vec3<D>, axis: [f64; 3]| {
-        let about = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
-        axis.map(|component| about * component)
-    };
     let axis = own.rail.map(<[f64; 3]>::from);
-    if let Some(axis) = axis {
-        vector = along(vector, axis);
-    }
+    let about = |v: Vec3<D>| axis.map_or(v, |axis| axis.map(|own| along(v, axis) * own));
+    let vector = about([motion[3], motion[4], motion[5]]);
     let (arm, force) = (<[f64; 3]>::from(own.arm), constant(own.force.into()));
     let finite = Turn::new(vector).gradient(&[(force, arm)]);
-    let mut by_turn = difference(cross(constant(arm), force), finite);
-    if let Some(axis) = axis {
-        by_turn = along(by_turn, axis);
-    }
-    with_turn([D::zero(); 3], by_turn)
+    let by_turn = difference(cross(constant(arm), force), finite);
+    with_turn([D::zero(); 3], about(by_turn))
 }
 
 /// The motions of a body as variables.
@@ -429,11 +403,8 @@ fn with_turn<D>(by_displacement: Vec3<D>, by_turn: Vec3<D>) -> [D; 6] {
     [a, b, c, d, e, f]
 }
 
-/// The values of a gradient, and its derivatives.
-fn derivatives(gradient: &[Variable; 6]) -> (SVector<f64, 6>, Matrix6) {
+/// The derivatives of a gradient.
+fn derivatives(gradient: &[Variable; 6]) -> Matrix6 {
     let rows = gradient.map(|own| own.eps.unwrap_generic(Const::<6>, U1));
-    (
-        SVector::from_fn(|k, _| gradient[k].re),
-        Matrix6::from_fn(|i, j| rows[i][j]),
-    )
+    Matrix6::from_fn(|i, j| rows[i][j])
 }

@@ -85,11 +85,10 @@ fn normal<D: DualNum<Primitive = f64> + Copy>(v: Vec3<D>, axis: Vec3<D>) -> Vec3
     difference(v, scaled(axis, dot(axis, v)))
 }
 
-/// Derivatives of an energy by the motions of two bodies, three displacements and three rotations each.
-pub(super) struct PairEnergy {
-    pub gradient: [SVector<f64, 6>; 2],
-    /// Of the first body, between both, of the second.
-    pub hessian: [Matrix6; 3],
+/// u_b - u_a and the rotation vectors of both bodies in their motions.
+fn relative([a, b]: [&SVector<f64, 6>; 2]) -> (Vec3<f64>, [Vec3<f64>; 2]) {
+    let apart = std::array::from_fn(|k| b[k] - a[k]);
+    (apart, [a, b].map(|own| [own[3], own[4], own[5]]))
 }
 
 /// Internal forces at the ends of a member, in the axes that turn with it, as those of [`splines::ForceComponent`].
@@ -198,8 +197,7 @@ impl MovingMember {
 
     /// Gradient of the energy in motions of its bodies, for each of them.
     pub fn forces_on_bodies(&self, motions: [&SVector<f64, 6>; 2]) -> [SVector<f64, 6>; 2] {
-        let apart = std::array::from_fn(|k| motions[1][k] - motions[0][k]);
-        let turns = motions.map(|own| [own[3], own[4], own[5]]);
+        let (apart, turns) = relative(motions);
         let [by_apart, by_a, by_b] = self.gradient(apart, turns);
         let of = |sign: f64, by_turn: Vec3<f64>| {
             SVector::from_fn(|k, _| {
@@ -279,18 +277,24 @@ impl MovingMember {
         ]
     }
 
-    /// Derivatives of the energy in motions of its bodies.
-    pub fn derivatives(&self, motions: [&SVector<f64, 6>; 2]) -> PairEnergy {
-        let at = |k: usize| match k {
-            0..3 => motions[1][k] - motions[0][k],
-            3..6 => motions[0][k],
-            _ => motions[1][k - 3],
+    /// Gradient of the energy, with its derivatives, in motions of its bodies, as [`MovingMember::gradient`] has it.
+    fn differentiated(&self, motions: [&SVector<f64, 6>; 2]) -> [Vec3<DualSVec64<9>>; 3] {
+        let (apart, [of_a, of_b]) = relative(motions);
+        let variables = |values: Vec3<f64>, from: usize| {
+            std::array::from_fn(|k| DualSVec64::<9>::from_re(values[k]).derivative(from + k))
         };
-        let part = |from: usize| {
-            std::array::from_fn(|k| DualSVec64::<9>::from_re(at(from + k)).derivative(from + k))
-        };
-        let gradient = self.gradient(part(0), [part(3), part(6)]).concat();
-        let hessian: Vec<SVector<f64, 9>> = gradient
+        self.gradient(
+            variables(apart, 0),
+            [variables(of_a, 3), variables(of_b, 6)],
+        )
+    }
+
+    /// Second derivatives of the energy by the motions of its bodies, three displacements and three rotations each: of the first
+    /// body, between both, of the second.
+    pub fn stiffness(&self, motions: [&SVector<f64, 6>; 2]) -> [Matrix6; 3] {
+        let gradient = self.differentiated(motions);
+        let rows: Vec<SVector<f64, 9>> = gradient
+            .as_flattened()
             .iter()
             .map(|own| own.eps.unwrap_generic(Const::<9>, U1))
             .collect();
@@ -298,20 +302,15 @@ impl MovingMember {
         let place = |body: usize, k: usize| if k < 3 { k } else { 3 * body + k };
         let sign = |body: usize, k: usize| if k < 3 && body == 0 { -1.0 } else { 1.0 };
         let block = |a: usize, b: usize| {
-            Matrix6::from_fn(|i, j| sign(a, i) * sign(b, j) * hessian[place(a, i)][place(b, j)])
+            Matrix6::from_fn(|i, j| sign(a, i) * sign(b, j) * rows[place(a, i)][place(b, j)])
         };
-        PairEnergy {
-            gradient: [0, 1]
-                .map(|body| SVector::from_fn(|k, _| sign(body, k) * gradient[place(body, k)].re)),
-            hessian: [block(0, 0), block(0, 1), block(1, 1)],
-        }
+        [block(0, 0), block(0, 1), block(1, 1)]
     }
 
     /// Internal forces at both ends.
     pub fn end_forces(&self, motions: [&SVector<f64, 6>; 2]) -> EndForces {
-        let apart = std::array::from_fn(|k| motions[1][k] - motions[0][k]);
-        let turn = |end: usize| std::array::from_fn(|k| motions[end][3 + k]);
-        let own = self.deformed(apart, [turn(0), turn(1)]);
+        let (apart, turns) = relative(motions);
+        let own = self.deformed(apart, turns);
         let rotations = own.rotations();
         let (axial, by) = self.forces(own.elongation, &rotations);
         let moment = |end: usize, k: usize| if end == 0 { -by[k] } else { by[3 + k] };
@@ -384,8 +383,7 @@ mod tests {
             let (member, _) = on_arms(kind);
             let a = motion(Vector3::new(0.1, -0.2, 0.05), Vector3::new(0.4, 0.1, -0.3));
             let b = motion(Vector3::new(-0.1, 0.3, 0.2), Vector3::new(-0.2, 0.5, 0.1));
-            let PairEnergy { gradient, hessian } = member.derivatives([&a, &b]);
-            let [first, _, second] = hessian;
+            let [first, _, second] = member.stiffness([&a, &b]);
             let largest = first.amax();
             for own in [first, second] {
                 assert!(
@@ -393,6 +391,10 @@ mod tests {
                     "{kind:?}: {own}"
                 );
             }
+            let [by_apart, by_a, by_b] = member
+                .differentiated([&a, &b])
+                .map(|own| Vector3::from(own.map(|component| component.re)));
+            let gradient = [motion(-by_apart, by_a), motion(by_apart, by_b)];
             let plain = member.forces_on_bodies([&a, &b]);
             for (own, plain) in gradient.iter().zip(plain) {
                 assert!(

@@ -60,12 +60,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
         let mut out = [D::zero(); 3];
         for (g, v) in pairs {
             let turned = cross(constant(*v), *g);
-            let along = |own: [f64; 3]| t[0] * own[0] + t[1] * own[1] + t[2] * own[2];
-            let (v_t, g_t, g_v) = (
-                along(*v),
-                dot(*g, t),
-                g[0] * v[0] + g[1] * v[1] + g[2] * v[2],
-            );
+            let (v_t, g_t, g_v) = (along(t, *v), dot(*g, t), along(*g, *v));
             let by_square =
                 (by_a * dot(t, turned) + by_b * (g_t * v_t - square * g_v) - b * g_v) * 2.0;
             for k in 0..3 {
@@ -77,8 +72,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Turn<D> {
 
     /// R v - v.
     pub fn change(&self, v: [f64; 3]) -> Vec3<D> {
-        self.change
-            .map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+        self.change.map(|row| along(row, v))
     }
 }
 
@@ -104,6 +98,11 @@ fn series<D: DualNum<Primitive = f64> + Copy>(s: D, n: f64) -> [D; 2] {
 
 pub(super) fn constant<D: DualNum<Primitive = f64> + Copy>(v: [f64; 3]) -> Vec3<D> {
     v.map(D::from)
+}
+
+/// Product of `v` with a vector that is constant.
+pub(super) fn along<D: DualNum<Primitive = f64> + Copy>(v: Vec3<D>, constant: [f64; 3]) -> D {
+    v[0] * constant[0] + v[1] * constant[1] + v[2] * constant[2]
 }
 
 pub(super) fn dot<D: DualNum<Primitive = f64> + Copy>(a: Vec3<D>, b: Vec3<D>) -> D {
