@@ -17,6 +17,7 @@ mod schema;
 mod sections;
 mod slips;
 mod specs;
+mod steps;
 mod stops;
 mod stresses;
 mod tables;

@@ -22,6 +22,9 @@ const SLACK_BY_ERROR: f64 = 1e-4;
 /// step that ends beyond the break has passed all breaks within this distance, and all its stages are beyond them.
 const PASSED: f64 = 8.0;
 
+/// Least fraction of a step to which it is shortened for the corner of a law.
+const NEAREST: f64 = 0.1;
+
 /// Tolerance of the position of a touch, as a fraction of the step.
 const TOUCH_WIDTH: f64 = 1e-4;
 
@@ -266,17 +269,24 @@ fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
 /// The forces of contacts whose penetration is a state relax faster than the interpolant can follow. For these the
 /// fraction is found from the secant of the forces at both ends of the step; for all others it is the root on the
 /// interpolant. When repeated, both end within [`OVERSHOOT`] beyond the event. Where a contact opens and closes within a
-/// step, or closes and opens, the fraction is the first stage at which it should have been switched.
+/// step, or closes and opens, the fraction is the first stage at which it should have been switched. An element whose force is
+/// less than [`OVERSHOOT`] of the largest at both ends of the step switches without an event: wheels that touch their rails
+/// without force do so by rounding.
 ///
 /// # Errors
 /// Any error from evaluating the rails.
 pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64, f64)>, Error> {
-    let aim = 0.5 * OVERSHOOT * largest;
+    let slack = OVERSHOOT * largest;
+    let aim = 0.5 * slack;
     let mut first: Option<(f64, f64)> = None;
     let (mut has_looked, mut next) = (false, 0);
     while let Some((i, excess)) = step.solver.next_switch(next, &step.to) {
         next = i + 1;
         let noise = step.solver.geometry().local()[i].spring.noise;
+        let before = step.solver.switch_guard(i, &step.solver.frame(&step.from));
+        if excess <= slack && before.is_some_and(|before| before.abs() <= slack) {
+            continue;
+        }
         let fraction = if step.solver.remembers(i) {
             let start = step.from.force[i].max(0.0);
             ((start + aim) / (start + excess)).min(1.0)
@@ -291,7 +301,7 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
     if has_looked {
         step.return_to_end()?;
     }
-    let passed = step.passed_switch(OVERSHOOT * largest);
+    let passed = step.passed_switch(slack);
     Ok(passed
         .filter(|(share, _)| first.is_none_or(|(known, _)| *share < known))
         .or(first))
@@ -321,7 +331,8 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
 }
 
 /// Fraction of the step at which a contact law reaches or leaves a corner, if its guard passes zero by more than
-/// [`OVERSHOOT`] of the force `largest`. The fraction is found from the secant of the guard at both ends.
+/// [`OVERSHOOT`] of the force `largest`. The fraction is found from the secant of the guard at both ends, but is at least
+/// [`NEAREST`]: a guard may first move away from a corner beside which the step begins.
 pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
     if step.system().guarded(GuardKind::Corner).is_empty() {
         return None;
@@ -333,7 +344,8 @@ pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
         let passes = from * to < 0.0 && from.abs() > slack && to.abs() > slack;
         passes.then(|| (from.abs() + 0.5 * slack) / (from.abs() + to.abs()))
     });
-    fractions.min_by(f64::total_cmp)
+    let first = fractions.min_by(f64::total_cmp)?;
+    Some(first.max(NEAREST))
 }
 
 /// Root in (0, 1) of a function with opposite signs at the ends; the returned value lies on the side of 0.

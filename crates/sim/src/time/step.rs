@@ -70,6 +70,8 @@ pub(crate) struct Step<'a, 'b> {
     pub begins_smoothly: bool,
     /// Whether it ends neither at a break nor at an event.
     pub ends_smoothly: bool,
+    /// Whether a rail was displaced along itself at once in the step before it.
+    has_snapped: bool,
     /// Penetrations in the step just taken, known from its first sample on.
     penetrations: Penetrations,
 }
@@ -112,6 +114,7 @@ impl<'a, 'b> Step<'a, 'b> {
             shortest_delay: 0.0,
             begins_smoothly: false,
             ends_smoothly: false,
+            has_snapped: false,
             penetrations: Penetrations::default(),
             from: start.clone(),
             arrived: start.clone(),
@@ -152,7 +155,13 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Starts the next step at the end of this one.
     pub fn begin(&mut self) {
         self.penetrations.forget();
+        self.has_snapped = self.solver.snaps([&self.from, &self.to]);
         self.from.copy_from(&self.to);
+    }
+
+    /// Whether the rates at the start of the step are those of a motion that steps resolve.
+    fn starts_from_rates(&self) -> bool {
+        self.begins_smoothly && !self.has_snapped
     }
 
     /// Takes a step of length `h` with the active elements, which ends at `limit` at the latest; returns false if it
@@ -161,6 +170,7 @@ impl<'a, 'b> Step<'a, 'b> {
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn attempt(&mut self, h: f64, limit: f64, stages: &mut usize) -> Result<bool, Error> {
+        let how = (limit, self.starts_from_rates());
         let has_converged = match &mut self.integrator {
             Integrator::Collocation(collocation) => {
                 *stages += collocation.count();
@@ -169,7 +179,6 @@ impl<'a, 'b> Step<'a, 'b> {
                 done
             }
             Integrator::Sdirk(sdirk) => {
-                let how = (limit, self.begins_smoothly);
                 let done =
                     sdirk.attempt(self.solver, &self.from, h, how, (&mut self.to, stages))?;
                 self.geometry_time = sdirk.time();
@@ -188,7 +197,7 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Length of the step, relative to one that begins smoothly with the same error, and the power of the length with which its
     /// estimated error decreases.
     pub fn lengths(&self) -> [f64; 2] {
-        self.lengths_of(self.begins_smoothly)
+        self.lengths_of(self.starts_from_rates())
     }
 
     /// The same of a step that `begins_smoothly`, or after a break or an event.

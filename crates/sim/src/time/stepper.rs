@@ -778,8 +778,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
     }
 }
 
-/// Shortest period 2 pi sqrt(m/k) of the wheels that press at `at`, with m g the force of a wheel and k the slope of its law;
-/// infinite if none presses.
+/// Shortest period 2 pi sqrt(m/k) of the wheels that press at `at` by more than rounding, with m g the force of a wheel and k the
+/// slope of its law; infinite if none presses.
 fn period(solver: &Solver, at: &State) -> f64 {
     let system = solver.system();
     let weight = |i: usize| at.force[i] / system.scene.gravity.max(f64::MIN_POSITIVE);
@@ -787,8 +787,12 @@ fn period(solver: &Solver, at: &State) -> f64 {
         let [_, stiffness, _] = solver.law_of(i, at.p[i], 0.0);
         (weight(i).max(0.0) / stiffness).sqrt()
     };
-    let pressed = (0..system.verticals())
-        .filter(|&i| at.force[i] > 0.0)
-        .map(period);
+    let verticals = 0..system.verticals();
+    let rounding = OVERSHOOT
+        * at.force[verticals.clone()]
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
+    let pressed = verticals.filter(|&i| at.force[i] > rounding).map(period);
     TAU * pressed.fold(f64::INFINITY, f64::min)
 }

@@ -1,5 +1,6 @@
 //! Errors of the forces of wheels, relative to the size of the force of each wheel.
 
+use super::events::OVERSHOOT;
 use crate::Channel;
 use crate::contact::system::System;
 
@@ -22,8 +23,8 @@ pub(crate) struct WheelForces {
 }
 
 impl WheelForces {
-    /// Begins with the forces of the elements at the start. A wheel without force there begins with an equal share of
-    /// the total weight.
+    /// Begins with the forces of the elements at the start. A wheel without force there, but for rounding, begins with an equal
+    /// share of the total weight.
     pub fn new(system: &System, force: &[f64]) -> Self {
         let mut shares = Vec::new();
         for (element, own) in system.elements.iter().enumerate() {
@@ -55,10 +56,11 @@ impl WheelForces {
             sums: vec![[0.0; 3]; count],
         };
         forces.grow(force);
+        let rounding = OVERSHOOT * forces.size.iter().copied().fold(0.0, f64::max);
         forces
             .size
             .iter_mut()
-            .filter(|size| **size == 0.0)
+            .filter(|size| **size <= rounding)
             .for_each(|size| *size = weight / count as f64);
         forces
     }

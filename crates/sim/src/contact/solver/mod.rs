@@ -24,6 +24,14 @@ use crate::{Action, Error};
 /// Compliance of a rail, relative to that of the wheel, below which the rail is treated as rigid.
 pub(crate) const RIGID: f64 = 1e-9;
 
+/// Ratio of what a longitudinal displacement of a rail would move in a step at the rate of its end to what it moves, from which on
+/// this rate is that of no motion. In a motion that steps resolve the ratio is near 1; behind a jump it is 9 with SDIRK4 and 53 with
+/// ESDIRK5.
+const SNAP: f64 = 4.0;
+
+/// Part of a longitudinal displacement of a rail that is no motion.
+const AT_REST: f64 = 1e-6;
+
 /// Maximum number of iterations on the positions and heights of the wheels in one solution.
 const PASSES: usize = 30;
 
@@ -327,6 +335,16 @@ impl<'a> Solver<'a> {
             .iter()
             .enumerate()
             .map(move |(k, &i)| (i, first + k))
+    }
+
+    /// Whether the longitudinal displacement of a rail below a wheel has jumped in the step between two states. Its rate at the end
+    /// of the step is then that of no motion: under a wheel that slides, steps that begin with it move a rail without mass to and fro
+    /// between the ends of the friction.
+    pub fn snaps(&self, [from, to]: [&State; 2]) -> bool {
+        self.sliding().any(|(_, slot)| {
+            let by_rate = to.p_rate[slot].abs() * (to.t - from.t);
+            by_rate > SNAP * (to.p[slot] - from.p[slot]).abs() + AT_REST * to.p[slot].abs()
+        })
     }
 
     /// Solves for the forces, penetrations and accelerations at (t, q, v) with the present active set.
