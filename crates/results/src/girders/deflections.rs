@@ -242,7 +242,7 @@ impl UnitDeflections {
         let [dofs, _] = pieces.changes_of_motion(index);
         for ((q, bounds), (own, slope)) in dofs.iter().zip(&stay.dofs).zip(&self.dofs) {
             let each = out.places.iter_mut().zip(own);
-            each.for_each(|(sum, own)| *sum += q.size() * own.abs());
+            each.for_each(|(sum, own)| *sum += q * own.abs());
             out.slope += bounds.size() * slope;
         }
         out

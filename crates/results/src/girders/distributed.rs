@@ -170,16 +170,28 @@ impl DistributedForces {
                 out[*k] = if number == 0 { sum } else { out[*k].with(sum) };
             }
         }
-        // between two nodes a moment exceeds both by no more than its shear over half of their distance
-        let step = nodes
-            .places
-            .windows(2)
-            .map(|pair| pair[1] - pair[0])
-            .fold(0.0, f64::max);
         for (moment, shear) in SLOPES {
-            let more = 0.5 * step * out[shear as usize].size();
+            let more = nodes.rise() * out[shear as usize].size();
             out[moment as usize].low -= more;
             out[moment as usize].high += more;
+        }
+        out
+    }
+
+    /// Largest magnitudes of the quantities of a member under accelerations up to these.
+    pub fn inertia_size(&self, member: usize, accelerations: &[f64]) -> Quantities {
+        let nodes = &self.members[member];
+        let mut out = [0.0; FORCES];
+        for node in nodes.inertia.iter().filter(|_| !accelerations.is_empty()) {
+            let each = node.chunks_exact(accelerations.len());
+            for (k, per) in nodes.moved.iter().zip(each) {
+                let terms = per.iter().zip(accelerations);
+                let sum: f64 = terms.map(|(per, a)| per.abs() * a).sum();
+                out[*k] = sum.max(out[*k]);
+            }
+        }
+        for (moment, shear) in SLOPES {
+            out[moment as usize] += nodes.rise() * out[shear as usize];
         }
         out
     }
@@ -205,6 +217,12 @@ impl DistributedForces {
 }
 
 impl MemberNodes {
+    /// Half of the largest distance of two nodes: between them a moment exceeds both by no more than its shear over this length.
+    fn rise(&self) -> f64 {
+        let distances = self.places.windows(2).map(|pair| pair[1] - pair[0]);
+        0.5 * distances.fold(0.0, f64::max)
+    }
+
     /// Interpolates between the values at two nodes.
     fn between(&self, place: f64, value: impl Fn(usize) -> Quantities) -> Quantities {
         if self.places.is_empty() {

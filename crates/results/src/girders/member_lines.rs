@@ -72,11 +72,8 @@ impl<'a> MemberLines<'a> {
     pub fn changes(&self, pieces: &LoadPieces<'_>, index: usize) -> Quantities {
         let stay = &pieces.stays[pieces.pieces[index].stay];
         let [_, accelerations] = pieces.changes_of_motion(index);
-        let inertia = self
-            .girders
-            .distributed
-            .inertia_bounds(self.member, &accelerations);
-        let mut out = inertia.map(|bounds| bounds.size());
+        let distributed = self.girders.distributed;
+        let mut out = distributed.inertia_size(self.member, accelerations);
         for (change, (cell, _)) in pieces.changes(index).iter().zip(&stay.loads) {
             let own = &self.cells[*cell];
             for k in (0..3).filter(|k| change.size(*k) > 0.0) {

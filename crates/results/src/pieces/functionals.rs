@@ -108,8 +108,8 @@ impl<'a> Functionals<'a> {
         let [_, accelerations] = self.pieces.changes_of_motion(index);
         let loads = self.pieces.changes(index);
         let of = |r: &usize| {
-            let inertia = self.all[*r].inertia.iter().zip(&accelerations);
-            let mut sum: f64 = inertia.map(|(per, a)| per.abs() * a.size()).sum();
+            let inertia = self.all[*r].inertia.iter().zip(accelerations);
+            let mut sum: f64 = inertia.map(|(per, a)| per.abs() * a).sum();
             for (change, (cell, _)) in loads.iter().zip(&stay.loads) {
                 let lines = &self.cells[*cell];
                 for k in (0..3).filter(|k| change.size(*k) > 0.0) {

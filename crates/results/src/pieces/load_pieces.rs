@@ -128,6 +128,8 @@ pub(crate) struct LoadPieces<'a> {
     cut: Vec<f64>,
     /// The changes of all loads in all pieces.
     changes: Vec<Change>,
+    /// Those of the displacements and of the accelerations in all pieces.
+    motion_changes: Vec<f64>,
     pub pieces: Vec<Piece>,
     pub stays: Vec<Stay>,
 }
@@ -154,6 +156,7 @@ impl<'a> LoadPieces<'a> {
             visited: Vec::new(),
             cut: Vec::new(),
             changes: Vec::new(),
+            motion_changes: Vec::new(),
             pieces: Vec::new(),
             stays: Vec::new(),
         };
@@ -163,6 +166,8 @@ impl<'a> LoadPieces<'a> {
         }
         let of_piece = |piece: &Piece| out.changes_in(piece);
         out.changes = out.pieces.iter().flat_map(of_piece).collect();
+        let of_motion = |piece: &Piece| out.motion_changes_in(piece);
+        out.motion_changes = out.pieces.iter().flat_map(of_motion).collect();
         for stay in 0..out.stays.len() {
             out.bound(stay);
         }
@@ -299,16 +304,22 @@ impl<'a> LoadPieces<'a> {
         &self.changes[piece * count..(piece + 1) * count]
     }
 
-    /// Bounds of the differences of displacements and of accelerations from those at the middle node of a piece.
-    pub fn changes_of_motion(&self, piece: usize) -> [Vec<Bounds>; 2] {
-        let piece = &self.pieces[piece];
+    /// The changes of displacements, and behind them of accelerations, in a piece.
+    fn motion_changes_in(&self, piece: &Piece) -> Vec<f64> {
         let middle = self.row(piece, piece.degree / 2);
-        self.motion.clone().map(|range| {
-            let of = |c: usize| {
-                Bounds::through((0..=piece.degree).map(|k| self.row(piece, k)[c] - middle[c]))
-            };
-            range.map(of).collect()
-        })
+        let of = |c: usize| {
+            let rows = (0..=piece.degree).map(|k| self.row(piece, k)[c] - middle[c]);
+            Bounds::through(rows).size()
+        };
+        self.motion.iter().cloned().flatten().map(of).collect()
+    }
+
+    /// Largest differences of displacements and of accelerations from those at the middle node of a piece.
+    pub fn changes_of_motion(&self, piece: usize) -> [&[f64]; 2] {
+        let [displaced, accelerated] = self.motion.each_ref().map(ExactSizeIterator::len);
+        let count = displaced + accelerated;
+        let own = &self.motion_changes[piece * count..(piece + 1) * count];
+        own.split_at(displaced).into()
     }
 
     /// The state at the middle node of a piece.
