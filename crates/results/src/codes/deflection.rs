@@ -20,7 +20,7 @@ use splines::{Axis, Compliance, Probe};
 
 use super::crane::{CraneData, to_si};
 use crate::response::{
-    LargestInTime, TimeSearch, WheelLoad, WheelLoadReader, crest, distance, grid, largest_along,
+    LargestInTime, TimeSearch, WheelLoad, WheelLoadReader, crest, grid, largest_along,
 };
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, root_body};
@@ -335,7 +335,7 @@ impl Span {
                 self.sags(surface, rail.rail, &on, x)
             })
         };
-        let found = run.run.largest(&near, distance(self.ends), &mut exact);
+        let found = run.run.largest(&near, &mut exact);
         if !(is_loaded && is_resisted) {
             return None;
         }

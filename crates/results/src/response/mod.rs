@@ -24,7 +24,7 @@ pub(crate) use loaded::{PlaceMotions, displacements};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift};
 
-pub(crate) use over_time::{LargestInTime, TimeSearch, crest, distance, grid, largest_along};
+pub(crate) use over_time::{LargestInTime, TimeSearch, crest, grid, largest_along};
 
 use loaded::LoadedStructure;
 use serde_json::{Map, Value, json};

@@ -4,13 +4,10 @@
 //! is computed at all nodes of the solution; in each interval the polynomial through these values bounds it. The intervals are then
 //! taken in the order of their bounds. In each of them the quantity itself is evaluated at the nodes of its degree, at least 8, and
 //! where the polynomial through these is largest. An interval whose bound, raised by a little and by as much as the quantity
-//! exceeded the cheap value in those before it, does not exceed the largest value is left out, and so are all after it. While the
-//! wheels move by little, the ratio of the quantity to the cheap value hardly changes: then it is known from a few values.
-
-use std::collections::HashMap;
+//! exceeded the cheap value in those before it, does not exceed the largest value is left out, and so are all after it.
 
 use piecewise::Lobatto;
-use sim::{Channel, History, NodeInterval, Side, Solution, SolutionNodes};
+use sim::{NodeInterval, Side, Solution, SolutionNodes};
 use smallvec::SmallVec;
 
 /// Least degree of the polynomials in an interval that is looked into, and that of polynomials along a span.
@@ -22,8 +19,7 @@ const PARTS: usize = 16;
 /// Part of the largest value that an interval has at an end or in its middle which is looked into.
 const PROMISING: f64 = 0.7;
 
-/// Part of a bound by which the quantity may exceed it beyond what it has exceeded others, while the wheels move from one of the
-/// places of the cheap values to the next.
+/// Part of a bound by which the quantity may exceed it beyond what it has exceeded others: cheap values are those of a few places.
 const BEYOND: f64 = 0.015;
 
 /// Part of the accuracy of a scene by which values count as equal.
@@ -85,12 +81,10 @@ impl TimeSearch<'_> {
     }
 
     /// The largest value of `exact`, which returns the value for a row of the solution and its place. `near` are values near to it at
-    /// those rows of the nodes that count, by increasing rows, from places at this `distance` from each other. `None` where the
-    /// largest value is not positive.
+    /// those rows of the nodes that count, by increasing rows. `None` where the largest value is not positive.
     pub fn largest(
         &self,
         near: &[(usize, f64)],
-        distance: f64,
         exact: &mut dyn FnMut(&[f64]) -> Option<[f64; 2]>,
     ) -> Option<LargestInTime> {
         let rows = &self.nodes.rows;
@@ -128,125 +122,42 @@ impl TimeSearch<'_> {
             }
         }
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut excess = Excess::new((rows, near), distance, exact);
-        let mut largest = 0.0_f64;
+        let (mut gain, mut largest) = (0.0_f64, 0.0_f64);
         let mut row = Vec::new();
         for (bound, interval) in order {
-            let most = largest * (1.0 + EQUAL * self.accuracy);
-            if bound * (excess.largest + BEYOND) <= most {
+            if bound * (1.0 + gain + BEYOND) <= largest * (1.0 + EQUAL * self.accuracy) {
                 break;
-            }
-            if bound * excess.within(interval)? <= most {
-                continue;
             }
             let ends = [interval.first, interval.first + interval.degree];
             let [from, to] = ends.map(|at| rows.sample(at)[0]);
-            let mut at = |share: f64| -> Option<(f64, [f64; 2])> {
+            let mut at = |share: f64, row: &mut Vec<f64>| -> Option<(f64, [f64; 2])> {
                 let t = from + share * (to - from);
                 // the values at the ends are those of this interval
                 match share {
-                    0.0 => Some((from, excess.at_row(ends[0])?)),
-                    1.0 => Some((to, excess.at_row(ends[1])?)),
+                    0.0 => Some((from, exact(rows.sample(ends[0]))?)),
+                    1.0 => Some((to, exact(rows.sample(ends[1]))?)),
                     _ => {
                         row.clear();
-                        self.solution.row(t, Side::Before, &mut row);
-                        Some((t, (excess.exact)(&row)?))
+                        self.solution.row(t, Side::Before, row);
+                        Some((t, exact(row)?))
                     }
                 }
             };
             let nodes = Lobatto::of(interval.degree.max(DEGREE));
             let mut found: SmallVec<[f64; 17]> = SmallVec::new();
             for node in nodes.nodes() {
-                let (t, value) = at(*node)?;
+                let (t, value) = at(*node, &mut row)?;
                 found.push(value[0]);
-                offer(t, value);
+                largest = offer(t, value);
             }
             let most = nodes.polynomial(&found).largest();
-            let (t, value) = at(most.share)?;
-            largest = offer(t, value);
+            let (t, value) = at(most.share, &mut row)?;
+            offer(t, value);
+            largest = largest.max(value[0]);
             let own = found.iter().copied().fold(value[0], f64::max);
-            excess.largest = excess.largest.max(own / bound);
+            gain = gain.max(own / bound - 1.0);
         }
         best
-    }
-}
-
-/// By how much a quantity exceeds the cheap value for it: their ratio.
-struct Excess<'a> {
-    rows: &'a History,
-    /// Cheap values by rows, and the distance between their places.
-    near: &'a [(usize, f64)],
-    distance: f64,
-    /// Channels of the positions of wheels.
-    positions: Vec<usize>,
-    exact: &'a mut dyn FnMut(&[f64]) -> Option<[f64; 2]>,
-    /// Exact values with their places by rows, as far as they are known.
-    known: HashMap<usize, [f64; 2]>,
-    /// Largest ratio found so far, at least 1.
-    largest: f64,
-}
-
-impl<'a> Excess<'a> {
-    fn new(
-        (rows, near): (&'a History, &'a [(usize, f64)]),
-        distance: f64,
-        exact: &'a mut dyn FnMut(&[f64]) -> Option<[f64; 2]>,
-    ) -> Excess<'a> {
-        let channels = rows.channels().iter().enumerate();
-        let positions = channels.filter(|(_, own)| matches!(own, Channel::Position(_)));
-        Excess {
-            rows,
-            near,
-            distance,
-            positions: positions.map(|(at, _)| at).collect(),
-            exact,
-            known: HashMap::new(),
-            largest: 1.0,
-        }
-    }
-
-    /// The quantity at a row, with its place.
-    fn at_row(&mut self, row: usize) -> Option<[f64; 2]> {
-        if let Some(known) = self.known.get(&row) {
-            return Some(*known);
-        }
-        let found = (self.exact)(self.rows.sample(row))?;
-        self.known.insert(row, found);
-        Some(found)
-    }
-
-    /// The largest ratio in an interval. Where wheels move by much less than the distance between the places of the cheap values,
-    /// it is that at both ends and at the largest cheap value, and by as much more as these three differ.
-    fn within(&mut self, interval: NodeInterval) -> Option<f64> {
-        let (first, last) = (interval.first, interval.first + interval.degree);
-        let beyond = BEYOND * self.moved(first, last) / self.distance;
-        if beyond > 0.5 * BEYOND {
-            return Some(self.largest + BEYOND);
-        }
-        let near = self.near;
-        let from = near.partition_point(|(row, _)| *row < first);
-        let to = near.partition_point(|(row, _)| *row <= last);
-        let own = &near[from..to];
-        let largest = own.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (row, near) in [own.first(), largest, own.last()].into_iter().flatten() {
-            if *near <= 0.0 {
-                return Some(f64::INFINITY);
-            }
-            let ratio = self.at_row(*row)?[0] / near;
-            (low, high) = (low.min(ratio), high.max(ratio));
-        }
-        Some(high + (high - low) + beyond)
-    }
-
-    /// The largest distance by which a wheel moves between two rows.
-    fn moved(&self, first: usize, last: usize) -> f64 {
-        let [first, last] = [first, last].map(|row| self.rows.sample(row));
-        let each = self
-            .positions
-            .iter()
-            .map(|at| (last[*at] - first[*at]).abs());
-        each.fold(0.0, f64::max)
     }
 }
 
@@ -254,11 +165,6 @@ impl<'a> Excess<'a> {
 pub(crate) fn grid([from, to]: [f64; 2]) -> Vec<f64> {
     let share = |k: usize| k as f64 / PARTS as f64;
     (1..PARTS).map(|k| from + (to - from) * share(k)).collect()
-}
-
-/// The distance between the places of a [`grid`].
-pub(crate) fn distance([from, to]: [f64; 2]) -> f64 {
-    (to - from) / PARTS as f64
 }
 
 /// The largest of the values at places of a [`grid`], with 0 at both ends of the span, by the parabola through the largest and the

@@ -17,7 +17,7 @@ use trains::RailLoad;
 
 use super::SolvedStructures;
 use super::loaded::{LoadedStructure, PlaceMotions, displacements};
-use super::over_time::{LargestInTime, crest, distance, grid, largest_along};
+use super::over_time::{LargestInTime, crest, grid, largest_along};
 use formats::scene::Origin;
 use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
@@ -196,7 +196,7 @@ fn largest_deflection(
             Some(sags.collect())
         })
     };
-    let found = loaded.run.largest(&near, distance(none.span), &mut exact);
+    let found = loaded.run.largest(&near, &mut exact);
     Some(match found {
         Some(LargestInTime { value, x, time }) => Deflection {
             value,
@@ -316,8 +316,7 @@ pub(super) fn drifts(loaded: &LoadedStructure<'_>, solved: Option<&SolvedModel>)
             each.reduce(|a, b| if b[0] > a[0] { b } else { a })
         };
         let near = loaded.run.near(&mut |row| Some(moved(row)?[0]));
-        // the places are those of the columns: near values are exact
-        let largest = loaded.run.largest(&near, f64::INFINITY, &mut moved);
+        let largest = loaded.run.largest(&near, &mut moved);
         found.push(
             largest.map_or(none.clone(), |LargestInTime { value, x, time }| Drift {
                 value,
