@@ -269,24 +269,17 @@ fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
 /// The forces of contacts whose penetration is a state relax faster than the interpolant can follow. For these the
 /// fraction is found from the secant of the forces at both ends of the step; for all others it is the root on the
 /// interpolant. When repeated, both end within [`OVERSHOOT`] beyond the event. Where a contact opens and closes within a
-/// step, or closes and opens, the fraction is the first stage at which it should have been switched. An element whose force is
-/// less than [`OVERSHOOT`] of the largest at both ends of the step switches without an event: wheels that touch their rails
-/// without force do so by rounding.
+/// step, or closes and opens, the fraction is the first stage at which it should have been switched.
 ///
 /// # Errors
 /// Any error from evaluating the rails.
 pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64, f64)>, Error> {
-    let slack = OVERSHOOT * largest;
-    let aim = 0.5 * slack;
+    let aim = 0.5 * OVERSHOOT * largest;
     let mut first: Option<(f64, f64)> = None;
     let (mut has_looked, mut next) = (false, 0);
     while let Some((i, excess)) = step.solver.next_switch(next, &step.to) {
         next = i + 1;
         let noise = step.solver.geometry().local()[i].spring.noise;
-        let before = step.solver.switch_guard(i, &step.solver.frame(&step.from));
-        if excess <= slack && before.is_some_and(|before| before.abs() <= slack) {
-            continue;
-        }
         let fraction = if step.solver.remembers(i) {
             let start = step.from.force[i].max(0.0);
             ((start + aim) / (start + excess)).min(1.0)
@@ -301,7 +294,7 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
     if has_looked {
         step.return_to_end()?;
     }
-    let passed = step.passed_switch(slack);
+    let passed = step.passed_switch(OVERSHOOT * largest);
     Ok(passed
         .filter(|(share, _)| first.is_none_or(|(known, _)| *share < known))
         .or(first))
