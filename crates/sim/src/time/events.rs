@@ -33,6 +33,11 @@ const TOUCH_WIDTH: f64 = 1e-4;
 /// is far less than what the flange moves in the tolerance of the position.
 const TOUCH_SLACK: [f64; 2] = [1e-8, 1e-5];
 
+/// The largest of some forces that is rounding beside the others, by which nothing is scaled.
+pub(crate) fn rounding_among(forces: impl Iterator<Item = f64>) -> f64 {
+    OVERSHOOT * forces.fold(0.0, f64::max)
+}
+
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
     if is_fixed {

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use super::books::Books;
 use super::events::{
     OVERSHOOT, at_break, break_slack, can_predict, first_corner, first_switch, first_touch, guards,
-    prescribed_break, rolling_break,
+    prescribed_break, rolling_break, rounding_among,
 };
 use super::modal_loads::ModalLoads;
 use super::outcome::{Counts, FirstImpact, StruckBy};
@@ -788,11 +788,7 @@ fn period(solver: &Solver, at: &State) -> f64 {
         (weight(i).max(0.0) / stiffness).sqrt()
     };
     let verticals = 0..system.verticals();
-    let rounding = OVERSHOOT
-        * at.force[verticals.clone()]
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
+    let rounding = rounding_among(at.force[verticals.clone()].iter().copied());
     let pressed = verticals.filter(|&i| at.force[i] > rounding).map(period);
     TAU * pressed.fold(f64::INFINITY, f64::min)
 }

@@ -1,6 +1,6 @@
 //! Errors of the forces of wheels, relative to the size of the force of each wheel.
 
-use super::events::OVERSHOOT;
+use super::events::rounding_among;
 use crate::Channel;
 use crate::contact::system::System;
 
@@ -56,7 +56,7 @@ impl WheelForces {
             sums: vec![[0.0; 3]; count],
         };
         forces.grow(force);
-        let rounding = OVERSHOOT * forces.size.iter().copied().fold(0.0, f64::max);
+        let rounding = rounding_among(forces.size.iter().copied());
         forces
             .size
             .iter_mut()
