@@ -176,6 +176,7 @@ mod tests {
         }
         assert!(count < 400, "{count} evaluations");
     }
+
     /// A corner between estimates is not sought: one interval with the values at nine nodes and a test.
     #[test]
     fn estimates_are_not_refined() {
